@@ -1,0 +1,24 @@
+"""Fixtures that every test may use."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope="session")
+def repository() -> Path:
+    """The root of the checkout."""
+    return REPOSITORY
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """Reference material that lies beside the checkout; tests skip where it is absent."""
+    folder = REPOSITORY.parent / "shared"
+    if not (folder / "references").is_dir():
+        pytest.skip("the reference material ../shared is not beside this checkout")
+    return folder

@@ -1,0 +1,15 @@
+"""The one exception that a user's mistake raises, and how a command ends on it."""
+
+from __future__ import annotations
+
+
+class InputError(ValueError):
+    """A file, value or name given by the user that the study cannot work with.
+
+    The message is one line that names the file, the place in it, the value and
+    what was expected. Commands print it and exit with status 1; no traceback.
+    """
+
+    def __init__(self, problem: str, *, file=None, place: str | None = None):
+        where = ": ".join(str(part) for part in (file, place) if part is not None)
+        super().__init__(f"{where}: {problem}" if where else problem)
