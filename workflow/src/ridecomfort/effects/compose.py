@@ -1,0 +1,136 @@
+"""From a set of effects to a compiled kernel, kept on disk between jobs.
+
+Effects are joined into a small module of ports, and the kernel is compiled against it in
+place of ``neutral``. Both are written to a folder named after their content, so that a
+changed effect is compiled anew and everything else is found again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numba
+
+from .contract import COMPILED, PORTS, Effect
+from .library import Entry
+
+PACKAGE = Path(__file__).parent.parent
+SOURCES = ("vehicle/kernel.py", "vehicle/ground.py", "vehicle/driver.py", "vehicle/motion.py",
+           "vehicle/constants.py", "road/surface.py", "effects/neutral.py", "vocabulary.py")  # fmt: skip
+"""What the compiled kernel is made of; a change in any of them compiles anew."""
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A compiled kernel, and how many states its effects have."""
+
+    drive: Callable
+    state_count: int
+
+
+def cache_folder() -> Path:
+    """Where compiled kernels are kept: $RIDECOMFORT_CACHE, or the user's cache folder."""
+    named = os.environ.get("RIDECOMFORT_CACHE")
+    if named:
+        return Path(named).absolute()
+    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "ridecomfort"
+
+
+def compose(entries: Sequence[Entry]) -> Kernel:
+    """The kernel with these effects at its ports; those that are not compiled are left out.
+
+    Parameters are handed to it in the order of ``entries``, each effect's in its own order.
+    """
+    return _compose(tuple(entry for entry in entries if entry.effect.port in COMPILED))
+
+
+@lru_cache(maxsize=64)
+def _compose(entries: tuple[Entry, ...]) -> Kernel:
+    ports, states = ports_source([entry.effect for entry in entries])
+    digest = hashlib.sha256(numba.__version__.encode() + sys.version.encode() + ports.encode())
+    for path in [PACKAGE / name for name in SOURCES] + [entry.path for entry in entries]:
+        digest.update(path.read_bytes())
+    folder = cache_folder() / f"kernel_{digest.hexdigest()[:16]}"
+    if not folder.is_dir():
+        _write(folder, ports, entries)
+    return Kernel(_load(folder).drive, states)
+
+
+def _write(folder: Path, ports: str, entries: Sequence[Entry]) -> None:
+    """All files of a kernel at once: a second job that comes at the same time finds all or nothing."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    part = Path(tempfile.mkdtemp(dir=folder.parent))
+    for entry in entries:
+        shutil.copyfile(entry.path, part / f"{folder.name}_{entry.effect.name}.py")
+    (part / f"{folder.name}_ports.py").write_text(ports.replace("{kernel}", folder.name), encoding="utf-8")
+    kernel = (PACKAGE / "vehicle" / "kernel.py").read_text(encoding="utf-8")
+    kernel = kernel.replace("from ridecomfort.effects.neutral import", f"from {folder.name}_ports import")
+    (part / f"{folder.name}.py").write_text(kernel, encoding="utf-8")
+    try:
+        part.rename(folder)
+    except OSError:
+        shutil.rmtree(part)
+        if not folder.is_dir():
+            raise
+
+
+def _load(folder: Path):
+    """The kernel's module; its neighbours are imported by the names that it knows them by."""
+    sys.path.insert(0, str(folder))
+    try:
+        return importlib.import_module(folder.name)
+    finally:
+        sys.path.remove(str(folder))
+
+
+def ports_source(effects: Sequence[Effect]) -> tuple[str, int]:
+    """Text of a module of ports that calls these effects, and their number of states.
+
+    ``{kernel}`` in the text stands for the name of the folder that it will lie in.
+    """
+    lines = ['"""Ports of the vehicle with these effects connected: ' + (", ".join(e.name for e in effects) or "none")]
+    lines += ['"""', "", "from numba import njit", ""]
+    for effect in effects:
+        lines.append(f"from {{kernel}}_{effect.name} import act as {effect.name}")
+    lines += ["", 'PHYSICS = {"error_model": "numpy", "_nrt": False}', ""]
+    lines += [f'{effect.name} = njit(inline="always", **PHYSICS)({effect.name})' for effect in effects]
+    first_parameter, first_state, places = 0, 0, []
+    for effect in effects:
+        places.append((effect, first_parameter, first_state))
+        first_parameter += len(effect.parameters)
+        first_state += len(effect.states) * (4 if PORTS[effect.port].per_wheel else 1)
+    for name in COMPILED:
+        lines += ["", ""] + _port_source(name, [place for place in places if place[0].port == name])
+    return "\n".join(lines) + "\n", first_state
+
+
+def _port_source(name: str, places) -> list[str]:
+    port = PORTS[name]
+    signature = ", ".join((*port.sees, "parameters", "states", "slopes"))
+    lines = ['@njit(inline="always", **PHYSICS)', f"def {name}_port({signature}):"]
+    if port.joined == "sum":
+        lines += [f"    {result} = 0.0" for result in port.returns]
+    for effect, parameter, state in places:
+        count = len(effect.states)
+        offset = f"{state} + {count} * wheel" if port.per_wheel else f"{state}"
+        arguments = list(port.sees)
+        arguments += [f"states[{offset} + {k}]" for k in range(count)]
+        arguments += [f"parameters[{parameter + k}]" for k in range(len(effect.parameters))]
+        results = [f"new_{result}" for result in port.returns]
+        targets = ", ".join(results + [f"slopes[{offset} + {k}]" for k in range(count)])
+        lines.append(f"    {targets} = {effect.name}({', '.join(arguments)})")
+        sign = "+=" if port.joined == "sum" else "="
+        lines += [f"    {result} {sign} new_{result}" for result in port.returns]
+    lines.append(f"    return {', '.join(port.returns)}")
+    return lines
+
+

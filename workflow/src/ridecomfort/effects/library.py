@@ -1,0 +1,86 @@
+"""The effects there are: those of this folder and those of a user's own."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import InputError
+from .contract import PORTS, Effect
+
+FOLDER = Path(__file__).parent
+HOUSE = {"__init__", "compose", "contract", "library", "neutral", "shape"}
+"""Files of this folder that are not effects."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An effect with the file it comes from and its function."""
+
+    effect: Effect
+    act: Callable
+    path: Path
+
+
+def find(folder=None) -> dict[str, Entry]:
+    """Every effect by name: the library's own and, with ``folder``, those of a user's folder.
+
+    Raises InputError for a file that is not an effect, for a name that does not match its
+    file and for a user's effect that takes the name of one of the library.
+    """
+    entries = _scan(path for path in sorted(FOLDER.glob("*.py")) if path.stem not in HOUSE)
+    if folder is not None:
+        folder = Path(folder)
+        if not folder.is_dir():
+            raise InputError("no such folder", file=folder, place="effects_folder")
+        own = _scan(sorted(path for path in folder.glob("*.py") if not path.stem.startswith("_")))
+        for name in own.keys() & entries.keys():
+            raise InputError(f"effect {name!r} is already in the library", file=own[name].path)
+        entries.update(own)
+    return entries
+
+
+def choose(effects: Iterable[str] | Mapping[str, Mapping[str, float]], folder=None):
+    """The named effects with the sizes to use: list of (Entry, {parameter: value}), by name.
+
+    ``effects``: names (typical sizes) or a mapping of name to sizes. Raises InputError for a
+    name or a parameter that does not exist, saying which there are.
+    """
+    sizes = effects if isinstance(effects, Mapping) else {name: None for name in effects}
+    if not sizes:
+        return []
+    entries = find(folder)
+    chosen = []
+    for name in sorted(sizes):
+        if name not in entries:
+            raise InputError(f"unknown effect {name!r}; known are {', '.join(sorted(entries))}")
+        effect = entries[name].effect
+        known = [parameter.name for parameter in effect.parameters]
+        for parameter in sizes[name] or {}:
+            if parameter not in known:
+                raise InputError(f"effect {name!r} has no parameter {parameter!r}; it has {', '.join(known)}")
+        chosen.append((entries[name], effect.values(sizes[name])))
+    return chosen
+
+
+def _scan(paths: Iterable[Path]) -> dict[str, Entry]:
+    return {path.stem: _load(path) for path in paths}
+
+
+def _load(path: Path) -> Entry:
+    spec = importlib.util.spec_from_file_location(f"ridecomfort_effect_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as problem:
+        raise InputError(f"cannot be loaded: {type(problem).__name__}: {problem}", file=path) from None
+    effect, act = getattr(module, "effect", None), getattr(module, "act", None)
+    if not isinstance(effect, Effect) or not callable(act):
+        raise InputError("expected `effect = Effect(...)` and a function `act`", file=path)
+    if effect.name != path.stem:
+        raise InputError(f"holds effect {effect.name!r}, expected the name of the file", file=path)
+    if effect.port not in PORTS:
+        raise InputError(f"unknown port {effect.port!r}; known are {', '.join(PORTS)}", file=path)
+    return Entry(effect, act, path)

@@ -1,0 +1,54 @@
+"""The ports of the kernel with nothing connected: each hands back what it was given.
+
+The kernel imports its ports from a module of this form. For a set of effects
+``effects.compose`` writes one that calls them; this one is its empty case.
+
+``parameters`` are the effects' values in the order of the set, ``states`` their
+states and ``slopes`` where their time slopes are put.
+"""
+
+from __future__ import annotations
+
+from numba import njit
+
+
+@njit(inline="always", error_model="numpy", _nrt=False)
+def road_port(wheel, u, v, height, surface, elevation, parameters, states, slopes):
+    """Height in m that the tyre feels."""
+    return height
+
+
+@njit(inline="always", error_model="numpy", _nrt=False)
+def suspension_port(wheel, deflection, velocity, force_x, force_y, parameters, states, slopes):
+    """Extra force in N between body and wheel, positive pushing them apart."""
+    return 0.0
+
+
+@njit(inline="always", error_model="numpy", _nrt=False)
+def tyre_vertical_port(wheel, deflection, velocity, rotation, parameters, states, slopes):
+    """Extra radial force in N of the tyre, positive pushing the wheel up."""
+    return 0.0
+
+
+@njit(inline="always", error_model="numpy", _nrt=False)
+def tyre_planar_port(wheel, slip_x, slip_y, load, speed, parameters, states, slopes):
+    """Longitudinal slip and tangent of the slip angle that the tyre's force answers to."""
+    return slip_x, slip_y
+
+
+@njit(inline="always", error_model="numpy", _nrt=False)
+def body_port(motion, parameters, states, slopes):
+    """Extra force (N) and moment (N m) on the sprung mass about its centre of gravity: x, y, z, x, y, z."""
+    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+@njit(inline="always", error_model="numpy", _nrt=False)
+def drive_port(force, speed, parameters, states, slopes):
+    """Driving force in N at the wheels for the force that the driver asks for."""
+    return force
+
+
+@njit(inline="always", error_model="numpy", _nrt=False)
+def steer_port(angle, speed, force_y, parameters, states, slopes):
+    """Angle in rad of the front wheels for the angle that the driver asks for."""
+    return angle

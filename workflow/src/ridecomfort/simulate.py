@@ -1,0 +1,233 @@
+"""Simulated drives: a vehicle on a road, as an instrument on the body would record it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import xarray as xr
+from numba import njit
+from scipy.signal import firwin
+
+from .effects import compose, library
+from .errors import InputError
+from .road import surface
+from .vehicle import driver
+from .vehicle.constants import constants, wheel_table
+from .vehicle.ground import Surface
+from .vehicle.motion import ACCELERATIONS, COLUMNS
+from .vehicle.parameters import Vehicle
+from .vehicle.parameters import read as read_vehicle
+from .vocabulary import describe
+
+STEP = 0.001
+"""s; a_z then differs by less than 0.5 % rms from its limit (tests/vehicle/test_convergence.py)."""
+
+RATE = 100.0
+"""Hz of the records, as the paper's instrument."""
+
+OVERHANG = 2.0
+"""m of road kept free beyond the axles at either end."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """A road made ready to be driven on many times."""
+
+    surface: Surface
+    elevation: np.ndarray
+    u: np.ndarray
+    curvature: np.ndarray
+    road: xr.Dataset
+
+    def on_u(self, target: float | xr.DataArray, what: str) -> np.ndarray:
+        """A number or a DataArray over u as values on the u of the road; ends are held."""
+        if isinstance(target, xr.DataArray):
+            if target.dims != ("u",):
+                raise InputError(f"has dimensions {target.dims}, expected ('u',)", place=what)
+            values = np.interp(self.u, target.u.values, target.values)
+        else:
+            values = np.full(self.u.size, float(target))
+        if not np.isfinite(values).all():
+            raise InputError("is not finite everywhere", place=what)
+        return values
+
+
+def prepare(road: xr.Dataset, interpolation: str | None = None) -> Course:
+    """The road made ready for `run`, worth it when driving on it more than once.
+
+    ``interpolation``: "cubic" or "linear"; by default what the road says.
+    """
+    elevation, u0, du, v0, dv = surface.grid(road)
+    smooth = (interpolation or road.attrs.get("interpolation", "cubic")) == "cubic"
+    return Course(
+        Surface(u0, 1.0 / du, v0, 1.0 / dv, smooth),
+        elevation,
+        road.u.values,
+        driver.smooth_curvature(road),
+        road,
+    )
+
+
+def run(
+    road: xr.Dataset | Course,
+    vehicle: Vehicle,
+    *,
+    speed: float | xr.DataArray,
+    lateral: float | xr.DataArray = 0.0,
+    friction: float = 1.0,
+    effects=(),
+    effects_folder=None,
+    sensor: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    start: float | None = None,
+    end: float | None = None,
+    step: float = STEP,
+    rate: float = RATE,
+) -> xr.Dataset:
+    """One drive along the road: the drive's variables over time, with roll and pitch.
+
+    ``speed`` (m/s) and ``lateral`` (m, positive to the left) are what the driver aims for: a
+    number or a DataArray over u. ``friction`` of the road, 1 when dry. ``effects``: names, or
+    a mapping of name to {parameter: value}. ``sensor``: its place in m relative to the centre
+    of gravity of the sprung mass. ``start`` and ``end``: m along the reference line; the whole
+    road by default. ``step`` of the integration in s, ``rate`` of the records in Hz.
+
+    Accelerations are those of the sensor in body axes without gravity, band-limited below
+    half the rate before they are sampled, as an instrument does it.
+    """
+    course = road if isinstance(road, Course) else prepare(road)
+    chosen = library.choose(effects, effects_folder)
+    for entry, sizes in chosen:
+        if entry.effect.port == "vehicle":
+            vehicle = entry.act(vehicle, **sizes)
+    record = _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, end, step, rate)
+    drive = xr.Dataset(
+        {name: ("time", column) for name, column in zip(COLUMNS, record.T, strict=True)},
+        coords={"time": np.arange(len(record)) / rate},
+        attrs={"sensor_x": sensor[0], "sensor_y": sensor[1], "sensor_z": sensor[2], "vehicle": vehicle.name},
+    )
+    for entry, sizes in chosen:
+        if entry.effect.port == "sensor":
+            drive = entry.act(drive, **sizes)
+    return describe(drive)
+
+
+def runs(
+    road: xr.Dataset | Course,
+    vehicle: Vehicle,
+    *,
+    speed: xr.DataArray,
+    speed_deviation,
+    lateral_position,
+    road_friction,
+    effects=(),
+    effects_folder=None,
+    step: float = STEP,
+    rate: float = RATE,
+    progress=None,
+) -> xr.Dataset:
+    """Many drives: the drive's variables over (run, time) in float32, NaN after the end of a run.
+
+    ``speed``: profile of the site over u in m/s, to which each ``speed_deviation`` is added;
+    ``lateral_position`` in m and ``road_friction``: one value a run. ``progress`` is called
+    with the number of runs done after each.
+    """
+    course = road if isinstance(road, Course) else prepare(road)
+    profile = course.on_u(speed, "speed")
+    records = []
+    for number, (deviation, lateral, friction) in enumerate(
+        zip(speed_deviation, lateral_position, road_friction, strict=True), start=1
+    ):
+        target = xr.DataArray(np.maximum(profile + float(deviation), driver.SLOWEST), {"u": course.u}, "u")
+        drive = run(
+            course, vehicle, speed=target, lateral=float(lateral), friction=float(friction),
+            effects=effects, effects_folder=effects_folder, step=step, rate=rate,
+        )  # fmt: skip
+        records.append(np.stack([drive[name].values for name in COLUMNS]).astype(np.float32))
+        if progress is not None:
+            progress(number)
+    longest = max(record.shape[1] for record in records)
+    table = np.full((len(COLUMNS), len(records), longest), np.nan, dtype=np.float32)
+    for k, record in enumerate(records):
+        table[:, k, : record.shape[1]] = record
+    return describe(
+        xr.Dataset(
+            {name: (("run", "time"), table[i]) for i, name in enumerate(COLUMNS)},
+            coords={"run": np.arange(len(records)), "time": np.arange(longest) / rate},
+        )
+    )
+
+
+def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, end, step, rate) -> np.ndarray:
+    """Columns of COLUMNS at the rate of the records, shape (records, columns)."""
+    every = round(1.0 / (rate * step))
+    if every < 1 or abs(every * rate * step - 1.0) > 1e-9:
+        raise InputError(f"{step!r} s does not divide the interval of {1 / rate:g} s between records", place="step")
+    if not friction > 0:
+        raise InputError(f"{friction!r}, expected a positive number", place="friction")
+    front = vehicle["cg_to_front_axle"]
+    rear = vehicle["wheelbase"] - front
+    first, last = course.u[0] + rear + OVERHANG, course.u[-1] - front - OVERHANG
+    start = first if start is None else max(start, first)
+    end = last if end is None else min(end, last)
+    targets = np.stack([course.on_u(speed, "speed"), course.on_u(lateral, "lateral"), course.curvature], axis=1)
+    along = (course.u >= start) & (course.u <= end)
+    if not along.any():
+        raise InputError(f"nothing of the road lies between {start:g} m and {end:g} m", place="start, end")
+    slowest = targets[along, 0].min()
+    if not slowest >= driver.SLOWEST:
+        raise InputError(f"falls to {slowest:g} m/s, expected at least {driver.SLOWEST:g} m/s", place="speed")
+    seconds = 1.2 * np.sum(np.gradient(course.u)[along] / targets[along, 0]) + 5.0
+
+    compiled = compose.compose([entry for entry, _ in chosen])
+    sizes = [
+        value
+        for entry, values in chosen
+        if entry.effect.port not in ("vehicle", "sensor")
+        for value in (values[parameter.name] for parameter in entry.effect.parameters)
+    ]
+    steps = int(seconds / step)
+    record = np.empty((steps // every + 1, len(COLUMNS)))
+    accelerations = np.empty((steps, 3))
+    records, steps = compiled.drive(
+        constants(vehicle), wheel_table(vehicle), course.surface, course.elevation, targets, float(friction),
+        float(start), float(end), float(step), every, tuple(float(place) for place in sensor),
+        np.array(sizes, dtype=float), compiled.state_count, record, accelerations,
+    )  # fmt: skip
+    record, accelerations = record[:records], accelerations[:steps]
+    if not np.isfinite(record[:, :3]).all() or not np.isfinite(accelerations).all():
+        raise InputError(
+            "the simulated drive did not stay finite; is a parameter or an effect out of reason?",
+            place=f"vehicle {vehicle.name}",
+        )
+    if record[-1, 0] < end - 2.0 * rear - targets[:, 0].max() / rate:
+        raise InputError(
+            f"the drive came to a stand at {record[-1, 0]:.0f} m of {end:.0f} m; "
+            "is the friction too low for the grade or the bend?",
+            place=f"vehicle {vehicle.name}",
+        )
+    _low_pass(accelerations, _taps(every), every, record[:, ACCELERATIONS])
+    return record
+
+
+@lru_cache
+def _taps(every: int) -> np.ndarray:
+    """A low pass at the rate of the steps that is flat to 0.40 and closed from 0.60 of the records' rate."""
+    taps = firwin(10 * every + 1, 1.0 / every, window=("kaiser", 4.0))
+    return taps / taps.sum()
+
+
+@njit(cache=True)
+def _low_pass(values, taps, every, filtered):
+    """Convolve (steps, channels) with symmetric taps at every record; the ends are held."""
+    steps, channels = values.shape
+    middle = len(taps) // 2
+    for k in range(len(filtered)):
+        for c in range(channels):
+            filtered[k, c] = 0.0
+        for j in range(len(taps)):
+            n = min(max(k * every + j - middle, 0), steps - 1)
+            for c in range(channels):
+                filtered[k, c] += taps[j] * values[n, c]

@@ -1,0 +1,113 @@
+"""The driver: the speed that a site calls for, and how speed and path are held to."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from numba import njit
+
+from ..errors import InputError
+
+CURVATURE_LENGTH = 10.0
+"""m over which the curvature of a reference line is averaged: what a driver takes for the bend."""
+
+PREVIEW_TIME = 0.8
+"""s ahead that the path follower aims for; about what drivers look ahead on country roads."""
+
+PREVIEW_MINIMUM = 6.0
+"""m; keeps the path follower stable at low speed."""
+
+SLOWEST = 1.0
+"""m/s; below it the tyres' slips lose their meaning."""
+
+STEERING_LIMIT = 0.7
+"""rad; the lock of the front wheels."""
+
+SPEED_PREVIEW_TIME = 0.3
+"""s ahead that the speed controller reads its profile, making up for its own delay."""
+
+SPEED_GAIN = 1.0
+"""1/s; acceleration asked for per m/s of speed error."""
+
+SPEED_INTEGRAL_GAIN = 0.2
+"""1/s2; removes the error that a grade would leave."""
+
+
+def smooth_curvature(road: xr.Dataset) -> np.ndarray:
+    """Curvature of the reference line in 1/m over u, averaged over CURVATURE_LENGTH."""
+    return _moving_average(road.curvature.values, road.u.values, CURVATURE_LENGTH)
+
+
+def speed_profile(
+    road: xr.Dataset,
+    *,
+    limit: float,
+    lateral_acceleration: float,
+    acceleration: float,
+    deceleration: float,
+    smoothing: float = 20.0,
+) -> xr.DataArray:
+    """Speed in m/s over u that keeps a site's limit and comfort (sec:sim_env: the motion profile).
+
+    The highest speed that stays below ``limit`` (m/s) and below ``lateral_acceleration`` in
+    bends and needs no more than ``acceleration`` and ``deceleration`` (m/s2, both positive)
+    between them, averaged over ``smoothing`` metres so that its acceleration has no steps.
+    """
+    for name, value in (
+        ("limit", limit),
+        ("lateral_acceleration", lateral_acceleration),
+        ("acceleration", acceleration),
+        ("deceleration", deceleration),
+    ):
+        if not value > 0:
+            raise InputError(f"{value!r}, expected a positive number", place=f"speed.{name}")
+    u = road.u.values
+    curvature = np.abs(smooth_curvature(road))
+    square = np.minimum(limit**2, lateral_acceleration / np.maximum(curvature, 1e-9))
+    square = _limit_growth(square, u, acceleration)
+    square = _limit_growth(square[::-1], -u[::-1], deceleration)[::-1]
+    speed = _moving_average(np.sqrt(square), u, smoothing)
+    return xr.DataArray(speed, coords={"u": road.u}, dims="u", name="speed", attrs={"units": "m/s"})
+
+
+@njit(cache=True)
+def _limit_growth(square, u, acceleration):
+    limited = square.copy()
+    for i in range(1, len(u)):
+        reachable = limited[i - 1] + 2.0 * acceleration * (u[i] - u[i - 1])
+        limited[i] = min(limited[i], reachable)
+    return limited
+
+
+def _moving_average(values: np.ndarray, u: np.ndarray, length: float) -> np.ndarray:
+    """Centred average over ``length`` metres of equidistant values; the ends are held."""
+    half = int(round(length / (u[1] - u[0]) / 2))
+    if half < 1:
+        return np.asarray(values, dtype=float)
+    padded = np.pad(np.asarray(values, dtype=float), half, mode="edge")
+    total = np.concatenate([[0.0], np.cumsum(padded)])
+    width = 2 * half + 1
+    return (total[width:] - total[:-width]) / width
+
+
+@njit(inline="always")
+def steering(e, course, speed, target, curvature, wheelbase):
+    """Angle of the front wheels in rad: the bend itself, and pure pursuit of the target offset.
+
+    ``course`` is the direction of travel against the reference line, so that the slip of the
+    body in a bend leaves no offset. Pure pursuit: Coulter (1992), CMU-RI-TR-92-01.
+    """
+    preview = max(PREVIEW_MINIMUM, PREVIEW_TIME * speed)
+    error = e + preview * course - target
+    angle = wheelbase * (curvature - 2.0 * error / (preview * preview))
+    return min(max(angle, -STEERING_LIMIT), STEERING_LIMIT)
+
+
+@njit(inline="always")
+def acceleration_demand(speed, target, target_ahead, distance_ahead, integral):
+    """Acceleration in m/s2 that the speed controller asks for.
+
+    Feed-forward of the profile's own acceleration, and a proportional-integral correction.
+    """
+    profile = target * (target_ahead - target) / distance_ahead
+    return profile + SPEED_GAIN * (target - speed) + SPEED_INTEGRAL_GAIN * integral
