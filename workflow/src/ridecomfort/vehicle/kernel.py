@@ -72,6 +72,9 @@ from ridecomfort.vocabulary import STANDARD_GRAVITY
 MINIMUM_SPEED = 1.0
 """m/s below which slips are no longer divided by the speed."""
 
+GRADE_LENGTH = 20.0
+"""m of road whose grade the speed controller knows of at the start."""
+
 SINE = (-1 / 6, 1 / 120, -1 / 5040, 1 / 362880)
 COSINE = (-1 / 2, 1 / 24, -1 / 720, 1 / 40320, -1 / 3628800)
 """Taylor coefficients."""
@@ -114,11 +117,12 @@ def _drive(
     suspension, ground, states, slopes, slopes_before,
 ):  # fmt: skip
     half = 0.5 * step
-    slope_x, slope_y = _settle(
+    _settle(
         car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
         pose, pose_rate, speeds, wheel_z, wheel_v, spin, ground,
     )  # fmt: skip
-    integral = STANDARD_GRAVITY * slope_x / SPEED_INTEGRAL_GAIN
+    rise = height(surface, elevation, start + GRADE_LENGTH, pose[E]) - height(surface, elevation, start, pose[E])
+    integral = STANDARD_GRAVITY * rise / (GRADE_LENGTH * SPEED_INTEGRAL_GAIN)
 
     records, steps = 0, 0
     while pose[S] < end and records < record.shape[0] and steps < accelerations.shape[0]:
@@ -140,7 +144,7 @@ def _drive(
         _feel(
             wheels, surface, elevation, pose, pose_rate, curvature, step, parameters, states, slopes, ground
         )
-        slope_x, slope_y = _plane(car, ground)
+        slope_x, slope_y = _plane(car, ground[1])
         _vertical(
             car, wheels, pose, now, wheel_z, wheel_v, wheel_change, rotation, ground, step,
             force_x, force_y, parameters, states, slopes, load, suspension,
@@ -193,8 +197,8 @@ def _target(targets, index, fraction, column):
 @njit(inline="always", error_model="numpy", _nrt=False)
 def _plane(car, ground):
     """Slopes, forward and to the left, of the plane through the heights under the wheels."""
-    front, rear = ground[1, 0] + ground[1, 1], ground[1, 2] + ground[1, 3]
-    across = (ground[1, 0] - ground[1, 1]) * car.per_track_front + (ground[1, 2] - ground[1, 3]) * car.per_track_rear
+    front, rear = ground[0] + ground[1], ground[2] + ground[3]
+    across = (ground[0] - ground[1]) * car.per_track_front + (ground[2] - ground[3]) * car.per_track_rear
     return 0.5 * (front - rear) * car.per_wheelbase, 0.5 * across
 
 
@@ -203,25 +207,22 @@ def _settle(
     car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
     pose, pose_rate, speeds, wheel_z, wheel_v, spin, ground,
 ):  # fmt: skip
-    """Begin at rest on the springs, moving along the plane under the wheels; its slopes."""
+    """Begin at rest on the springs, moving along the plane under the wheels."""
     index, fraction = _locate(surface, targets, start)
     curvature = _target(targets, index, fraction, CURVATURE)
     speed = _target(targets, index, fraction, SPEED)
     pose[S], pose[E] = start, _target(targets, index, fraction, LATERAL)
     pose_rate[0] = speed
-    for back in range(2, -2, -1):
-        pose[S] = start - (back + 1) * step * speed
+    for back in range(3, 0, -1):
+        pose[S] = start - back * step * speed
         _feel(
             wheels, surface, elevation, pose, pose_rate, curvature, step, parameters, states, slopes, ground
         )
     pose[S] = start
-    for i in range(4):
-        for row in range(3):
-            ground[row, i] = ground[row + 1, i]
-    slope_x, slope_y = _plane(car, ground)
+    slope_x, slope_y = _plane(car, ground[0])
     middle = 0.0
     for i in range(4):
-        middle += 0.25 * (ground[1, i] - wheels[i, X] * slope_x - wheels[i, Y] * slope_y)
+        middle += 0.25 * (ground[0, i] - wheels[i, X] * slope_x - wheels[i, Y] * slope_y)
     pose[Z], pose[ROLL], pose[PITCH] = middle + car.cg_height, slope_y, -slope_x
     speeds[V_X], speeds[YAW_RATE], speeds[V_Z] = speed, curvature * speed, slope_x * speed
     for i in range(4):
@@ -229,7 +230,6 @@ def _settle(
         wheel_z[i] = plane + car.tyre_radius - wheels[i, STATIC_DEFLECTION]
         wheel_v[i] = slope_x * speed
         spin[i] = speed / car.tyre_radius
-    return slope_x, slope_y
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)

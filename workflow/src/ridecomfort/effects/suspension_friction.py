@@ -1,0 +1,28 @@
+"""Coulomb friction in the struts and joints of the suspension."""
+
+from math import tanh
+
+from ridecomfort.effects.contract import Effect, Parameter
+
+SLIDING_SPEED = 0.005
+"""m/s over which the force turns with the direction of motion; below the noise of a moving wheel."""
+
+effect = Effect(
+    name="suspension_friction",
+    sentence=(
+        "Struts, seals and joints hold against the motion with a force that does not depend on its speed, "
+        "so that small road unevenness passes to the body unsprung."
+    ),
+    source="Reimpell, Stoll and Betzler (2001), The Automotive Chassis; Dixon (2007), The Shock Absorber Handbook",
+    port="suspension",
+    parameters=(
+        Parameter("front", "N", 0.0, 120.0, (0.0, 500.0), "friction force of one front suspension"),
+        Parameter("rear", "N", 0.0, 100.0, (0.0, 500.0), "friction force of one rear suspension"),
+    ),
+    dissipative=True,
+)
+
+
+def act(wheel, deflection, velocity, force_x, force_y, front, rear):
+    force = front if wheel < 2 else rear
+    return force * tanh(velocity / SLIDING_SPEED)
