@@ -9,8 +9,9 @@ import numpy as np
 from ..vocabulary import STANDARD_GRAVITY
 from .parameters import Vehicle
 
-X, Y, MASS, SPRING, DAMPING, ANTI_ROLL, ROLL_ARM, STATIC_FORCE, STATIC_DEFLECTION = range(9)
-"""Columns of the table of wheels; ANTI_ROLL in N per metre of difference between the sides."""
+(X, Y, MASS, SPRING, DAMPING, ANTI_ROLL, ROLL_CENTRE, ROLL_ARM, SCRUB, STATIC_FORCE, STATIC_DEFLECTION) = range(11)
+"""Columns of the table of wheels. ANTI_ROLL: N per metre of difference between the sides. ROLL_ARM: height
+of the centre of gravity above the roll centre. SCRUB: how far the contact moves sideways per travel."""
 
 
 class Constants(NamedTuple):
@@ -48,20 +49,22 @@ class Constants(NamedTuple):
 
 
 def wheel_table(vehicle: Vehicle) -> np.ndarray:
-    """Constants of each wheel, shape (4, 9): front left, front right, rear left, rear right."""
+    """Constants of each wheel, shape (4, 11): front left, front right, rear left, rear right."""
     axles = lambda name: np.repeat([vehicle[f"{name}_front"], vehicle[f"{name}_rear"]], 2)
     front = vehicle["cg_to_front_axle"]
     rear = front - vehicle["wheelbase"]
     track, mass = axles("track"), axles("unsprung_mass")
     load = static_loads(vehicle)
-    table = np.empty((4, 9))
+    table = np.empty((4, 11))
     table[:, X] = [front, front, rear, rear]
     table[:, Y] = np.array([1, -1, 1, -1]) * track / 2
     table[:, MASS] = mass
     table[:, SPRING] = axles("spring_stiffness")
     table[:, DAMPING] = axles("damping")
     table[:, ANTI_ROLL] = axles("anti_roll_stiffness") / track**2
+    table[:, ROLL_CENTRE] = axles("roll_centre_height")
     table[:, ROLL_ARM] = vehicle["cg_height"] - axles("roll_centre_height")
+    table[:, SCRUB] = axles("roll_centre_height") / table[:, Y]
     table[:, STATIC_FORCE] = load
     table[:, STATIC_DEFLECTION] = (load + mass * STANDARD_GRAVITY) / vehicle["tyre_radial_stiffness"]
     return table

@@ -34,6 +34,8 @@ from ridecomfort.vehicle.constants import (
     DAMPING,
     MASS,
     ROLL_ARM,
+    ROLL_CENTRE,
+    SCRUB,
     SPRING,
     STATIC_DEFLECTION,
     STATIC_FORCE,
@@ -95,7 +97,7 @@ def drive(
     but its accelerations, and ``accelerations`` (steps, 3) of the sensor at every step.
     """
     body = np.zeros((5, 6))
-    wheel = np.zeros((11, 4))
+    wheel = np.zeros((13, 4))
     ground = np.zeros((4, 4))
     states = np.zeros((3, state_count))
     return _drive(
@@ -103,7 +105,7 @@ def drive(
         sensor, parameters, record, accelerations,
         body[0], body[1], body[2], body[3], body[4],
         wheel[0], wheel[1], wheel[2], wheel[3], wheel[4], wheel[5], wheel[6], wheel[7], wheel[8], wheel[9],
-        wheel[10], ground, states[0], states[1], states[2],
+        wheel[10], wheel[11], wheel[12], ground, states[0], states[1], states[2],
     )  # fmt: skip
 
 
@@ -114,7 +116,7 @@ def _drive(
     sensor, parameters, record, accelerations,
     pose, pose_rate, speeds, change, now,
     wheel_z, wheel_v, wheel_change, spin, spin_change, rotation, force_x, force_y, load, torque,
-    suspension, ground, states, slopes, slopes_before,
+    suspension, travel_rate, side_push, ground, states, slopes, slopes_before,
 ):  # fmt: skip
     half = 0.5 * step
     _settle(
@@ -147,15 +149,16 @@ def _drive(
         slope_x, slope_y = _plane(car, ground[1])
         _vertical(
             car, wheels, pose, now, wheel_z, wheel_v, wheel_change, rotation, ground, step,
-            force_x, force_y, parameters, states, slopes, load, suspension,
+            force_x, force_y, side_push, parameters, states, slopes, load, suspension, travel_rate,
         )  # fmt: skip
         _planar(
-            car, wheels, now, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand, friction,
-            step, parameters, states, slopes, torque, force_x, force_y,
+            car, wheels, now, travel_rate, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand, friction,
+            step, parameters, states, slopes, torque, force_x, force_y, side_push,
         )  # fmt: skip
         _accelerate(
-            car, wheels, pose, now, change, force_x, force_y, torque, suspension, parameters, states, slopes
-        )
+            car, wheels, pose, now, slope_x, slope_y, change, force_x, force_y, torque, suspension,
+            parameters, states, slopes,
+        )  # fmt: skip
 
         sensor_acceleration(accelerations[steps], sensor, pose, now, change)
         if steps % every == 0:
@@ -270,7 +273,7 @@ def _feel(wheels, surface, elevation, pose, pose_rate, curvature, step, paramete
 @njit(inline="always", error_model="numpy", _nrt=False)
 def _vertical(
     car, wheels, pose, now, wheel_z, wheel_v, wheel_change, rotation, ground, step,
-    force_x, force_y, parameters, states, slopes, load, suspension,
+    force_x, force_y, side_push, parameters, states, slopes, load, suspension, travel_rate,
 ):  # fmt: skip
     """Load of every tyre, force of every suspension (N, positive pushing apart), motion of every wheel."""
     half = 0.5 * step
@@ -287,7 +290,7 @@ def _vertical(
         held += suspension_port(
             i, travel, wheel_speed - corner_speed, force_x[i], force_y[i], parameters, states, slopes
         )
-        held -= wheels[i, DAMPING] * corner_speed
+        held -= wheels[i, DAMPING] * corner_speed + wheels[i, SCRUB] * side_push[i]
 
         deflection = ground[1, i] + car.tyre_radius - wheel_z[i]
         rate = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
@@ -308,6 +311,7 @@ def _vertical(
             wheel_change[i] = push / (wheels[i, MASS] + half * wheels[i, DAMPING])
             wheel_speed = wheel_v[i] + half * wheel_change[i]
         suspension[i] = held + wheels[i, DAMPING] * wheel_speed
+        travel_rate[i] = wheel_speed - corner_speed
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)
@@ -329,16 +333,20 @@ def brush(slip_x, slip_y, load, friction, stiffness_x, stiffness_y):
 
 @njit(inline="always", error_model="numpy", _nrt=False)
 def _planar(
-    car, wheels, now, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand, friction,
-    step, parameters, states, slopes, torque, force_x, force_y,
+    car, wheels, now, travel_rate, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand, friction,
+    step, parameters, states, slopes, torque, force_x, force_y, side_push,
 ):  # fmt: skip
-    """Driving torque and force in level axes of every wheel; their spin is advanced."""
+    """Driving torque and force in level axes of every wheel; their spin is advanced.
+
+    ``side_push``: the side force carried on to the next step, where the links press with it.
+    """
     sine, cosine = _sin_cos(angle)
     half = 0.5 * step
     share_front = car.drive_share_front if demand > 0.0 else car.brake_share_front
     for i in range(4):
         along = now[V_X] - wheels[i, Y] * now[YAW_RATE] - car.pitch_arm * now[PITCH_RATE]
-        across = now[V_Y] + wheels[i, X] * now[YAW_RATE] + wheels[i, ROLL_ARM] * now[ROLL_RATE]
+        across = now[V_Y] + wheels[i, X] * now[YAW_RATE] + car.cg_height * now[ROLL_RATE]
+        across += wheels[i, SCRUB] * travel_rate[i]
         c, d = (cosine, sine) if i < 2 else (1.0, 0.0)
         rolling = along * c + across * d
         sliding = across * c - along * d
@@ -358,13 +366,16 @@ def _planar(
         rotation[i] += step * spin[i]
         # The road pushes along its normal: on a slope the load has a level part.
         force_x[i] = tyre_x * c - tyre_y * d - load[i] * slope_x
-        force_y[i] = tyre_x * d + tyre_y * c - load[i] * slope_y
+        side = tyre_x * d + tyre_y * c - load[i] * slope_y
+        side_push[i] = 2.0 * side - force_y[i]
+        force_y[i] = side
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)
 def _accelerate(
-    car, wheels, pose, now, change, force_x, force_y, torque, suspension, parameters, states, slopes
-):
+    car, wheels, pose, now, slope_x, slope_y, change, force_x, force_y, torque, suspension,
+    parameters, states, slopes,
+):  # fmt: skip
     """Time derivatives of the speeds from the forces and moments on the body, through the mass matrix."""
     motion = BodyMotion(
         pose[S], now[V_X], now[V_Y], now[V_Z], pose[ROLL], pose[PITCH],
@@ -377,8 +388,11 @@ def _accelerate(
         x += force_x[i]
         y += force_y[i]
         z += suspension[i]
-        roll += wheels[i, ROLL_ARM] * force_y[i] + wheels[i, Y] * suspension[i]
-        pitch -= car.pitch_arm * force_x[i] + torque[i] + wheels[i, X] * suspension[i]
+        # Where the load passes the centre of gravity: tilted with the body down to the link, with the road below.
+        aside = wheels[i, Y] + wheels[i, ROLL_ARM] * pose[ROLL] + wheels[i, ROLL_CENTRE] * slope_y
+        ahead = wheels[i, X] - car.pitch_arm * pose[PITCH] + car.tyre_radius * slope_x
+        roll += car.cg_height * force_y[i] + aside * suspension[i]
+        pitch -= car.pitch_arm * force_x[i] + torque[i] + ahead * suspension[i]
         yaw += wheels[i, X] * force_y[i] - wheels[i, Y] * force_x[i]
     v_x, v_y, r = now[V_X], now[V_Y], now[YAW_RATE]
     momentum_x = car.total_mass * v_x - car.unsprung_mass * car.pitch_arm * now[PITCH_RATE]
