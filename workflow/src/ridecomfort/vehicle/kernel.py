@@ -23,6 +23,7 @@ from numba import njit
 from ridecomfort.effects.neutral import (
     body_port,
     drive_port,
+    flexing_port,
     road_port,
     steer_port,
     suspension_port,
@@ -121,7 +122,7 @@ def _drive(
     half = 0.5 * step
     _settle(
         car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
-        pose, pose_rate, speeds, wheel_z, wheel_v, spin, ground,
+        pose, pose_rate, speeds, wheel_z, wheel_v, spin, rotation, ground,
     )  # fmt: skip
     rise = height(surface, elevation, start + GRADE_LENGTH, pose[E]) - height(surface, elevation, start, pose[E])
     integral = STANDARD_GRAVITY * rise / (GRADE_LENGTH * SPEED_INTEGRAL_GAIN)
@@ -144,23 +145,26 @@ def _drive(
         angle = steer_port(angle, now[V_X], force_y[0] + force_y[1], parameters, states, slopes)
 
         _feel(
-            wheels, surface, elevation, pose, pose_rate, curvature, step, parameters, states, slopes, ground
+            wheels, surface, elevation, pose, pose_rate, curvature, step, spin, rotation, parameters, states, slopes, ground
         )
         slope_x, slope_y = _plane(car, ground[1])
         _vertical(
-            car, wheels, pose, now, wheel_z, wheel_v, wheel_change, rotation, ground, step,
+            car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
             force_x, force_y, side_push, parameters, states, slopes, load, suspension, travel_rate,
         )  # fmt: skip
         _planar(
-            car, wheels, now, travel_rate, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand, friction,
-            step, parameters, states, slopes, torque, force_x, force_y, side_push,
+            car, wheels, now, travel_rate, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
+            friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
         )  # fmt: skip
-        _accelerate(
-            car, wheels, pose, now, slope_x, slope_y, change, force_x, force_y, torque, suspension,
-            parameters, states, slopes,
+        flex_x, flex_y, flex_z = _accelerate(
+            car, wheels, pose, now, slope_y, change, force_x, force_y, torque, suspension,
+            sensor, parameters, states, slopes,
         )  # fmt: skip
 
         sensor_acceleration(accelerations[steps], sensor, pose, now, change)
+        accelerations[steps, 0] += flex_x
+        accelerations[steps, 1] += flex_y
+        accelerations[steps, 2] += flex_z
         if steps % every == 0:
             body_rates(record[records], pose, now)
             records += 1
@@ -208,7 +212,7 @@ def _plane(car, ground):
 @njit(error_model="numpy", _nrt=False)
 def _settle(
     car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
-    pose, pose_rate, speeds, wheel_z, wheel_v, spin, ground,
+    pose, pose_rate, speeds, wheel_z, wheel_v, spin, rotation, ground,
 ):  # fmt: skip
     """Begin at rest on the springs, moving along the plane under the wheels."""
     index, fraction = _locate(surface, targets, start)
@@ -219,7 +223,7 @@ def _settle(
     for back in range(3, 0, -1):
         pose[S] = start - back * step * speed
         _feel(
-            wheels, surface, elevation, pose, pose_rate, curvature, step, parameters, states, slopes, ground
+            wheels, surface, elevation, pose, pose_rate, curvature, step, spin, rotation, parameters, states, slopes, ground
         )
     pose[S] = start
     slope_x, slope_y = _plane(car, ground[0])
@@ -247,7 +251,9 @@ def _speed_control(car, surface, targets, index, fraction, s, v_x, pace, integra
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)
-def _feel(wheels, surface, elevation, pose, pose_rate, curvature, step, parameters, states, slopes, ground):
+def _feel(
+    wheels, surface, elevation, pose, pose_rate, curvature, step, spin, rotation, parameters, states, slopes, ground
+):
     """Shift the heights under the wheels by a step and look up those one step ahead.
 
     Rows of ``ground``: one step ahead, now, one and two steps before. The bend of the road
@@ -267,12 +273,13 @@ def _feel(wheels, surface, elevation, pose, pose_rate, curvature, step, paramete
         ground[3, i] = ground[2, i]
         ground[2, i] = ground[1, i]
         ground[1, i] = ground[0, i]
-        ground[0, i] = road_port(i, u, v, raw, surface, elevation, parameters, states, slopes)
+        turn = rotation[i] + step * spin[i]
+        ground[0, i] = road_port(i, u, v, raw, turn, surface, elevation, parameters, states, slopes)
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)
 def _vertical(
-    car, wheels, pose, now, wheel_z, wheel_v, wheel_change, rotation, ground, step,
+    car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
     force_x, force_y, side_push, parameters, states, slopes, load, suspension, travel_rate,
 ):  # fmt: skip
     """Load of every tyre, force of every suspension (N, positive pushing apart), motion of every wheel."""
@@ -288,16 +295,18 @@ def _vertical(
         wheel_speed = wheel_v[i] + half * wheel_change[i]
         held = wheels[i, STATIC_FORCE] + wheels[i, SPRING] * travel + wheels[i, ANTI_ROLL] * twist
         held += suspension_port(
-            i, travel, wheel_speed - corner_speed, force_x[i], force_y[i], parameters, states, slopes
-        )
+            i, travel, wheel_speed - corner_speed, wheels[i, SPRING], wheels[i, DAMPING], force_x[i], force_y[i],
+            parameters, states, slopes,
+        )  # fmt: skip
         held -= wheels[i, DAMPING] * corner_speed + wheels[i, SCRUB] * side_push[i]
 
         deflection = ground[1, i] + car.tyre_radius - wheel_z[i]
         rate = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
         radial = car.tyre_stiffness * deflection + car.tyre_damping * rate
         radial += tyre_vertical_port(
-            i, deflection, rate - wheel_speed, rotation[i], parameters, states, slopes
-        )
+            i, deflection, rate - wheel_speed, car.tyre_stiffness, wheels[i, STATIC_DEFLECTION], rotation[i], spin[i],
+            parameters, states, slopes,
+        )  # fmt: skip
         # The wheel's own damping, implicit: its speed now is that before plus half a step of its change.
         weight = wheels[i, MASS] * STANDARD_GRAVITY
         damping = car.tyre_damping + wheels[i, DAMPING]
@@ -333,8 +342,8 @@ def brush(slip_x, slip_y, load, friction, stiffness_x, stiffness_y):
 
 @njit(inline="always", error_model="numpy", _nrt=False)
 def _planar(
-    car, wheels, now, travel_rate, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand, friction,
-    step, parameters, states, slopes, torque, force_x, force_y, side_push,
+    car, wheels, now, travel_rate, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
+    friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
 ):  # fmt: skip
     """Driving torque and force in level axes of every wheel; their spin is advanced.
 
@@ -342,6 +351,7 @@ def _planar(
     """
     sine, cosine = _sin_cos(angle)
     half = 0.5 * step
+    per_two_steps = 0.5 / step
     share_front = car.drive_share_front if demand > 0.0 else car.brake_share_front
     for i in range(4):
         along = now[V_X] - wheels[i, Y] * now[YAW_RATE] - car.pitch_arm * now[PITCH_RATE]
@@ -351,9 +361,10 @@ def _planar(
         rolling = along * c + across * d
         sliding = across * c - along * d
         per_speed = 1.0 / max(abs(rolling), MINIMUM_SPEED)
-        slip_x, slip_y = tyre_planar_port(
-            i, (spin[i] * car.tyre_radius - rolling) * per_speed, -sliding * per_speed, load[i], rolling,
-            parameters, states, slopes,
+        slope = (ground[0, i] - ground[2, i]) * per_speed * per_two_steps - slope_x
+        slip_x, slip_y, pull = tyre_planar_port(
+            i, (spin[i] * car.tyre_radius - rolling) * per_speed, -sliding * per_speed, load[i], rolling, slope,
+            force_x[i], parameters, states, slopes,
         )  # fmt: skip
         tyre_x, tyre_y = brush(slip_x, slip_y, load[i], friction, car.slip_per_load, car.cornering_per_load)
         share = share_front if i < 2 else 1.0 - share_front
@@ -361,7 +372,7 @@ def _planar(
         # Spin and slip force half a step on, implicit: slip answers fast at low speed.
         grip = half * car.tyre_radius * car.slip_per_load * load[i] * per_speed
         spin_change[i] = (torque[i] - car.tyre_radius * tyre_x) / (car.spin_inertia + car.tyre_radius * grip)
-        tyre_x += grip * spin_change[i]
+        tyre_x += grip * spin_change[i] + pull
         spin[i] += step * spin_change[i]
         rotation[i] += step * spin[i]
         # The road pushes along its normal: on a slope the load has a level part.
@@ -373,15 +384,19 @@ def _planar(
 
 @njit(inline="always", error_model="numpy", _nrt=False)
 def _accelerate(
-    car, wheels, pose, now, slope_x, slope_y, change, force_x, force_y, torque, suspension,
-    parameters, states, slopes,
+    car, wheels, pose, now, slope_y, change, force_x, force_y, torque, suspension,
+    sensor, parameters, states, slopes,
 ):  # fmt: skip
-    """Time derivatives of the speeds from the forces and moments on the body, through the mass matrix."""
+    """Time derivatives of the speeds from the forces and moments on the body, through the mass matrix.
+
+    Returns how the body's flexing accelerates the sensor (m/s2).
+    """
     motion = BodyMotion(
         pose[S], now[V_X], now[V_Y], now[V_Z], pose[ROLL], pose[PITCH],
         now[ROLL_RATE], now[PITCH_RATE], now[YAW_RATE],
         change[V_Z], change[ROLL_RATE], change[PITCH_RATE],
         suspension[0] + suspension[1], suspension[2] + suspension[3],
+        car.sprung_mass, wheels[0, X], wheels[2, X],
     )  # fmt: skip
     x, y, z, roll, pitch, yaw = body_port(motion, parameters, states, slopes)
     for i in range(4):
@@ -390,7 +405,7 @@ def _accelerate(
         z += suspension[i]
         # Where the load passes the centre of gravity: tilted with the body down to the link, with the road below.
         aside = wheels[i, Y] + wheels[i, ROLL_ARM] * pose[ROLL] + wheels[i, ROLL_CENTRE] * slope_y
-        ahead = wheels[i, X] - car.pitch_arm * pose[PITCH] + car.tyre_radius * slope_x
+        ahead = wheels[i, X] - car.pitch_arm * pose[PITCH]
         roll += car.cg_height * force_y[i] + aside * suspension[i]
         pitch -= car.pitch_arm * force_x[i] + torque[i] + ahead * suspension[i]
         yaw += wheels[i, X] * force_y[i] - wheels[i, Y] * force_x[i]
@@ -400,12 +415,15 @@ def _accelerate(
     forward = x + r * momentum_y
     side = y - r * momentum_x
     yaw += v_y * momentum_x - v_x * momentum_y
+    roll -= car.unsprung_roll * r * v_x
+    pitch -= car.unsprung_mass * car.pitch_arm * r * v_y
     change[V_X] = car.inverse_xx * forward + car.inverse_xq * pitch
     change[PITCH_RATE] = car.inverse_xq * forward + car.inverse_qq * pitch
     change[V_Y] = car.inverse_yy * side + car.inverse_yr * yaw + car.inverse_yp * roll
     change[YAW_RATE] = car.inverse_yr * side + car.inverse_rr * yaw + car.inverse_rp * roll
     change[ROLL_RATE] = car.inverse_yp * side + car.inverse_rp * yaw + car.inverse_pp * roll
     change[V_Z] = z / car.sprung_mass - STANDARD_GRAVITY
+    return flexing_port(motion, sensor[0], sensor[1], sensor[2], parameters, states, slopes)
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)

@@ -23,7 +23,11 @@ V_X, V_Y, YAW_RATE, V_Z, ROLL_RATE, PITCH_RATE = range(6)
 
 
 class BodyMotion(NamedTuple):
-    """The motion of the sprung mass at an instant, for effects that act on it (SI units, level axes)."""
+    """The motion of the sprung mass at an instant, for effects that act on it (SI units, level axes).
+
+    Accelerations are those of the step before. ``suspension_front`` and ``suspension_rear``: forces in N of the
+    axles on the body; ``front`` and ``rear``: their places in m ahead of the centre of gravity.
+    """
 
     s: float
     speed: float
@@ -39,6 +43,9 @@ class BodyMotion(NamedTuple):
     pitch_acceleration: float
     suspension_front: float
     suspension_rear: float
+    sprung_mass: float
+    front: float
+    rear: float
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)

@@ -15,8 +15,8 @@ Equations of motion in these moving axes (Boltzmann-Hamel; T is the kinetic ener
     d/dt dT/dv_x - r dT/dv_y                     = sum F_x
     d/dt dT/dv_y + r dT/dv_x                     = sum F_y
     d/dt dT/dr   + v_x dT/dv_y - v_y dT/dv_x     = sum (x F_y - y F_x)
-    d/dt dT/dp                                   = sum (h F_y + (y + aside) S)
-    d/dt dT/dw                                   = -sum (h_wheel F_x + T_i + (x + ahead) S)
+    d/dt dT/dp   + sum (m_i arm) r v_x           = sum (h F_y + (y + aside) S)
+    d/dt dT/dw   + sum (m_i h_wheel) r v_y       = -sum (h_wheel F_x + T_i + (x + ahead) S)
     m_s (dv_z/dt + g)                            = sum S
     m_i (dz_i/dt' + g)                           = N_i - S_i
     J_i d(spin_i)/dt                             = T_i - R F_i
@@ -202,7 +202,8 @@ def drive(
         side_push, force_y = 2 * side - force_y, side
 
         aside = car.arm * roll + car.roll_centre * slope_y
-        ahead_of = -car.wheel_height * pitch + car.radius * slope_x
+        ahead_of = -car.wheel_height * pitch
+        turning_wheels = r * car.wheel_mass
         momentum = car.mass_matrix @ now
         force = np.array(
             [
@@ -210,8 +211,12 @@ def drive(
                 np.sum(force_y) - r * momentum[0],
                 np.sum(car.x * force_y - car.y * force_x) - v_x * momentum[1] + v_y * momentum[0],
                 np.sum(suspension) - car.body_mass * STANDARD_GRAVITY,
-                np.sum(car.height * force_y + (car.y + aside) * suspension),
-                -np.sum(car.wheel_height * force_x + torque + (car.x + ahead_of) * suspension),
+                np.sum(car.height * force_y + (car.y + aside) * suspension - car.arm * turning_wheels * v_x),
+                -np.sum(
+                    car.wheel_height * (force_x + turning_wheels * v_y)
+                    + torque
+                    + (car.x + ahead_of) * suspension
+                ),
             ]
         )
         acceleration = np.linalg.solve(car.mass_matrix, force)

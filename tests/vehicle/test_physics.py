@@ -1,0 +1,111 @@
+"""Statics, energy and cornering of the vehicle against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort import simulate
+from ridecomfort.vehicle import reference
+from ridecomfort.vocabulary import STANDARD_GRAVITY as G
+
+from tests.vehicle.roads import road
+
+
+def watched(car, ground, speed, *, friction=1.0, step=0.002, end=None):
+    """What the plain model does at every step of a drive."""
+    course = simulate.prepare(ground)
+    targets = np.stack([np.full(course.u.size, speed), np.zeros(course.u.size), course.curvature], axis=1)
+    seen = []
+    end = course.u[-1] - 4.0 if end is None else end
+    reference.drive(car, course.surface, course.elevation, targets, friction, 4.0, end, step, 10, watch=seen.append)
+    return {name: np.array([moment[name] for moment in seen]) for name in seen[0]}
+
+
+def test_at_rest_on_level_ground_every_force_is_its_static_value(car):
+    drive = watched(car, road(40.0), 10.0)
+    total = car["sprung_mass"] + 2 * car["unsprung_mass_front"] + 2 * car["unsprung_mass_rear"]
+    rear = car["sprung_mass"] * G * car["cg_to_front_axle"] / car["wheelbase"] / 2
+    assert np.abs(drive["acceleration"]).max() < 1e-9
+    assert drive["load"].sum(axis=1) == pytest.approx(total * G)
+    assert drive["suspension"][-1, 2:] == pytest.approx([rear, rear])
+
+
+@pytest.mark.parametrize("slope", [0.07, -0.05])
+def test_on_a_grade_the_axles_carry_what_moments_demand(car, slope):
+    drive = watched(car, road(160.0, height=lambda u, v: slope * u + 0 * v), 10.0)
+    height, radius, base = car["cg_height"], car["tyre_radius"], car["wheelbase"]
+    moment = car["sprung_mass"] * (car["cg_to_front_axle"] + slope * height)
+    moment += 2 * car["unsprung_mass_front"] * slope * radius
+    moment += 2 * car["unsprung_mass_rear"] * (base + slope * radius)
+    assert drive["load"][-1, 2:].sum() == pytest.approx(moment * G / base, rel=1e-3)
+    assert drive["force_x"][-1].sum() == pytest.approx(0.0, abs=20.0)
+    assert -drive["pitch"][-1] == pytest.approx(slope, abs=4e-3)
+
+
+@pytest.mark.parametrize("bank", [0.05, -0.05])
+def test_on_a_bank_the_lower_side_carries_more(car, bank):
+    drive = watched(car, road(120.0, height=lambda u, v: bank * v + 0 * u), 10.0)
+    load = drive["load"][-1]
+    wheels = car["unsprung_mass_front"] * car["roll_centre_height_front"]
+    wheels += car["unsprung_mass_rear"] * car["roll_centre_height_rear"]
+    moment = (load[0] - load[1] + load[2] - load[3]) * car["track_front"] / 2
+    lean = drive["roll"][-1] - bank
+    arm = car["cg_height"] - (car["roll_centre_height_front"] + car["roll_centre_height_rear"]) / 2
+    expected = -car["sprung_mass"] * G * (car["cg_height"] * bank + arm * lean)
+    assert moment == pytest.approx(expected, rel=0.02)
+    assert lean * bank < 0 or abs(lean) < abs(bank)
+
+
+def undamped(car):
+    return car.replace(damping_front=0.0, damping_rear=0.0, tyre_radial_damping=0.0)
+
+
+def bump(u, v):
+    return np.where((u > 10) & (u < 12), 0.01 * np.sin(np.pi * (u - 10) / 2) ** 2, 0.0) + 0 * v
+
+
+def test_energy_of_the_undamped_car_neither_grows_nor_fades(car):
+    free = undamped(car)
+    drive = watched(free, road(420.0, height=bump), 20.0, friction=1e-9, step=0.002)
+    mass_matrix = reference.Car(free).mass_matrix
+    wheels = reference.Car(free)
+    q = drive["speeds"].copy()
+    q[:, 0] -= q[0, 0]
+    kinetic = 0.5 * np.einsum("ti,ij,tj->t", q, mass_matrix, q)
+    kinetic += 0.5 * np.sum(wheels.wheel_mass * drive["wheel_v"] ** 2, axis=1)
+    stored = 0.5 * np.sum(wheels.spring * drive["travel"] ** 2 + 0.5 * wheels.bar * drive["twist"] ** 2, axis=1)
+    stored += 0.5 * wheels.tyre_stiffness * np.sum((drive["deflection"] - wheels.pressed) ** 2, axis=1)
+    tilt = np.sum(wheels.held * wheels.arm) * drive["roll"] ** 2
+    stored -= 0.5 * (tilt + wheels.held.sum() * wheels.wheel_height * drive["pitch"] ** 2)
+    energy = (kinetic + stored)[1000:]
+    assert energy.mean() > 1.0
+    quarter = len(energy) // 4
+    assert energy[-quarter:].mean() == pytest.approx(energy[:quarter].mean(), rel=2e-3)
+
+
+@pytest.mark.parametrize("radius", [80.0, -150.0])
+def test_steady_cornering_is_that_of_the_single_track_model(car, radius):
+    """Mitschke and Wallentowitz (2014), Dynamik der Kraftfahrzeuge: steering and side slip of the
+    linear single-track model; slip stiffness in proportion to load makes it neutral."""
+    speed = 9.0
+    drive = watched(car, road(160.0, curvature=1.0 / radius), speed)
+    front, base = car["cg_to_front_axle"], car["wheelbase"]
+    centripetal = speed**2 / radius
+    per_load = car["cornering_stiffness"] / car["tyre_reference_load"]
+    slip = centripetal / G / per_load
+    assert drive["speeds"][-1, 2] == pytest.approx(speed / radius, rel=5e-3)
+    assert drive["angle"][-1] == pytest.approx(base / radius, rel=0.03)
+    side_slip = drive["speeds"][-1, 1] / drive["speeds"][-1, 0]
+    assert side_slip == pytest.approx((base - front) / radius - slip, rel=0.05, abs=2e-4)
+
+
+def test_load_transfer_in_a_bend_balances_the_moment_about_the_road(car):
+    radius, speed = 120.0, 14.0
+    drive = watched(car, road(200.0, curvature=1.0 / radius), speed)
+    side = drive["acceleration"][-1, 1] + drive["speeds"][-1, 2] * drive["speeds"][-1, 0]
+    wheels = reference.Car(car)
+    moment = np.sum(wheels.y * drive["load"][-1])
+    lean = car["sprung_mass"] * G * np.mean(wheels.arm) * drive["roll"][-1]
+    inertia = side * (car["sprung_mass"] * car["cg_height"] + np.sum(wheels.wheel_mass * wheels.roll_centre))
+    assert -moment == pytest.approx(inertia + lean, rel=0.02)

@@ -1,0 +1,39 @@
+"""The compiled kernel equals the plain model."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort import simulate
+from ridecomfort.effects import compose
+from ridecomfort.vehicle import reference
+from ridecomfort.vehicle.constants import constants, wheel_table
+
+from tests.vehicle.roads import road, rough
+
+
+@pytest.mark.parametrize(
+    ("interpolation", "friction", "speed"),
+    [("cubic", 0.8, 22.0), ("linear", 0.3, 9.0)],
+    ids=["fast and dry", "slow and slippery"],
+)
+def test_kernel_equals_reference(car, interpolation, friction, speed):
+    ground = road(60.0, height=lambda u, v: rough(u, v) + 0.07 * u + 0.04 * v, curvature=0.012)
+    course = simulate.prepare(ground, interpolation)
+    targets = np.stack(
+        [speed + np.sin(course.u / 5), 0.3 * np.sin(course.u / 7), course.curvature], axis=1
+    )
+    start, end, step, every, sensor = 4.0, 40.0, 0.001, 10, (-0.1, 0.2, 0.9)
+    record, accelerations = np.empty((2000, 11)), np.empty((20000, 3))
+    records, steps = compose.compose([]).drive(
+        constants(car), wheel_table(car), course.surface, course.elevation, targets, friction,
+        start, end, step, every, sensor, np.zeros(0), 0, record, accelerations,
+    )  # fmt: skip
+    expected, expected_accelerations = reference.drive(
+        car, course.surface, course.elevation, targets, friction, start, end, step, every, sensor
+    )
+    assert steps == len(expected_accelerations) > 1000
+    np.testing.assert_allclose(accelerations[:steps], expected_accelerations, rtol=0, atol=1e-8)
+    known = [0, 1, 2, 6, 7, 8, 9, 10]
+    np.testing.assert_allclose(record[:records, known], expected[:, known], rtol=0, atol=1e-9)
