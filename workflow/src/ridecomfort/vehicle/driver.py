@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 from numba import njit
+from scipy.ndimage import minimum_filter1d
 
 from ..errors import InputError
 
@@ -51,7 +52,8 @@ def speed_profile(
 
     The highest speed that stays below ``limit`` (m/s) and below ``lateral_acceleration`` in
     bends and needs no more than ``acceleration`` and ``deceleration`` (m/s2, both positive)
-    between them, averaged over ``smoothing`` metres so that its acceleration has no steps.
+    between them, averaged over ``smoothing`` metres so that its acceleration has no steps; a
+    bend's speed holds from half of that before it to half of that after it.
     """
     for name, value in (
         ("limit", limit),
@@ -64,6 +66,7 @@ def speed_profile(
     u = road.u.values
     curvature = np.abs(smooth_curvature(road))
     square = np.minimum(limit**2, lateral_acceleration / np.maximum(curvature, 1e-9))
+    square = minimum_filter1d(square, 2 * round(smoothing / (u[1] - u[0]) / 2) + 1, mode="nearest")
     square = _limit_growth(square, u, acceleration)
     square = _limit_growth(square[::-1], -u[::-1], deceleration)[::-1]
     speed = _moving_average(np.sqrt(square), u, smoothing)

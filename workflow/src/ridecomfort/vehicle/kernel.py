@@ -325,9 +325,10 @@ def _vertical(
 
 @njit(inline="always", error_model="numpy", _nrt=False)
 def brush(slip_x, slip_y, load, friction, stiffness_x, stiffness_y):
-    """Forces in N of a brush tyre with parabolic pressure under combined slip.
+    """Forces in N of a brush tyre with parabolic pressure under combined slip, and its give.
 
-    Pacejka (2012), Tire and Vehicle Dynamics, section 3.2; stiffnesses are per unit load.
+    Pacejka (2012), Tire and Vehicle Dynamics, section 3.2; stiffnesses are per unit load. The
+    give is the slope of the force over the slip, relative to that at no slip; 0 when it slides.
     """
     per_friction = 1.0 / friction
     x = stiffness_x * slip_x * per_friction
@@ -335,9 +336,10 @@ def brush(slip_x, slip_y, load, friction, stiffness_x, stiffness_y):
     total = sqrt(x * x + y * y)
     if total < 3.0:
         share = 1.0 - total * (1.0 / 3.0 - total * (1.0 / 27.0))
+        give = (1.0 - total * (1.0 / 3.0)) ** 2
     else:
-        share = 1.0 / total
-    return friction * load * share * x, friction * load * share * y
+        share, give = 1.0 / total, 0.0
+    return friction * load * share * x, friction * load * share * y, give
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)
@@ -362,15 +364,18 @@ def _planar(
         sliding = across * c - along * d
         per_speed = 1.0 / max(abs(rolling), MINIMUM_SPEED)
         slope = (ground[0, i] - ground[2, i]) * per_speed * per_two_steps - slope_x
+        pushed = (torque[i] - car.spin_inertia * spin_change[i]) / car.tyre_radius
         slip_x, slip_y, pull = tyre_planar_port(
             i, (spin[i] * car.tyre_radius - rolling) * per_speed, -sliding * per_speed, load[i], rolling, slope,
-            force_x[i], parameters, states, slopes,
+            pushed, parameters, states, slopes,
         )  # fmt: skip
-        tyre_x, tyre_y = brush(slip_x, slip_y, load[i], friction, car.slip_per_load, car.cornering_per_load)
+        tyre_x, tyre_y, give = brush(
+            slip_x, slip_y, load[i], friction, car.slip_per_load, car.cornering_per_load
+        )
         share = share_front if i < 2 else 1.0 - share_front
         torque[i] = 0.5 * share * demand * car.tyre_radius
         # Spin and slip force half a step on, implicit: slip answers fast at low speed.
-        grip = half * car.tyre_radius * car.slip_per_load * load[i] * per_speed
+        grip = half * give * car.tyre_radius * car.slip_per_load * load[i] * per_speed
         spin_change[i] = (torque[i] - car.tyre_radius * tyre_x) / (car.spin_inertia + car.tyre_radius * grip)
         tyre_x += grip * spin_change[i] + pull
         spin[i] += step * spin_change[i]

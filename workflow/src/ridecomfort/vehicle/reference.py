@@ -194,7 +194,8 @@ def drive(
         share = np.where(total < 3, 1 - total / 3 + total**2 / 27, 1 / np.maximum(total, 3))
         tyre_x, tyre_y = mu * load * share * grip_x, mu * load * share * grip_y
         torque = (car.drive if demand > 0 else car.brake) * demand * car.radius
-        stiffness = step / 2 * car.radius * car.slip * load / base
+        give = np.where(total < 3, (1 - total / 3) ** 2, 0.0)
+        stiffness = step / 2 * give * car.radius * car.slip * load / base
         spin_change = (torque - car.radius * tyre_x) / (car.spin_inertia + car.radius * stiffness)
         tyre_x = tyre_x + stiffness * spin_change
         force_x = tyre_x * np.cos(steer) - tyre_y * np.sin(steer) - load * slope_x

@@ -1,0 +1,106 @@
+"""The door to the simulator."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ridecomfort import simulate
+from ridecomfort.errors import InputError
+from ridecomfort.vehicle import parameters
+from ridecomfort.vocabulary import DRIVE
+from tests.vehicle.roads import road, rough
+
+
+@pytest.fixture(scope="module")
+def car(repository):
+    return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+
+
+@pytest.fixture(scope="module")
+def course():
+    return simulate.prepare(road(120.0, height=rough))
+
+
+def test_a_drive_holds_what_every_drive_holds(course, car):
+    drive = simulate.run(course, car, speed=20.0)
+    assert set(DRIVE) <= set(drive.data_vars)
+    assert all("units" in drive[name].attrs for name in DRIVE)
+    assert np.diff(drive.time.values) == pytest.approx(0.01)
+    assert (np.diff(drive.s.values) > 0).all()
+
+
+def test_runs_do_not_depend_on_their_company(course, car):
+    """Bit for bit: a shard is a slice of the runs and nothing else."""
+    speed = xr.DataArray(np.full(course.u.size, 18.0), {"u": course.u}, "u")
+    samples = dict(
+        speed_deviation=[0.1, -0.2, 0.3], lateral_position=[0.0, 0.2, -0.1], road_friction=[0.7, 0.9, 1.0]
+    )
+    together = simulate.runs(course, car, speed=speed, **samples)
+    alone = simulate.runs(course, car, speed=speed, **{k: v[1:2] for k, v in samples.items()})
+    length = alone.time.size
+    for name in alone.data_vars:
+        np.testing.assert_array_equal(together[name].values[1, :length], alone[name].values[0])
+
+
+def test_a_sensor_off_the_centre_feels_the_rigid_body(course, car):
+    """The vertical acceleration ahead of the centre lacks that of pitching: a_z - x dw/dt."""
+    centre = simulate.run(course, car, speed=20.0, rate=1000.0)
+    ahead = simulate.run(course, car, speed=20.0, rate=1000.0, sensor=(1.2, 0.0, 0.0))
+    pitching = np.gradient(centre.pitch_rate.values, 0.001)
+    found = (ahead.a_z - centre.a_z).values
+    assert (found + 1.2 * pitching).std() < 0.05 * found.std()
+    np.testing.assert_array_equal(ahead.pitch_rate, centre.pitch_rate)
+
+
+def test_records_do_not_alias(car):
+    """Unevenness felt at 70 Hz, above half the rate, leaves no false 30 Hz."""
+    speed, wave = 21.0, 0.3
+    felt = simulate.run(
+        road(150.0, 0.02, height=lambda u, v: 2e-4 * np.sin(2 * np.pi * u / wave) + 0 * v), car, speed=speed
+    )
+    fine = simulate.run(
+        road(150.0, 0.02, height=lambda u, v: 2e-4 * np.sin(2 * np.pi * u / wave) + 0 * v),
+        car, speed=speed, rate=500.0,
+    )  # fmt: skip
+    middle = slice(2.0, 5.0)
+    assert float(felt.a_z.sel(time=middle).std()) < 0.05 * float(fine.a_z.sel(time=middle).std())
+
+
+@pytest.mark.parametrize(
+    ("given", "named"),
+    [
+        (dict(speed=-3.0), "speed"),
+        (dict(speed=float("nan")), "speed"),
+        (dict(speed=20.0, friction=0.0), "friction"),
+        (dict(speed=20.0, step=0.003), "step"),
+        (dict(speed=20.0, start=500.0), "start"),
+        (dict(speed=20.0, effects=["warp_drive"]), "warp_drive"),
+        (dict(speed=20.0, effects={"suspension_friction": {"middle": 3.0}}), "middle"),
+    ],
+)
+def test_what_cannot_be_simulated_is_said_in_a_line(course, car, given, named):
+    with pytest.raises(InputError, match=named):
+        simulate.run(course, car, **given)
+
+
+def test_the_golden_car_on_four_corners_is_the_quarter_car(repository):
+    """Sayers (1995): acceleration of the body above a wheel against the quarter-car solved by scipy."""
+    from scipy.signal import StateSpace, lsim
+
+    golden = parameters.read(repository / "config" / "vehicles" / "golden_car.yaml")
+    ground = road(260.0, height=lambda u, v: rough(u, v)[:, :1] + 0 * v)
+    place = (golden["cg_to_front_axle"], golden["track_front"] / 2, 0.0)
+    drive = simulate.run(ground, golden, speed=80 / 3.6, friction=1e-9, sensor=place)
+    k1, k2, c, mu = 653.0, 63.3, 6.0, 0.15
+    a = [[0, 1, 0, 0], [-k2, -c, k2, c], [0, 0, 0, 1], [k2 / mu, c / mu, -(k1 + k2) / mu, -c / mu]]
+    quarter = StateSpace(a, [[0], [0], [0], [k1 / mu]], [a[1]], [[0]])
+    time = np.arange(0, drive.time.values[-1], 0.001)
+    s = np.interp(time, drive.time, drive.s) + golden["cg_to_front_axle"]
+    height = np.interp(s, ground.u, ground.elevation[:, 20])
+    _, acceleration, _ = lsim(quarter, height - height[0], time)
+    expected = np.interp(drive.time, time, acceleration)
+    settled = slice(300, -30)
+    difference = drive.a_z.values[settled] - expected[settled]
+    assert difference.std() < 0.05 * expected[settled].std()

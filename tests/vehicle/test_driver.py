@@ -1,0 +1,67 @@
+"""The driver: a comfortable speed, and a path and speed that are held."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ridecomfort import simulate
+from ridecomfort.errors import InputError
+from ridecomfort.vehicle import driver
+
+from tests.vehicle.roads import road
+
+LIMITS = dict(limit=27.0, lateral_acceleration=3.0, acceleration=1.0, deceleration=1.5)
+
+
+def bend(length=900.0, radius=60.0):
+    """A straight, a bend of the given radius with transitions, a straight."""
+    u = np.arange(0.0, length + 0.05, 0.1)
+    return np.interp(u, [0, 400, 440, 520, 560, length], [0, 0, 1 / radius, 1 / radius, 0, 0])
+
+
+def test_speed_profile_keeps_its_limits():
+    ground = road(900.0, curvature=bend())
+    speed = driver.speed_profile(ground, **LIMITS)
+    gain = np.gradient(speed.values**2 / 2, ground.u.values)
+    assert speed.max() <= 27.0 + 1e-9
+    assert (speed**2 * np.abs(ground.curvature)).max() < 3.0 * 1.05
+    assert gain.max() < 1.0 * 1.05 and gain.min() > -1.5 * 1.05
+    assert speed.sel(u=480.0, method="nearest") == pytest.approx(np.sqrt(3.0 * 60.0), rel=0.01)
+    assert speed.isel(u=0) == pytest.approx(27.0)
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_a_limit_that_is_not_positive_is_refused(name):
+    with pytest.raises(InputError, match=name):
+        driver.speed_profile(road(50.0), **{**LIMITS, name: -1.0})
+
+
+def test_path_and_speed_are_held_through_a_bend(car):
+    ground = road(900.0, curvature=bend())
+    drive = simulate.run(ground, car, speed=driver.speed_profile(ground, **LIMITS), lateral=0.3)
+    target = driver.speed_profile(ground, **LIMITS).interp(u=drive.s.values)
+    assert np.abs(drive.e - 0.3).max() < 0.25
+    assert np.abs(drive.v_x.values - target.values).max() < 0.5
+    assert np.abs(drive.a_y).max() < 3.6
+
+
+def test_a_grade_costs_no_lasting_speed(car):
+    ground = road(800.0, height=lambda u, v: 0.07 * np.maximum(u - 100, 0) + 0 * v)
+    drive = simulate.run(ground, car, speed=15.0)
+    assert drive.v_x.isel(time=-1) == pytest.approx(15.0, abs=0.05)
+
+
+def test_too_little_friction_for_a_grade_is_said(car):
+    ground = road(400.0, height=lambda u, v: 0.3 * np.maximum(u - 50, 0) + 0 * v)
+    with pytest.raises(InputError, match="friction"):
+        simulate.run(ground, car, speed=10.0, friction=0.1)
+
+
+def test_a_lateral_profile_is_followed(car):
+    ground = road(400.0)
+    shift = xr.DataArray(np.interp(ground.u, [150, 250], [0.0, 0.5]), {"u": ground.u}, "u")
+    drive = simulate.run(ground, car, speed=15.0, lateral=shift)
+    assert drive.e.isel(time=-1) == pytest.approx(0.5, abs=0.02)
+    assert float(drive.e.sel(time=slice(0, 5)).max()) < 0.05

@@ -1,0 +1,66 @@
+"""Vehicles are files: each parameter with unit and source, and a wrong one refused by name."""
+
+from __future__ import annotations
+
+import pytest
+import yaml
+
+from ridecomfort.errors import InputError
+from ridecomfort.vehicle import parameters
+
+
+@pytest.mark.parametrize("name", ["midsize", "van", "golden_car"])
+def test_every_vehicle_of_the_study_is_complete_and_sourced(repository, name):
+    vehicle = parameters.read(repository / "config" / "vehicles" / f"{name}.yaml")
+    assert vehicle.values.keys() == parameters.PARAMETERS.keys()
+    assert all(len(source) > 5 for source in vehicle.sources.values())
+
+
+@pytest.fixture
+def content(repository):
+    return yaml.safe_load((repository / "config" / "vehicles" / "midsize.yaml").read_text())
+
+
+def refused(tmp_path, content) -> str:
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(content))
+    with pytest.raises(InputError) as problem:
+        parameters.read(path)
+    message = str(problem.value)
+    assert "mine.yaml" in message and "\n" not in message
+    return message
+
+
+def test_a_wrong_unit_is_refused(tmp_path, content):
+    content["parameters"]["spring_stiffness_front"]["unit"] = "N/mm"
+    message = refused(tmp_path, content)
+    assert "spring_stiffness_front" in message and "'N/m'" in message
+
+
+@pytest.mark.parametrize("value", [-1.0, 28.0, 2.8e7, "stiff", True, float("nan")])
+def test_an_implausible_value_is_refused(tmp_path, content, value):
+    content["parameters"]["spring_stiffness_front"]["value"] = value
+    assert "spring_stiffness_front" in refused(tmp_path, content)
+
+
+def test_an_unknown_parameter_is_refused(tmp_path, content):
+    content["parameters"]["colour"] = {"value": 1, "unit": "1", "source": "paint"}
+    assert "colour" in refused(tmp_path, content)
+
+
+def test_a_missing_parameter_is_refused(tmp_path, content):
+    del content["parameters"]["wheelbase"]
+    assert "wheelbase" in refused(tmp_path, content)
+
+
+def test_a_centre_of_gravity_behind_the_rear_axle_is_refused(tmp_path, content):
+    content["parameters"]["cg_to_front_axle"]["value"] = 3.0
+    assert "cg_to_front_axle" in refused(tmp_path, content)
+
+
+def test_replace_checks_like_reading(car):
+    assert car.replace(sprung_mass=1500.0)["sprung_mass"] == 1500.0
+    with pytest.raises(InputError, match="sprung_mass"):
+        car.replace(sprung_mass=-1.0)
+    with pytest.raises(InputError, match="weight"):
+        car.replace(weight=1500.0)
