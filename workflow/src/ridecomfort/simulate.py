@@ -12,6 +12,7 @@ from numba import njit
 from scipy.signal import firwin
 
 from .effects import compose, library
+from .effects.contract import COMPILED
 from .errors import InputError
 from .road import surface
 from .vehicle import driver
@@ -102,12 +103,19 @@ def run(
     for entry, sizes in chosen:
         if entry.effect.port == "vehicle":
             vehicle = entry.act(vehicle, **sizes)
+    believed = course.on_u(lateral, "lateral")
+    driven = believed
+    for entry, sizes in chosen:
+        if entry.effect.port == "path":
+            driven = entry.act(driven, course.u, **sizes)
+    lateral = xr.DataArray(driven, {"u": course.u}, "u")
     record = _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, end, step, rate)
     drive = xr.Dataset(
         {name: ("time", column) for name, column in zip(COLUMNS, record.T, strict=True)},
         coords={"time": np.arange(len(record)) / rate},
         attrs={"sensor_x": sensor[0], "sensor_y": sensor[1], "sensor_z": sensor[2], "vehicle": vehicle.name},
     )
+    drive["e"] = drive["e"] - np.interp(drive["s"], course.u, driven - believed)
     for entry, sizes in chosen:
         if entry.effect.port == "sensor":
             drive = entry.act(drive, **sizes)
@@ -185,7 +193,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     sizes = [
         value
         for entry, values in chosen
-        if entry.effect.port not in ("vehicle", "sensor")
+        if entry.effect.port in COMPILED
         for value in (values[parameter.name] for parameter in entry.effect.parameters)
     ]
     steps = int(seconds / step)
@@ -215,6 +223,8 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
 @lru_cache
 def _taps(every: int) -> np.ndarray:
     """A low pass at the rate of the steps that is flat to 0.40 and closed from 0.60 of the records' rate."""
+    if every == 1:
+        return np.ones(1)
     taps = firwin(10 * every + 1, 1.0 / every, window=("kaiser", 4.0))
     return taps / taps.sum()
 

@@ -25,7 +25,8 @@ from .library import Entry
 
 PACKAGE = Path(__file__).parent.parent
 SOURCES = ("vehicle/kernel.py", "vehicle/ground.py", "vehicle/driver.py", "vehicle/motion.py",
-           "vehicle/constants.py", "road/surface.py", "effects/neutral.py", "vocabulary.py")  # fmt: skip
+           "vehicle/constants.py", "road/surface.py", "effects/neutral.py", "effects/lag.py",
+           "vocabulary.py")  # fmt: skip
 """What the compiled kernel is made of; a change in any of them compiles anew."""
 
 
@@ -117,8 +118,7 @@ def _port_source(name: str, places) -> list[str]:
     port = PORTS[name]
     signature = ", ".join((*port.sees, "parameters", "states", "slopes"))
     lines = ['@njit(inline="always", **PHYSICS)', f"def {name}_port({signature}):"]
-    if port.joined == "sum":
-        lines += [f"    {result} = 0.0" for result in port.returns]
+    lines += [f"    {result} = 0.0" for result in port.returns if result not in port.sees]
     for effect, parameter, state in places:
         count = len(effect.states)
         offset = f"{state} + {count} * wheel" if port.per_wheel else f"{state}"
@@ -128,8 +128,8 @@ def _port_source(name: str, places) -> list[str]:
         results = [f"new_{result}" for result in port.returns]
         targets = ", ".join(results + [f"slopes[{offset} + {k}]" for k in range(count)])
         lines.append(f"    {targets} = {effect.name}({', '.join(arguments)})")
-        sign = "+=" if port.joined == "sum" else "="
-        lines += [f"    {result} {sign} new_{result}" for result in port.returns]
+        for result in port.returns:
+            lines.append(f"    {result} {'=' if result in port.sees else '+='} new_{result}")
     lines.append(f"    return {', '.join(port.returns)}")
     return lines
 

@@ -4,7 +4,9 @@ An effect is one file with two names in it: ``effect``, an Effect, and ``act``, 
 of plain numbers. ``act`` takes what its port sees (``PORTS``), then its own states, then its
 parameters in the order declared, and returns what the port returns, followed by the time
 derivatives of its states. It must be a function that numba can compile, except at the
-ports ``vehicle`` and ``sensor``, which work on whole vehicles and drives in Python.
+ports of ``IN_PYTHON``, which work on whole vehicles, paths and drives. What a port returns
+under a name that it also sees is handed from effect to effect, each changing what the one
+before returned; what it does not see is added up over the effects.
 """
 
 from __future__ import annotations
@@ -16,12 +18,10 @@ from types import MappingProxyType
 
 @dataclass(frozen=True)
 class Port:
-    """A place where physics can be missing: what it sees, what it returns, how effects join there."""
+    """A place where physics can be missing: what it sees and what it returns."""
 
     sees: tuple[str, ...]
     returns: tuple[str, ...]
-    joined: str
-    """``sum``: results of all effects add up; ``chain``: each changes what the one before returned."""
     per_wheel: bool
     meaning: str
 
@@ -29,67 +29,94 @@ class Port:
 PORTS: Mapping[str, Port] = MappingProxyType(
     {
         "road": Port(
-            ("wheel", "u", "v", "height", "surface", "elevation"),
+            ("wheel", "u", "v", "height", "rotation", "surface", "elevation"),
             ("height",),
-            "chain",
             True,
-            "height in m that a tyre feels; `vehicle.ground.height(surface, elevation, u, v)` looks around it",
+            "height in m that a tyre feels; `vehicle.ground.height(surface, elevation, u, v)` looks around it; "
+            "turn of the wheel in rad",
         ),
         "suspension": Port(
-            ("wheel", "deflection", "velocity", "force_x", "force_y"),
+            ("wheel", "deflection", "velocity", "stiffness", "damping", "force_x", "force_y"),
             ("force",),
-            "sum",
             True,
             "extra force in N between body and wheel, positive pushing apart; deflection from rest and velocity "
-            "(m, m/s) positive in compression; force_x, force_y of the tyre (N)",
+            "(m, m/s) positive in compression; stiffness and damping of this corner's spring and damper (N/m, N s/m); "
+            "force_x, force_y of the tyre (N)",
         ),
         "tyre_vertical": Port(
-            ("wheel", "deflection", "velocity", "rotation"),
+            ("wheel", "deflection", "velocity", "stiffness", "rest", "rotation", "spin"),
             ("force",),
-            "sum",
             True,
-            "extra radial force in N, positive pushing the wheel up; deflection and its rate, turn of the wheel in rad",
+            "extra radial force in N, positive pushing the wheel up; deflection and its rate; radial stiffness (N/m), "
+            "deflection at rest (m); turn (rad) and spin (rad/s) of the wheel",
         ),
         "tyre_planar": Port(
-            ("wheel", "slip_x", "slip_y", "load", "speed"),
-            ("slip_x", "slip_y"),
-            "chain",
+            ("wheel", "slip_x", "slip_y", "load", "speed", "slope", "force_x"),
+            ("slip_x", "slip_y", "pull"),
             True,
-            "longitudinal slip and tangent of the slip angle that the tyre answers to; load in N, speed in m/s",
+            "longitudinal slip and tangent of the slip angle that the tyre answers to, and extra force in N that pulls "
+            "the axle forward; load in N, speed in m/s, slope of the road under this wheel against the plane under "
+            "all four, force_x that the tyre had the step before (N)",
         ),
         "body": Port(
             ("motion",),
             ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
-            "sum",
             False,
             "extra force (N) and moment (N m) on the sprung mass about its centre of gravity; `motion`: vehicle.motion.BodyMotion",
         ),
+        "flexing": Port(
+            ("motion", "x", "y", "z"),
+            ("a_x", "a_y", "a_z"),
+            False,
+            "acceleration in m/s2 of the place (x, y, z) of the sensor against the rigid body; places in m from the "
+            "centre of gravity",
+        ),
         "drive": Port(
-            ("force", "speed"), ("force",), "chain", False,
+            ("force", "speed"),
+            ("force",),
+            False,
             "driving force in N that reaches the wheels for the force asked for",
         ),
         "steer": Port(
-            ("angle", "speed", "force_y"), ("angle",), "chain", False,
+            ("angle", "speed", "force_y"),
+            ("angle",),
+            False,
             "angle in rad of the front wheels for the angle asked for; force_y: of the front tyres in N",
         ),
         "vehicle": Port(
-            ("vehicle",), ("vehicle",), "chain", False,
+            ("vehicle",),
+            ("vehicle",),
+            False,
             "a vehicle with changed parameters (in Python; `vehicle.parameters.Vehicle`)",
         ),
+        "path": Port(
+            ("lateral", "u"),
+            ("lateral",),
+            False,
+            "lateral position in m that is really driven where the record says `lateral` (in Python; arrays over u)",
+        ),
         "sensor": Port(
-            ("drive",), ("drive",), "chain", False,
+            ("drive",),
+            ("drive",),
+            False,
             "what the instrument records of a simulated drive (in Python; an xarray Dataset over time)",
         ),
     }
-)  # fmt: skip
+)
 
-COMPILED = tuple(name for name in PORTS if name not in ("vehicle", "sensor"))
-"""Ports inside the compiled kernel, in the order of its imports."""
+IN_PYTHON = ("vehicle", "path", "sensor")
+"""Ports outside the compiled kernel."""
+
+COMPILED = tuple(name for name in PORTS if name not in IN_PYTHON)
+"""Ports inside the compiled kernel."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A size of an effect: unit, the value at which it changes nothing, a usual one, what is plausible."""
+    """A size of an effect: unit, the value at which it changes nothing, a usual one, what is plausible.
+
+    Where ``neutral`` equals ``typical`` the parameter is no size: it only shapes the effect.
+    """
 
     name: str
     unit: str
@@ -112,6 +139,8 @@ class Effect:
     """Names of its own states (for each wheel, at a wheel's port), all zero at the start."""
     dissipative: bool = False
     """Whether it can only take energy out of the car."""
+    symmetric: bool = True
+    """Whether left and right are alike to it, so that a mirrored road gives a mirrored drive."""
 
     def values(self, sizes: Mapping[str, float] | None = None) -> dict[str, float]:
         """A value for every parameter: those given, and the typical one for the rest."""

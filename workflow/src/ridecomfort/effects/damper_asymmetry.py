@@ -8,15 +8,15 @@ effect = Effect(
         "Dampers resist rebound more than bump, mostly about 70 to 30, so that the body is drawn down on rough road "
         "and bumps pass with less force than the holes behind them."
     ),
-    source="Dixon (2007), The Shock Absorber Handbook, 2nd ed., chapter 1; Reimpell, Stoll and Betzler (2001), chapter 5",
+    source="Dixon (2007), The Shock Absorber Handbook; Reimpell, Stoll and Betzler (2001), The Automotive Chassis",
     port="suspension",
     parameters=(
-        Parameter("front", "N s/m", 0.0, 800.0, (0.0, 2000.0), "half the difference of rebound and bump damping, front"),
-        Parameter("rear", "N s/m", 0.0, 800.0, (0.0, 2000.0), "half the difference of rebound and bump damping, rear"),
+        Parameter("front", "1", 0.0, 0.4, (0.0, 0.7), "share of the damping that moves from bump to rebound, front"),
+        Parameter("rear", "1", 0.0, 0.4, (0.0, 0.7), "share of the damping that moves from bump to rebound, rear"),
     ),
 )
 
 
-def act(wheel, deflection, velocity, force_x, force_y, front, rear):
-    half = front if wheel < 2 else rear
-    return -half * abs(velocity)
+def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, front, rear):
+    share = front if wheel < 2 else rear
+    return -share * damping * abs(velocity)

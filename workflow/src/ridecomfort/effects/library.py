@@ -11,7 +11,7 @@ from ..errors import InputError
 from .contract import PORTS, Effect
 
 FOLDER = Path(__file__).parent
-HOUSE = {"__init__", "compose", "contract", "library", "neutral", "shape"}
+HOUSE = {"__init__", "compose", "contract", "lag", "library", "neutral", "table"}
 """Files of this folder that are not effects."""
 
 

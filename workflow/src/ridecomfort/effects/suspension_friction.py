@@ -1,11 +1,12 @@
 """Coulomb friction in the struts and joints of the suspension."""
 
-from math import tanh
-
 from ridecomfort.effects.contract import Effect, Parameter
 
-SLIDING_SPEED = 0.005
+SLIDING_SPEED = 0.002
 """m/s over which the force turns with the direction of motion; below the noise of a moving wheel."""
+
+STICKING = 20000.0
+"""N s/m; what does not slide is no stiffer damper than this, which a wheel can follow at a step of 1 ms."""
 
 effect = Effect(
     name="suspension_friction",
@@ -23,6 +24,6 @@ effect = Effect(
 )
 
 
-def act(wheel, deflection, velocity, force_x, force_y, front, rear):
+def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, front, rear):
     force = front if wheel < 2 else rear
-    return force * tanh(velocity / SLIDING_SPEED)
+    return force * min(max(velocity / (SLIDING_SPEED + force / STICKING), -1.0), 1.0)

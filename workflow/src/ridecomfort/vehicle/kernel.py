@@ -75,6 +75,15 @@ from ridecomfort.vocabulary import STANDARD_GRAVITY
 MINIMUM_SPEED = 1.0
 """m/s below which slips are no longer divided by the speed."""
 
+STANDSTILL = 0.3
+"""m/s at which a drive ends, wherever it is."""
+
+CONTACT_DEPTH = 0.005
+"""m of deflection over which the radial damping of a tyre builds up with its contact; it has
+none at touch-down, so that the load does not jump (Hunt and Crossley 1975, J. Appl. Mech. 42)."""
+
+PER_CONTACT_DEPTH = 1.0 / CONTACT_DEPTH
+
 GRADE_LENGTH = 20.0
 """m of road whose grade the speed controller knows of at the start."""
 
@@ -128,7 +137,8 @@ def _drive(
     integral = STANDARD_GRAVITY * rise / (GRADE_LENGTH * SPEED_INTEGRAL_GAIN)
 
     records, steps = 0, 0
-    while pose[S] < end and records < record.shape[0] and steps < accelerations.shape[0]:
+    room = min(record.shape[0] * every, accelerations.shape[0])
+    while pose[S] < end and speeds[V_X] > STANDSTILL and steps < room:
         for k in range(6):
             now[k] = speeds[k] + half * change[k]
         index, fraction = _locate(surface, targets, pose[S])
@@ -301,19 +311,20 @@ def _vertical(
         held -= wheels[i, DAMPING] * corner_speed + wheels[i, SCRUB] * side_push[i]
 
         deflection = ground[1, i] + car.tyre_radius - wheel_z[i]
+        damper = car.tyre_damping * min(max(deflection * PER_CONTACT_DEPTH, 0.0), 1.0)
         rate = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
-        radial = car.tyre_stiffness * deflection + car.tyre_damping * rate
+        radial = car.tyre_stiffness * deflection + damper * rate
         radial += tyre_vertical_port(
             i, deflection, rate - wheel_speed, car.tyre_stiffness, wheels[i, STATIC_DEFLECTION], rotation[i], spin[i],
             parameters, states, slopes,
         )  # fmt: skip
         # The wheel's own damping, implicit: its speed now is that before plus half a step of its change.
         weight = wheels[i, MASS] * STANDARD_GRAVITY
-        damping = car.tyre_damping + wheels[i, DAMPING]
+        damping = damper + wheels[i, DAMPING]
         push = radial - held - weight - damping * wheel_v[i]
         wheel_change[i] = push / (wheels[i, MASS] + half * damping)
         wheel_speed = wheel_v[i] + half * wheel_change[i]
-        load[i] = radial - car.tyre_damping * wheel_speed
+        load[i] = radial - damper * wheel_speed
         if load[i] < 0.0 or deflection <= 0.0:
             load[i] = 0.0
             push = -held - weight - wheels[i, DAMPING] * wheel_v[i]

@@ -24,7 +24,8 @@ Equations of motion in these moving axes (Boltzmann-Hamel; T is the kinetic ener
 S: suspension force (with the push of the links), N: load of the tyre, F: its force in the
 plane, T: driving torque, which the body takes up; h, h_wheel: heights of the centre of gravity
 above the road and above the wheel centres. A slope tilts the load: its level part is -N times
-the slope of the plane through the four contacts. ``aside`` and ``ahead`` are how far the loads
+the slope of the plane through the four contacts. The radial damping of a tyre builds up over
+the first CONTACT_DEPTH of its deflection. ``aside`` and ``ahead`` are how far the loads
 move under the centre of gravity as body and road tilt. The unsprung masses move sideways at the
 roll centre (arm below the centre of gravity).
 
@@ -43,8 +44,10 @@ from . import driver
 from .ground import height
 from .parameters import Vehicle
 
+CONTACT_DEPTH = 0.005
 GRADE_LENGTH = 20.0
 MINIMUM_SPEED = 1.0
+STANDSTILL = 0.3
 
 
 class Car:
@@ -144,7 +147,7 @@ def drive(
     rates = np.array([speed, 0.0, 0.0])
     records, accelerations = [], []
 
-    while s < end:
+    while s < end and q[0] > STANDSTILL:
         v_x, v_y, r, v_z, p, w = now = q + step / 2 * acceleration
         pace = max(v_x, MINIMUM_SPEED)
         curvature = target(s, 2)
@@ -170,11 +173,12 @@ def drive(
         spring = car.held + car.spring * travel + car.bar * twist - car.damper * corner_v
         spring = spring - car.scrub * side_push
         deflection = ground[0] + car.radius - wheel_z
-        tyre = car.tyre_stiffness * deflection + car.tyre_damping * ground_rate
+        tyre_damper = car.tyre_damping * np.clip(deflection / CONTACT_DEPTH, 0.0, 1.0)
+        tyre = car.tyre_stiffness * deflection + tyre_damper * ground_rate
         weight = car.wheel_mass * STANDARD_GRAVITY
-        damping = car.tyre_damping + car.damper
+        damping = tyre_damper + car.damper
         wheel_acceleration = (tyre - spring - weight - damping * wheel_v) / (car.wheel_mass + step / 2 * damping)
-        load = tyre - car.tyre_damping * (wheel_v + step / 2 * wheel_acceleration)
+        load = tyre - tyre_damper * (wheel_v + step / 2 * wheel_acceleration)
         lifted = (load < 0) | (deflection <= 0)
         free = (-spring - weight - car.damper * wheel_v) / (car.wheel_mass + step / 2 * car.damper)
         load = np.where(lifted, 0.0, load)

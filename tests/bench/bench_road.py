@@ -1,0 +1,50 @@
+"""Speed of the road: heights a second, against ASAM's library on the same grid."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import pycrg
+
+from ridecomfort.road import crg, surface
+
+LENGTH, WIDTH, SPACING = 1000.0, 4.0, 0.1
+EVALUATIONS = 4_000_000
+
+
+def bench() -> dict:
+    """Heights in 1/s on one core: ours and ASAM's, positions along a drive and at random."""
+    rng = np.random.default_rng(1)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "road.crg"
+        shape = round(LENGTH / SPACING) + 1, round(WIDTH / SPACING) + 1
+        lateral = np.linspace(-WIDTH / 2, WIDTH / 2, shape[1])
+        pycrg.write(path, rng.normal(0, 0.01, shape), SPACING, lateral, mods={})
+        road = crg.read(path)
+        drive = np.linspace(1.0, LENGTH - 1.0, EVALUATIONS), 0.5 * np.sin(np.linspace(0, 60, EVALUATIONS))
+        anywhere = rng.uniform(0, LENGTH, EVALUATIONS), rng.uniform(-WIDTH / 2, WIDTH / 2, EVALUATIONS)
+        axes = surface.grid(road)
+        figures = {}
+        with pycrg.RoadSurface.open(path) as asam:
+            for place, (u, v) in {"drive": drive, "random": anywhere}.items():
+                heights = np.empty(EVALUATIONS)
+                for name, call in {
+                    "linear": lambda: surface._linear_at(*axes, u, v, heights),
+                    "cubic": lambda: surface._cubic_at(*axes, u, v, heights),
+                    "asam": lambda: asam.uv_to_z_many(u, v),
+                }.items():
+                    figures[f"road_{name}_{place}_heights_per_s"] = EVALUATIONS / _best(call)
+    return figures
+
+
+def _best(call, repeats: int = 4) -> float:
+    """Shortest of several times in s, the first of which also compiles."""
+    times = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - start)
+    return min(times)

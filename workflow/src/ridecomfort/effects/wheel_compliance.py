@@ -1,0 +1,36 @@
+"""Wheels that give way fore and aft."""
+
+from math import sqrt
+
+from ridecomfort.effects.contract import Effect, Parameter
+
+STIFFEST = 2e-7
+"""m/N; the least compliance that is integrated, a smaller one is that share of it."""
+
+effect = Effect(
+    name="wheel_compliance",
+    sentence=(
+        "Bushings let a wheel move fore and aft under the longitudinal force of its tyre: the body feels that force "
+        "through a spring and a mass, and the tyre slips less."
+    ),
+    source="Heissing and Ersoy (2011), Chassis Handbook; Pacejka (2012), Tire and Vehicle Dynamics",
+    port="tyre_planar",
+    parameters=(
+        Parameter("front", "m/N", 0.0, 2e-6, (0.0, 6e-6), "longitudinal compliance of one front wheel"),
+        Parameter("rear", "m/N", 0.0, 2e-6, (0.0, 6e-6), "longitudinal compliance of one rear wheel"),
+        Parameter("mass", "kg", 45.0, 45.0, (15.0, 120.0), "mass that moves fore and aft with one wheel"),
+        Parameter("damping_ratio", "1", 0.1, 0.1, (0.02, 0.4), "damping ratio of the bushings with that mass"),
+    ),
+    states=("place", "rate"),
+)
+
+
+def act(wheel, slip_x, slip_y, load, speed, slope, force_x, place, rate, front, rear, mass, damping_ratio):
+    compliance = front if wheel < 2 else rear
+    integrated = max(compliance, STIFFEST)
+    share = compliance / integrated
+    stiffness = 1.0 / integrated
+    damping = 2.0 * damping_ratio * sqrt(stiffness * mass)
+    acceleration = (force_x - stiffness * place - damping * rate) / mass
+    slip_x -= share * rate / max(abs(speed), 1.0)
+    return slip_x, slip_y, -share * mass * acceleration, rate, acceleration
