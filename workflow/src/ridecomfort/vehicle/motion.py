@@ -78,7 +78,7 @@ def body_rates(row, pose, speeds):
     p, q, r = speeds[ROLL_RATE], speeds[PITCH_RATE], speeds[YAW_RATE]
     row[0] = pose[S]
     row[1] = pose[E]
-    row[2] = speeds[V_X]
+    row[2] = speeds[V_X] * (1.0 - 0.5 * pitch * pitch) - pitch * speeds[V_Z]
     row[6] = p - pitch * r
     row[7] = q + roll * r
     row[8] = r + pitch * p - roll * q

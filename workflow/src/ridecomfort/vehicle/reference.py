@@ -235,7 +235,8 @@ def drive(
         accelerations.append(_felt(sensor, now, acceleration, roll, pitch))
         if (len(accelerations) - 1) % every == 0:
             turning = _in_body_axes(np.array([p, w, r]), roll, pitch)
-            records.append([s, e, v_x, np.nan, np.nan, np.nan, *turning, roll, pitch])
+            along_body = v_x * (1 - pitch**2 / 2) - pitch * v_z
+            records.append([s, e, along_body, np.nan, np.nan, np.nan, *turning, roll, pitch])
 
         spin = spin + step * spin_change
         wheel_v = wheel_v + step * wheel_acceleration
