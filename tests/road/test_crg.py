@@ -1,0 +1,298 @@
+"""OpenCRG files: what is read, what is written, what is refused. ASAM's own library is the judge."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pycrg
+import pytest
+
+from ridecomfort.errors import InputError
+from ridecomfort.road import crg, surface
+
+READABLE = (
+    "Barber", "belgian_block", "detrended_rms_course_1in", "handmade_arc", "handmade_banked", "handmade_circle",
+    "handmade_curved", "handmade_curved_banked_sloped", "handmade_curved_minimalist", "handmade_platform",
+    "handmade_sloped", "handmade_sloped_opts", "handmade_straight", "handmade_straight_NaN",
+    "handmade_straight_double", "handmade_straight_minimalist", "handmade_vtest",
+)  # fmt: skip
+
+
+def small(path, **changes):
+    """A file of 30 x 5 cells, 0.1 m along and 1 m across, written by pycrg."""
+    z = np.random.default_rng(3).normal(0, 0.01, (30, 5))
+    arguments = {"z": z, "du": 0.1, "v": np.linspace(-2, 2, 5), "mods": {}} | changes
+    pycrg.write(path, **arguments)
+    return path
+
+
+def edited(source, target, *replacements):
+    """A copy of a text file in which each pattern was replaced, and was there to be replaced."""
+    text = source.read_text(encoding="latin-1")
+    for pattern, new in replacements:
+        text, count = re.subn(pattern, new, text)
+        assert count, pattern
+    target.write_text(text, encoding="latin-1")
+    return target
+
+
+@pytest.mark.parametrize("name", READABLE)
+def test_every_sample_agrees_with_asams_library(shared, name):
+    path = shared / "data" / "opencrg" / f"{name}.crg"
+    road = crg.read(path)
+    rng = np.random.default_rng(0)
+    u = rng.uniform(road.u[0] - 3, road.u[-1] + 3, 5000)
+    v = rng.uniform(road.v[0] - 1, road.v[-1] + 1, 5000)
+    with pycrg.RoadSurface.open(path) as asam:
+        np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
+        x, y = asam.uv_to_xy_many(road.u.values, 0.0)
+        np.testing.assert_allclose(road.x, x, rtol=0, atol=1e-6)
+        np.testing.assert_allclose(road.y, y, rtol=0, atol=1e-6)
+        heading, curvature = asam.uv_to_pk_many(road.u.values + 1e-9, 0.0)
+        inner = (road.u > road.u[0] + 0.6) & (road.u < road.u[-1] - 0.6 - float(road.u[1] - road.u[0]))
+        turn = np.angle(np.exp(1j * (road.heading.values - heading)))
+        np.testing.assert_allclose(turn[inner], 0.0, atol=1e-9)
+        np.testing.assert_allclose(road.curvature[inner], curvature[inner], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["fileref", "fileref_mods", "fileref_opts"])
+def test_file_references_are_followed_from_the_file_that_names_them(shared, tmp_path, name):
+    samples = shared / "data" / "opencrg"
+    (tmp_path / "crg-txt").mkdir()
+    (tmp_path / "site").mkdir()
+    target = "handmade_curved_banked_sloped.crg"
+    (tmp_path / "crg-txt" / target).write_bytes((samples / target).read_bytes())
+    path = tmp_path / "site" / f"{name}.crg"
+    path.write_bytes((samples / f"{name}.crg").read_bytes())
+    road = crg.read(path)
+    u, v = np.meshgrid(np.linspace(0, 22, 50), np.linspace(-1.5, 1.5, 30), indexing="ij")
+    with pycrg.RoadSurface.open(path) as asam:
+        np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
+    assert f"read from {target} by way of {name}.crg" in road.treatment
+
+
+def random_file(path, rng):
+    """A file with random grid, reference line, options and modifiers, in a random format."""
+    nu, nv = rng.integers(8, 60), rng.integers(3, 12)
+    z = rng.normal(0, 0.05, (nu, nv))
+    if rng.random() < 0.6:
+        for row in z:
+            row[: rng.integers(0, nv // 2)] = np.nan
+            row[nv - rng.integers(0, nv // 2) :] = np.nan
+
+    def some(**candidates):
+        return {key: value for key, value in candidates.items() if rng.random() < 0.5}
+
+    options = some(
+        border_mode_u=int(rng.integers(0, 5)), border_mode_v=int(rng.integers(0, 5)), border_offset_u=0.3,
+        border_offset_v=0.2, border_smooth_ubeg=0.7, border_smooth_uend=0.4,
+    )  # fmt: skip
+    modifiers = some(
+        grid_nan_mode=int(rng.integers(0, 3)), scale_z_grid=2.0, scale_slope=0.5, scale_banking=0.5,
+        scale_length=1.5, scale_width=0.5, scale_curvature=0.5,
+    )  # fmt: skip
+    if rng.random() < 0.5:
+        modifiers |= dict(refpoint_u=0.6, refpoint_v=0.0, refpoint_x=5.0, refpoint_y=1.0, refpoint_z=0.4)
+    pycrg.write(
+        path, z, 0.25, np.linspace(-2, 2, nv), np.cumsum(rng.normal(0, 0.002, nu)), u0=rng.choice([0.0, 100.0]),
+        x0=10.0, y0=5.0, z0=2.0, slope=rng.normal(0, 0.05, nu), banking=rng.normal(0, 0.03, nu),
+        fmt=rng.choice(crg.FORMATS), opts=rng.choice([None, options]), mods=rng.choice([None, {}, modifiers]),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_random_files_agree_with_asams_library_inside_and_beyond_the_grid(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    path = tmp_path / "road.crg"
+    random_file(path, rng)
+    road = crg.read(path)
+    u = rng.uniform(-1, 2, 2000) * float(road.u[-1] - road.u[0]) + float(road.u[0])
+    v = rng.uniform(-1, 2, 2000) * float(road.v[-1] - road.v[0]) + float(road.v[0])
+    with pycrg.RoadSurface.open(path) as asam:
+        np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("format", crg.FORMATS)
+def test_a_climb_of_140_m_survives_writing(tmp_path, alpine, format):
+    alpine = alpine.isel(u=slice(0, 20001 if format == "KRBI" else 3001))
+    path = tmp_path / "road.crg"
+    crg.write(path, alpine, format=format)
+    again = crg.read(path)
+    np.testing.assert_allclose(again.elevation, alpine.elevation, rtol=0, atol=6e-5)
+    for name, tolerance in {"x": 1e-3, "y": 1e-3, "heading": 1e-6, "slope": 1e-7, "bank": 1e-7}.items():
+        np.testing.assert_allclose(again[name][1:-1], alpine[name][1:-1], rtol=0, atol=tolerance)
+    with pycrg.RoadSurface.open(path) as asam:
+        u, v = np.meshgrid(alpine.u[::37], alpine.v, indexing="ij")
+        heights = alpine.elevation.values[::37]
+        known = np.isfinite(heights)
+        np.testing.assert_allclose(asam.uv_to_z_many(u, v)[known], heights[known], rtol=0, atol=6e-5)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_road_that_was_read_and_written_is_the_same_road_beyond_its_borders_too(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    random_file(tmp_path / "road.crg", rng)
+    road = crg.read(tmp_path / "road.crg")
+    crg.write(tmp_path / "again.crg", road, format="KDBI")
+    again = crg.read(tmp_path / "again.crg")
+    u = rng.uniform(-1, 2, 2000) * float(road.u[-1] - road.u[0]) + float(road.u[0])
+    v = rng.uniform(-1, 2, 2000) * float(road.v[-1] - road.v[0]) + float(road.v[0])
+    inside = (u > float(road.u[0]) + 1e-6) & (u < float(road.u[-1]) - 1e-6)
+    np.testing.assert_allclose(surface.height(again, u, v)[inside], surface.height(road, u, v)[inside], atol=6e-5)
+    beyond = surface.height(again, u, v)[~inside], surface.height(road, u, v)[~inside]
+    np.testing.assert_allclose(*beyond, atol=1e-4)
+
+
+def test_a_straight_road_is_written_straight(tmp_path, alpine):
+    alpine["x"], alpine["y"] = alpine.u, 0.0 * alpine.u
+    crg.write(tmp_path / "road.crg", alpine)
+    again = crg.read(tmp_path / "road.crg")
+    assert (again.heading == 0.0).all() and (again.y == 0.0).all()
+
+
+def test_writing_leaves_nothing_behind_when_it_fails(tmp_path, alpine):
+    alpine.elevation[10, 20] = np.nan
+    with pytest.raises(InputError, match="between valid"):
+        crg.write(tmp_path / "road.crg", alpine)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_placement_is_a_choice_and_is_recorded(tmp_path):
+    path = small(tmp_path / "road.crg", mods=None, x0=100.0, y0=50.0, z0=300.0, phi=1.0)
+    moved = crg.read(path)
+    assert (float(moved.x[0]), float(moved.y[0]), float(moved.heading[0])) == (0.0, 0.0, 0.0)
+    assert "no modifier block in the file" in moved.treatment and "origin" in moved.treatment
+    stored = crg.read(path, modifiers="explicit")
+    assert (float(stored.x[0]), float(stored.y[0]), float(stored.heading[0])) == (100.0, 50.0, 1.0)
+    assert float(stored.elevation.mean()) == pytest.approx(300.0, abs=0.01)
+    assert "as stored" in stored.treatment
+
+
+def test_modifiers_of_the_file_can_be_ignored(tmp_path):
+    path = small(tmp_path / "road.crg", mods={"scale_z_grid": 3.0})
+    ratio = crg.read(path).elevation / crg.read(path, modifiers="ignore").elevation
+    np.testing.assert_allclose(ratio, 3.0, rtol=1e-6)
+
+
+def test_edges_without_heights_stay_empty_and_kernels_get_the_nearest_height(shared):
+    road = crg.read(shared / "data" / "opencrg" / "belgian_block.crg")
+    assert int(road.elevation.isnull().sum()) == 22228
+    elevation, u0, du, v0, dv = surface.grid(road)
+    assert np.isfinite(elevation).all() and elevation.flags.c_contiguous
+    assert (u0, du, v0, dv) == pytest.approx((730.0, 0.01, -1.7, 0.01))
+    assert "outside the edges" in road.treatment
+
+
+def test_long_sections_at_uneven_positions_become_an_equidistant_grid(tmp_path):
+    at = np.array([-2.0, -0.5, 0.0, 1.0, 2.0])
+    path = small(tmp_path / "road.crg", v=at)
+    road = crg.read(path)
+    np.testing.assert_allclose(road.v, np.linspace(-2, 2, 9))
+    assert "5 long sections resampled to 9" in road.treatment
+    small(path, v=np.array([-2.0, -0.71828183, 0.0, 1.0, 2.0]))
+    with pytest.raises(InputError, match="no equidistant grid"):
+        crg.read(path)
+    assert "not exactly" in crg.read(path, lateral_grid="resample").treatment
+
+
+REFUSALS = {
+    "cut off inside a line": ("handmade_straight", lambda text: text[:-40], "data line 23 of 23"),
+    "a line short": ("handmade_straight", lambda text: text[: text.rstrip().rfind("\n") + 1], "reference_line_end_u"),
+    "without a last line end": ("handmade_straight", lambda text: text.rstrip(), "end of the last line missing"),
+    "one line more": ("handmade_straight", lambda text: text + text.splitlines()[-1] + "\n", "reference_line_end_u"),
+    "longer in the header": (
+        "handmade_straight", lambda text: text.replace("END_U     = 22.0", "END_U     = 30.0"), "makes 31",
+    ),
+    "wider in the header": (
+        "handmade_straight", lambda text: text.replace("V_LEFT      = 1.50", "V_LEFT      = 2.50"), "2.5 m, but",
+    ),
+    "finer in the header": (
+        "handmade_straight", lambda text: text.replace("V_INCREMENT = 0.50", "V_INCREMENT = 0.25"), "long_section_v",
+    ),
+    "a channel too few": (
+        "handmade_sloped", lambda text: text.replace("D:long section at v = -1.250", "* none"), "8 values, expected 7",
+    ),
+    "positions out of order": (
+        "handmade_sloped", lambda text: text.replace("v = -1.250,m", "v =  0.100,m"), "follows v = 0.1 m",
+    ),
+    "a hole in the road": (
+        "handmade_vtest", lambda text: " *missing*".join(text.rsplit(" 3.3333333", 1)), "holes: keep",
+    ),
+    "a position that is none": (
+        "handmade_sloped", lambda text: text.replace("v = -1.250,m", "v = -1.2.5,m"), "expected a position",
+    ),
+    "a length that is none": (
+        "handmade_straight", lambda text: text.replace("END_U     = 22.0", "END_U     = ab"), "expected a number",
+    ),
+    "no OpenCRG at all": ("handmade_straight", lambda text: "nothing of the kind\n", "not an OpenCRG file"),
+    "an unknown format": ("handmade_straight", lambda text: text.replace("#:LRFI", "#:XRFI"), "road.crg"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSALS)
+def test_contradictions_that_the_library_lets_pass_are_refused_in_one_line(shared, tmp_path, case):
+    name, change, message = REFUSALS[case]
+    text = (shared / "data" / "opencrg" / f"{name}.crg").read_text(encoding="latin-1")
+    path = tmp_path / "road.crg"
+    path.write_text(change(text), encoding="latin-1")
+    assert change(text) != text
+    with pytest.raises(InputError, match=re.escape(message)) as refusal:
+        crg.read(path)
+    assert "\n" not in str(refusal.value) and str(path) in str(refusal.value)
+
+
+def test_binary_files_that_were_cut_off_or_grew_are_refused(tmp_path):
+    path = small(tmp_path / "road.crg")
+    whole = path.read_bytes()
+    for damaged in (whole[:-160], whole[: len(whole) * 3 // 4], whole + bytes(400)):
+        path.write_bytes(damaged)
+        with pytest.raises(InputError, match="road.crg"):
+            crg.read(path)
+
+
+def test_heights_out_of_reason_are_refused_where_they_begin(shared):
+    path = shared / "data" / "opencrg" / "belgian_block_damaged.crg"
+    with pytest.raises(InputError, match=r"u = 73\d\.\d+ m, v = .* heights out of reason"):
+        crg.read(path)
+
+
+def test_a_single_wild_height_can_be_blanked_by_name(tmp_path):
+    z = np.zeros((30, 5))
+    z[12, 2] = 50.0
+    path = small(tmp_path / "road.crg", z=z)
+    with pytest.raises(InputError, match="1 heights out of reason, the first 50 m"):
+        crg.read(path)
+    with pytest.raises(InputError, match="no height inside the road"):
+        crg.read(path, heights="blank")
+    road = crg.read(path, heights="blank", holes="keep")
+    assert int(road.elevation.isnull().sum()) == 1
+    with pytest.raises(ValueError, match="holes"):
+        surface.grid(road)
+
+
+def test_missing_files_and_missing_includes_are_named(shared, tmp_path):
+    with pytest.raises(InputError, match="nowhere.crg: no such file"):
+        crg.read(tmp_path / "nowhere.crg")
+    with pytest.raises(InputError, match="handmade_sloped_opt.crg, which does not exist"):
+        crg.read(shared / "data" / "opencrg" / "testOptionBorderMode.crg")
+    loop = tmp_path / "loop.crg"
+    loop.write_text("$ROAD_CRG_FILE\nloop.crg\n$\n")
+    with pytest.raises(InputError, match="refers back"):
+        crg.read(loop)
+
+
+def test_a_road_that_folds_onto_itself_is_refused(tmp_path):
+    heading = np.arange(30) * 0.1
+    path = small(tmp_path / "road.crg", phi=heading, check=False)
+    with pytest.raises(InputError, match=r"folds onto itself.*folds: keep"):
+        crg.read(path)
+    assert "folds onto itself" in crg.read(path, folds="keep").treatment
+    small(path, phi=heading * 0.4)
+    assert float(crg.read(path).curvature[15]) == pytest.approx(0.4, rel=0.01)
+
+
+@pytest.mark.parametrize("options", [{"hole": "keep"}, {"holes": "fill"}])
+def test_unknown_options_are_named(tmp_path, options):
+    with pytest.raises(InputError, match=r"road\.hole.*expected one of"):
+        crg.read(small(tmp_path / "road.crg"), **options)

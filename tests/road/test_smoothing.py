@@ -1,0 +1,73 @@
+"""Smoothing splines and their cross-validated stiffness."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.interpolate import make_smoothing_spline
+
+from ridecomfort.road import smoothing
+
+U = np.arange(2000) * 0.1
+
+
+def test_the_cut_off_halves_waves_of_its_length_and_leaves_long_ones():
+    for wavelength, gain in ((2.0, 0.5), (20.0, 1 / (1 + 1e-4)), (0.5, 1 / (1 + 4**4))):
+        wave = np.sin(2 * np.pi * U / wavelength)
+        found = smoothing.smooth(wave[:, None], 0.1, 2.0)[:, 0]
+        assert (found @ wave / (wave @ wave))[()] == pytest.approx(gain, abs=0.03)
+
+
+def test_straight_lines_pass_unchanged():
+    line = 3.0 + 0.07 * U[:, None]
+    np.testing.assert_allclose(smoothing.smooth(line, 0.1, 5.0), line, atol=1e-6)
+
+
+def test_it_is_the_cubic_smoothing_spline():
+    """Against scipy's spline through the same points with the same penalty (per point: lambda / spacing)."""
+    rng = np.random.default_rng(1)
+    noisy = np.sin(U / 5) + rng.normal(0, 0.1, U.size)
+    spline = make_smoothing_spline(U, noisy, lam=smoothing.penalty(3.0) / 0.1)(U)
+    found = smoothing.smooth(noisy[:, None], 0.1, 3.0)[:, 0]
+    assert np.sqrt(np.mean((found - spline)[50:-50] ** 2)) < 1e-3
+
+
+@pytest.mark.parametrize("noise", [0.01, 0.1])
+def test_cross_validation_comes_close_to_the_best_that_the_truth_would_choose(noise):
+    rng = np.random.default_rng(2)
+    truth = np.sin(2 * np.pi * U / 8)
+    noisy = (truth + rng.normal(0, noise, U.size))[:, None]
+    choice = smoothing.cross_validate(noisy, 0.1)
+
+    def error(wavelength):
+        return np.sqrt(np.mean((smoothing.smooth(noisy, 0.1, wavelength)[:, 0] - truth) ** 2))
+
+    best = min(error(wavelength) for wavelength in choice.wavelengths)
+    assert error(choice.wavelength) < 1.1 * best < noise / 2
+    assert choice.errors.min() == pytest.approx(noise, rel=0.1)
+
+
+def test_a_surface_is_smoothed_in_both_directions_and_its_edges_stay():
+    rng = np.random.default_rng(3)
+    v = np.linspace(-2, 2, 41)
+    bank = 0.05 * np.sin(U / 20)
+    truth = 0.02 * np.sin(2 * np.pi * U / 12)[:, None] * np.cos(v) + bank[:, None] * v + 0.07 * U[:, None]
+    noisy = truth + rng.normal(0, 0.002, truth.shape)
+    noisy[:300, :2] = np.nan
+    road = xr.Dataset({"elevation": (("u", "v"), noisy), "bank": ("u", bank)}, coords={"u": U, "v": v})
+    found, choices = smoothing.smooth_surface(road)
+    assert set(choices) == {"along", "across"}
+    assert np.isnan(found.elevation.values[:300, :2]).all() and int(found.elevation.isnull().sum()) == 600
+    assert float(np.sqrt(((found.elevation - truth) ** 2).mean())) < 0.0005
+    assert "smoothed along the road" in found.treatment and "cross-validation" in found.treatment
+
+
+def test_zero_leaves_a_direction_alone():
+    road = xr.Dataset(
+        {"elevation": (("u", "v"), np.random.default_rng(4).normal(size=(50, 5))), "bank": ("u", np.zeros(50))},
+        coords={"u": U[:50], "v": np.arange(5.0)},
+    )
+    same, choices = smoothing.smooth_surface(road, along=0, across=0)
+    np.testing.assert_array_equal(same.elevation, road.elevation)
+    assert choices == {}

@@ -1,0 +1,111 @@
+"""Heights between the cells of the grid."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.interpolate import CubicHermiteSpline
+
+from ridecomfort.road import edges, surface
+
+
+def road_of(elevation, u=None, v=None, bank=0.0, **attrs):
+    """A straight road of the given heights, 0.5 m along and 0.25 m across."""
+    nu, nv = elevation.shape
+    u = 0.5 * np.arange(nu) if u is None else u
+    v = 0.25 * np.arange(nv) if v is None else v
+    line = {name: ("u", np.zeros(nu)) for name in ("y", "heading", "curvature", "slope")}
+    line |= {"x": ("u", np.asarray(u)), "bank": ("u", np.full(nu, bank))}
+    return xr.Dataset({"elevation": (("u", "v"), elevation), **line}, coords={"u": u, "v": v}, attrs=attrs)
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "cubic"])
+def test_the_surface_passes_through_the_grid(interpolation):
+    heights = np.random.default_rng(1).normal(size=(12, 9))
+    road = road_of(heights)
+    found = surface.height(road, road.u.values[:, None], road.v.values, interpolation=interpolation)
+    np.testing.assert_allclose(found, heights, atol=1e-14)
+
+
+def test_linear_is_exact_for_a_twisted_plane():
+    u, v = np.arange(8) * 0.5, np.arange(6) * 0.25
+    road = road_of(1 + 0.3 * u[:, None] - 0.2 * v + 0.1 * u[:, None] * v)
+    at_u, at_v = np.random.default_rng(2).uniform(0, 1, (2, 100)) * [[3.5], [1.25]]
+    expected = 1 + 0.3 * at_u - 0.2 * at_v + 0.1 * at_u * at_v
+    np.testing.assert_allclose(surface.height(road, at_u, at_v), expected, atol=1e-14)
+
+
+def test_cubic_is_the_catmull_rom_spline_along_each_direction():
+    heights = np.random.default_rng(3).normal(size=(12, 9))
+    road = road_of(heights, interpolation="cubic")
+    u, v = road.u.values, road.v.values
+    at = np.linspace(u[1], u[-2], 200)
+    for j in (0, 4):
+        spline = CubicHermiteSpline(u, heights[:, j], np.gradient(heights[:, j], u))
+        np.testing.assert_allclose(surface.height(road, at, v[j]), spline(at), atol=1e-13)
+    across = np.linspace(v[1], v[-2], 200)
+    spline = CubicHermiteSpline(v, heights[5], np.gradient(heights[5], v))
+    np.testing.assert_allclose(surface.height(road, u[5], across), spline(across), atol=1e-13)
+
+
+def test_cubic_has_no_kinks_where_linear_has():
+    road = road_of(np.random.default_rng(4).normal(size=(12, 9)))
+    step = 1e-6
+    at = road.u.values[2:-2]
+    for interpolation, smooth in (("cubic", True), ("linear", False)):
+        before, on, after = (
+            surface.height(road, at + d, 0.6, interpolation=interpolation) for d in (-step, 0.0, step)
+        )
+        assert (np.abs(after - 2 * on + before).max() / step < 1e-3) == smooth
+
+
+def test_both_interpolations_converge_on_a_smooth_surface():
+    def worst(spacing, interpolation):
+        u = np.arange(0, 4 + spacing / 2, spacing)
+        road = road_of(np.sin(u)[:, None] * np.cos(u), u, u, interpolation=interpolation)
+        at = np.random.default_rng(5).uniform(1, 3, (2, 500))
+        return np.abs(surface.height(road, *at) - np.sin(at[0]) * np.cos(at[1])).max()
+
+    assert worst(0.2, "linear") / worst(0.1, "linear") == pytest.approx(4, rel=0.2)
+    assert worst(0.2, "cubic") / worst(0.1, "cubic") == pytest.approx(8, rel=0.3)
+
+
+def test_positions_are_broadcast():
+    road = road_of(np.zeros((12, 9)))
+    assert surface.height(road, np.zeros((3, 1)), np.zeros(4)).shape == (3, 4)
+    assert surface.height(road, 0.0, 0.0).shape == ()
+
+
+def test_positions_that_are_no_numbers_give_no_height():
+    road = road_of(np.zeros((12, 9)), interpolation="cubic")
+    found = surface.height(road, [np.nan, 1.0, np.inf], [0.5, np.nan, 0.5])
+    assert np.isnan(found).all()
+
+
+def test_beyond_the_edge_the_nearest_height_is_carried_on_with_the_cross_slope():
+    heights = 5 + 0.1 * np.arange(9) * 0.25 + np.zeros((6, 1))
+    frayed = heights.copy()
+    frayed[:, :2] = frayed[:, 7:] = np.nan
+    frayed[3] = np.nan
+    road = road_of(frayed, bank=0.1)
+    np.testing.assert_allclose(surface.grid(road)[0], heights, atol=1e-12)
+    np.testing.assert_allclose(surface.height(road, 1.0, road.v.values), heights[2], atol=1e-12)
+    unknown = surface.height(road.assign_attrs(edges="none"), 1.0, road.v.values)
+    assert np.isnan(unknown[[0, 1, 7, 8]]).all()
+
+
+def test_edges_and_holes_are_told_apart():
+    heights = np.zeros((3, 7))
+    heights[0, [0, 3, 6]] = np.nan
+    heights[1] = np.nan
+    outside = edges.outside(heights)
+    assert outside[0].tolist() == [True] + [False] * 5 + [True] and outside[1].all() and not outside[2].any()
+    assert np.argwhere(edges.holes(heights)).tolist() == [[0, 3]]
+
+
+def test_the_reference_line_is_interpolated(alpine):
+    at = np.array([3.25, 1000.05])
+    line = surface.reference_line(alpine, at)
+    assert set(line) == {"x", "y", "heading", "curvature", "slope", "bank"}
+    np.testing.assert_allclose(line.bank, 0.05 * np.sin(2 * np.pi * at / 300.0), atol=1e-6)

@@ -1,0 +1,146 @@
+"""From stand-in scans, whose road is known, back to the road. ASAM's library compares the two in x and y."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pycrg
+import pytest
+import xarray as xr
+
+from ridecomfort.errors import InputError
+from ridecomfort.road import clean, crg, smoothing, survey
+from ridecomfort.standin.scan import Scanner, profiles, trajectory
+
+SCANNER = Scanner(points=200, noise=1e-4, leaves=1, gaps_per_km=0.0)
+"""A scanner with fewer points than the paper's, so that tests are fast."""
+
+
+def patch_of_road(length=60.0) -> xr.Dataset:
+    """A bend of 100 m radius, banked 4 %, climbing 7 %, with waves of 2.5 mm and 3 m length and a pothole."""
+    u, v = np.arange(round(length / 0.1) + 1) * 0.1, np.linspace(-2.5, 2.5, 51)
+    heading = 0.4 + u / 100
+    pit = np.hypot(u[:, None] - 30, v - 0.75) / 0.5
+    relief = 0.0025 * np.sin(2 * np.pi * u / 3)[:, None] * np.cos(v)
+    relief = relief - 0.03 * np.where(pit < 1, np.cos(np.minimum(pit, 1) * np.pi / 2) ** 2, 0)
+    line = {"x": np.cumsum(0.1 * np.cos(heading)), "y": np.cumsum(0.1 * np.sin(heading)), "heading": heading}
+    line |= {"curvature": np.full(u.size, 0.01), "slope": np.full(u.size, 0.07), "bank": np.full(u.size, -0.04)}
+    return xr.Dataset(
+        {"elevation": (("u", "v"), relief + 0.07 * u[:, None] - 0.04 * v)}
+        | {name: ("u", values) for name, values in line.items()},
+        coords={"u": u, "v": v},
+    )
+
+
+@pytest.fixture(scope="module")
+def road() -> xr.Dataset:
+    return patch_of_road()
+
+
+@pytest.fixture(scope="module")
+def scanned(road):
+    true, measured = trajectory(road, 5, SCANNER)
+    return survey.grid(profiles(road, true, 5, SCANNER), measured)
+
+
+def against(road, found, folder, v):
+    """Height of the found road above the true one at the same x and y, along the lines v of the found one."""
+    crg.write(folder / "found.crg", found)
+    crg.write(folder / "true.crg", road)
+    with pycrg.RoadSurface.open(folder / "found.crg") as ours, pycrg.RoadSurface.open(folder / "true.crg") as truth:
+        u = np.arange(2.0, float(found.u[-1]) - 2.0, 0.1)
+        x, y = ours.uv_to_xy_many(u[:, None], v)
+        return u, ours.uv_to_z_many(u[:, None], v) - truth.xy_to_z_many(x, y)
+
+
+def test_the_road_comes_back_to_a_few_tenths_of_a_millimetre(road, scanned, tmp_path):
+    found, _ = clean.clean(scanned[0], outliers="repair", holes="fill")
+    u, error = against(road, found, tmp_path, np.array([-1.5, -0.75, 0.0, 0.75, 1.5]))
+    drift = smoothing.smooth(error.mean(axis=1, keepdims=True), 0.1, 20.0)
+    assert np.sqrt(((error - drift) ** 2).mean()) < 3e-4
+    assert np.abs(drift).max() < 3 * SCANNER.position_drift
+
+
+def test_the_pothole_keeps_its_depth(road, scanned):
+    found, _ = clean.clean(scanned[0], outliers="repair", holes="fill")
+    heights = found.elevation - (0.07 * found.u - 0.04 * found.v)
+    near = heights.sel(u=slice(25, 31), v=slice(0.3, 1.2))
+    rim = heights.sel(u=slice(25, 31), v=slice(-1.2, -0.3))
+    assert float(rim.median() - near.min()) == pytest.approx(0.03, abs=0.004)
+
+
+def test_the_reference_line_is_the_path_in_equal_steps(road, scanned):
+    found = scanned[0]
+    step = np.hypot(np.diff(found.x), np.diff(found.y))
+    np.testing.assert_allclose(step, 0.1, atol=1e-5)
+    np.testing.assert_allclose(np.diff(found.u), 0.1, atol=1e-9)
+    assert float(found.curvature[50:-50].mean()) == pytest.approx(0.01, rel=0.05)
+    assert float(found.slope.mean()) == pytest.approx(0.07, abs=0.002)
+    assert float(found.bank.mean()) == pytest.approx(-0.04, abs=0.004)
+
+
+def test_planted_outliers_are_dropped(road):
+    clear = replace(SCANNER, points=400, leaves=0, dropout_share=0.0, outlier_share=0.0)
+    dirty = replace(clear, outlier_share=1e-3)
+    true, measured = trajectory(road, 6, clear)
+    without = survey.grid(profiles(road, true, 6, clear), measured)[1]
+    planted = sum(
+        (np.abs(b.height - a.height) > 0.004).sum()
+        for a, b in zip(profiles(road, true, 6, clear), profiles(road, true, 6, dirty))
+    )
+    found = survey.grid(profiles(road, true, 6, dirty), measured)[1]
+    share_in_grid = 1 - found.beside / found.points
+    assert found.outliers - without.outliers >= 0.99 * planted * share_in_grid
+
+
+def test_blocks_do_not_matter(road):
+    true, measured = trajectory(road, 5, SCANNER)
+    whole, _ = survey.grid(profiles(road, true, 5, SCANNER, block=100_000), measured)
+    streamed, _ = survey.grid(profiles(road, true, 5, SCANNER, block=333), measured)
+    np.testing.assert_allclose(streamed.elevation, whole.elevation, atol=1e-12)
+
+
+def test_lost_profiles_leave_holes_that_cleaning_fills(road):
+    true, measured = trajectory(road, 5, SCANNER)
+
+    def torn():
+        for block in profiles(road, true, 5, SCANNER):
+            gone = (block.time > 1.0) & (block.time < 1.02)
+            yield block._replace(height=np.where(gone[:, None], np.nan, block.height))
+
+    found, report = survey.grid(torn(), measured)
+    assert report.empty_cells > 100
+    filled, _ = clean.clean(found, outliers="repair", holes="fill")
+    assert int(filled.elevation.sel(v=slice(-1.5, 1.5)).isnull().sum()) == 0
+
+
+def test_a_scanner_that_stands_still_adds_nothing(road):
+    true, measured = trajectory(road, 5, SCANNER)
+    first = next(profiles(road, true, 5, SCANNER, block=100))
+    still = measured.copy(deep=True)
+    for name in survey.POSE:
+        still[name][:] = measured[name].values[0]
+    still["x"] = still.x + np.where(np.arange(still.time.size) > 200, np.arange(still.time.size) - 200, 0) * 0.1
+    report = survey.grid(iter([first, first]), still)[1]
+    assert report.profiles == 200 and report.points <= 2 * SCANNER.points
+
+
+def test_equal_seeds_make_equal_scans(road):
+    true, _ = trajectory(road, 5, SCANNER)
+    one, two = (np.concatenate([b.height for b in profiles(road, true, 5, SCANNER, block=n)]) for n in (500, 731))
+    np.testing.assert_array_equal(one, two)
+
+
+@pytest.mark.parametrize(
+    "spoil, message",
+    [
+        (lambda t: t.isel(time=slice(None, None, -1)), "trajectory.time: expected at least 10 equal steps forward"),
+        (lambda t: t.assign(z=t.z.where(t.time != t.time[7])), "trajectory.z: nan at 0.035 s"),
+        (lambda t: t.isel(time=slice(0, 50)), "trajectory"),
+    ],
+)
+def test_unusable_trajectories_are_refused(road, spoil, message):
+    true, measured = trajectory(road, 5, SCANNER)
+    with pytest.raises(InputError, match=message):
+        survey.grid(profiles(road, true, 5, SCANNER), spoil(measured))

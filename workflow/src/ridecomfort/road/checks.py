@@ -1,0 +1,196 @@
+"""What an OpenCRG file may get wrong that the ASAM library lets pass."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+import numpy as np
+import pycrg
+
+from ..errors import InputError
+
+HEIGHT_LIMIT = 10_000.0
+"""m; no road lies higher or lower."""
+
+STEP_LIMIT = 10.0
+"""m that a height may lie above or below the median of its cross section."""
+
+_TEXT_FIELD = {"LRFI": (10, 8), "LDFI": (20, 4)}
+"""Characters a value and values a line (OpenCRG 1.2, data formats)."""
+
+_BINARY_VALUE = {"KRBI": 4, "KDBI": 8}
+"""Bytes a value."""
+
+_BINARY_BLOCK = 80
+"""Bytes that binary data are padded to."""
+
+
+def headers(path: Path) -> list[pycrg.CrgHeader]:
+    """The headers of a file and of those it refers to; the last one is that of the data.
+
+    References are looked for as the ASAM library does: from the working
+    directory, then beside the file that names them. A missing one, a circle of
+    them and a file that is no OpenCRG file raise InputError.
+    """
+    found: list[pycrg.CrgHeader] = []
+    while True:
+        if not path.is_file():
+            if found:
+                raise InputError(f"refers to {path}, which does not exist", file=found[-1].path, place="$ROAD_CRG_FILE")
+            raise InputError("no such file", file=path)
+        if any(path.samefile(head.path) for head in found):
+            raise InputError(f"refers back to {path}", file=found[-1].path, place="$ROAD_CRG_FILE")
+        try:
+            found.append(pycrg.read_header(path))
+        except (OSError, ValueError) as problem:
+            raise InputError(f"cannot be read ({problem})", file=path) from None
+        if found[-1].data_format is not None:
+            return found
+        if found[-1].file_reference is None:
+            raise InputError("not an OpenCRG file: neither $KD_DEFINITION nor $ROAD_CRG_FILE in it", file=path)
+        reference = Path(_expand(found[-1].file_reference, path))
+        path = reference if reference.is_absolute() or reference.is_file() else path.parent / reference
+
+
+def _expand(reference: str, path: Path) -> str:
+    """A file reference with its leading environment variable put in."""
+    if not reference.startswith("$"):
+        return reference
+    name, _, rest = reference[1:].partition("/")
+    if name not in os.environ:
+        raise InputError(f"environment variable {name} is not set", file=path, place="$ROAD_CRG_FILE")
+    return f"{os.environ[name]}/{rest}"
+
+
+def payload(head: pycrg.CrgHeader, cross_sections: int) -> None:
+    """InputError unless the data of the file hold just that many whole cross sections."""
+    channels = sum(channel.kind == "D" for channel in head.channels)
+    if head.data_format in _TEXT_FIELD:
+        _text(head, cross_sections, channels, *_TEXT_FIELD[head.data_format])
+    elif head.data_format in _BINARY_VALUE:
+        size = len(_data(head))
+        wanted = cross_sections * channels * _BINARY_VALUE[head.data_format]
+        if not wanted <= size < wanted + 2 * _BINARY_BLOCK:
+            raise InputError(
+                f"{size} bytes, expected {wanted} for {cross_sections} cross sections of {channels} channels",
+                file=head.path,
+                place="data",
+            )
+    else:
+        raise InputError(
+            f"{head.data_format!r}, expected LRFI, LDFI, KRBI or KDBI", file=head.path, place="$KD_DEFINITION"
+        )
+
+
+def _data(head: pycrg.CrgHeader) -> bytes:
+    """What follows the line of dollar signs that ends the header."""
+    whole = Path(head.path).read_bytes()
+    start = re.search(rb"^ *\$\$\$\$[^\n]*\n", whole, re.MULTILINE)
+    return whole[start.end() :] if start else b""
+
+
+def _text(head: pycrg.CrgHeader, cross_sections: int, channels: int, width: int, per_line: int) -> None:
+    """Every cross section begins on a line of its own; its values fill fields of equal width."""
+    lines = [line for line in map(bytes.rstrip, _data(head).splitlines()) if line]
+    lines_each = -(-channels // per_line)
+    for number, line in enumerate(lines):
+        in_section = number % lines_each
+        wanted = per_line if in_section < lines_each - 1 else channels - per_line * (lines_each - 1)
+        cut = number == len(lines) - 1 and len(line) < len(lines[in_section])
+        if cut or -(-len(line) // width) != wanted:
+            raise InputError(
+                f"{len(line) / width:g} values, expected {wanted} ({channels} channels): cut off or misaligned",
+                file=head.path,
+                place=f"data line {number + 1} of {len(lines)}",
+            )
+    if len(lines) != cross_sections * lines_each:
+        raise InputError(
+            f"lines for {len(lines) / lines_each:g} cross sections, of which {cross_sections} are whole:"
+            " is the end of the last line missing?",
+            file=head.path,
+            place="data",
+        )
+
+
+def size(head: pycrg.CrgHeader, u: np.ndarray, v: np.ndarray) -> None:
+    """InputError when the grid that was read contradicts the length or width in the header."""
+    road = head.road
+    for key, value in road.items():
+        if isinstance(value, str):
+            raise InputError(f"{value!r}, expected a number", file=head.path, place=key)
+    if "reference_line_end_u" in road:
+        start, end = road.get("reference_line_start_u", 0.0), road["reference_line_end_u"]
+        wanted = (end - start) / (u[1] - u[0]) + 1
+        if abs(wanted - len(u)) > 0.01:
+            raise InputError(
+                f"data of {len(u)} cross sections, but u from {start:g} to {end:g} m every {u[1] - u[0]:g} m"
+                f" makes {wanted:.10g}",
+                file=head.path,
+                place="reference_line_end_u",
+            )
+    for key, value in (("long_section_v_right", v[0]), ("long_section_v_left", v[-1])):
+        if key in road and abs(road[key] - value) > 1e-6 * max(1.0, abs(value)):
+            raise InputError(
+                f"{road[key]:g} m, but its long sections reach from {v[0]:g} to {v[-1]:g} m", file=head.path, place=key
+            )
+    if {"long_section_v_right", "long_section_v_left", "long_section_v_increment"} <= road.keys():
+        width = road["long_section_v_left"] - road["long_section_v_right"]
+        wanted = width / road["long_section_v_increment"] + 1
+        if abs(wanted - len(v)) > 0.01 and not positions(head):
+            raise InputError(
+                f"data of {len(v)} long sections, but {width:g} m every {road['long_section_v_increment']:g} m"
+                f" makes {wanted:.10g}",
+                file=head.path,
+                place="long_section_v_increment",
+            )
+
+
+def positions(head: pycrg.CrgHeader) -> list[float]:
+    """Lateral positions in m that the channels of the file name, in its order; empty if they name none."""
+    at = []
+    for channel in head.channels:
+        if match := re.match(r"long section at v\s*=(.*)", channel.name, re.I):
+            try:
+                at.append(float(match[1]))
+            except ValueError:
+                problem = f"{channel.name!r}, expected a position in m"
+                raise InputError(problem, file=head.path, place="$KD_DEFINITION") from None
+    return at
+
+
+def order(head: pycrg.CrgHeader) -> None:
+    """InputError unless the long sections stand from right to left, each at its own position."""
+    at = positions(head)
+    for right, left in zip(at, at[1:]):
+        if not left > right:
+            raise InputError(
+                f"v = {left:g} m follows v = {right:g} m, expected positions that rise (or long_sections: sort)",
+                file=head.path,
+                place="$KD_DEFINITION",
+            )
+
+
+def unreasonable(elevation: np.ndarray) -> np.ndarray:
+    """True for heights (u, v) beyond HEIGHT_LIMIT, or beyond STEP_LIMIT from the median of their cross section."""
+    known = np.isfinite(elevation)
+    wild = known & (np.abs(np.where(known, elevation, 0.0)) > HEIGHT_LIMIT)
+    usable = np.where(known & ~wild, elevation, np.nan)
+    rows = np.isfinite(usable).any(axis=1)
+    median = np.zeros(len(elevation))
+    median[rows] = np.nanmedian(usable[rows], axis=1)
+    with np.errstate(over="ignore"):
+        return wild | (known & (np.abs(np.where(known, elevation, 0.0) - median[:, None]) > STEP_LIMIT))
+
+
+def folds(heading: np.ndarray, du: float, v: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """True for cross sections whose centre of curvature lies on the road, so that it overlaps itself.
+
+    ``heading`` (u) in rad is that of the segment that ends at each cross section,
+    ``known`` (u, v) is True where the road has a height.
+    """
+    curvature = np.zeros(len(heading))
+    curvature[1:-1] = np.sin(np.diff(heading[1:])) / du
+    inner = curvature[:, None] * v >= 1.0
+    return (inner & known).any(axis=1)

@@ -1,0 +1,50 @@
+"""Where the grid of a road holds heights: its edges, the holes in it, and what lies beyond."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def outside(elevation: np.ndarray) -> np.ndarray:
+    """True for cells (u, v) that lie to the right or left of every height of their cross section.
+
+    Cross sections without any height lie outside as a whole.
+    """
+    known = np.isfinite(elevation)
+    reached_from_right = np.logical_or.accumulate(known, axis=1)
+    reached_from_left = np.logical_or.accumulate(known[:, ::-1], axis=1)[:, ::-1]
+    return ~(reached_from_right & reached_from_left)
+
+
+def holes(elevation: np.ndarray) -> np.ndarray:
+    """True for cells (u, v) without a height that lie between heights of their cross section."""
+    return ~np.isfinite(elevation) & ~outside(elevation)
+
+
+def extend(elevation: np.ndarray, v: np.ndarray, bank: np.ndarray, offset: float = 0.0) -> np.ndarray:
+    """Heights (u, v) in m with every cell outside the road filled.
+
+    A cell takes the height of the nearest cell across that has one, carried on
+    with the cross slope ``bank`` (u) and raised by ``offset`` m: what OpenCRG's
+    grid_nan_mode 2 gives. A cross section without any height takes the nearest
+    one along the road that has. Holes inside the road stay.
+    """
+    beyond = outside(elevation)
+    if not beyond.any():
+        return elevation
+    relative = elevation - bank[:, None] * v
+    filled_rows = np.flatnonzero(~beyond.all(axis=1))
+    if not filled_rows.size:
+        raise ValueError("a road without any height cannot be extended")
+    rows = np.arange(len(relative))
+    after = np.searchsorted(filled_rows, rows).clip(max=filled_rows.size - 1)
+    before = (after - 1).clip(min=0)
+    nearer = rows - filled_rows[before] < np.abs(filled_rows[after] - rows)
+    nearest = np.where(nearer & (filled_rows[before] <= rows), filled_rows[before], filled_rows[after])
+    nearest[filled_rows] = filled_rows
+    inside = ~beyond[nearest]
+    first = inside.argmax(axis=1)
+    last = len(v) - 1 - inside[:, ::-1].argmax(axis=1)
+    column = np.clip(np.arange(len(v)), first[:, None], last[:, None])
+    carried = relative[nearest[:, None], column] + offset
+    return np.where(beyond, carried + bank[:, None] * v, elevation)
