@@ -1,0 +1,1 @@
+"""The three comfort methods, from signals to critical sections, and how they agree."""

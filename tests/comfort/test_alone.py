@@ -1,0 +1,98 @@
+"""The command for one recording or profile of a user's own."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from ridecomfort.__main__ import main
+from ridecomfort.comfort import alone, weighting
+
+TIME = np.arange(3000) / 100.0
+
+
+def write(path, **columns):
+    pd.DataFrame(columns).to_csv(path, index=False)
+    return path
+
+
+@pytest.fixture
+def recording(tmp_path):
+    """A steady sine of 4 Hz on gravity, in g."""
+    return write(tmp_path / "my.csv", time=TIME, up=1.0 + 0.1 * np.sin(2 * np.pi * 4 * TIME))
+
+
+def test_comfort_table_and_plot(recording, capsys):
+    main(["comfort", "--iso2631", str(recording), "--column", "a_z=up", "--unit", "g", "--exposure", "60"])
+    printed = capsys.readouterr().out
+    table = pd.read_csv(recording.with_name("my_iso2631.csv"))
+    expected = weighting.WEIGHTINGS["Wk"].factor(4.0) * 0.980665 / np.sqrt(2)
+    assert table["a_w [m/s2]"].iloc[0] == pytest.approx(expected, rel=0.01)
+    assert "FU" in printed and "60.0 min a day" in printed and "lacks the other axes" in printed
+    assert recording.with_name("my_iso2631.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_floor_recording_goes_through_a_seat(recording, tmp_path):
+    """At 4 Hz through a seat of 2 Hz and damping 0.3: transmissibility sqrt((1 + 1.44) / (9 + 1.44))."""
+    common = ["comfort", "--iso2631", str(recording), "--column", "a_z=up", "--unit", "g", "--output"]
+    main([*common, str(tmp_path / "floor")])
+    main([*common, str(tmp_path / "seat"), "--seat", "2", "0.3"])
+    floor, seat = (pd.read_csv(tmp_path / each / "my_iso2631.csv")["a_w [m/s2]"].iloc[0] for each in ("floor", "seat"))
+    assert seat / floor == pytest.approx(np.sqrt(2.44 / 10.44), rel=0.02)
+
+
+def test_thresholds_take_gravity_off_and_say_so(recording, capsys):
+    main(["comfort", "--thresholds", str(recording), "--column", "a_z=up", "--unit", "g"])
+    assert "gravity" in capsys.readouterr().out
+    table = pd.read_csv(recording.with_name("my_thresholds.csv")).set_index("style")
+    share = 100 * (1 - 2 / np.pi * np.arcsin(0.3 / 0.980665))
+    assert table.loc["AG", "time outside [%]"] == pytest.approx(share, abs=1.0)
+
+
+def test_iri_of_two_tracks(tmp_path, capsys):
+    s = np.arange(0, 400.01, 0.1)
+    left = 0.002 * np.sin(2 * np.pi * s / 12)
+    profile = write(tmp_path / "profile.csv", s=s, left=left, right=left)
+    main(["comfort", "--iri", str(profile), "--output", str(tmp_path / "out")])
+    table = pd.read_csv(tmp_path / "out/profile_iri.csv")
+    assert len(table) == 4
+    # Golden car at 12 m: gain 1.3738928 (Sayers 1995), IRI 4 A gain / wavelength; 100 m are not whole waves.
+    assert table["MRI [m/km]"].iloc[-1] == pytest.approx(2 * 0.45796428, rel=0.05)
+    assert np.allclose(table["MRI [m/km]"], table["HRI [m/km]"])
+
+
+@pytest.mark.parametrize(
+    "content, arguments, message",
+    [
+        ("time,a_z\n0,1\n0.01,2\n0.005,3\n", [], "does not advance"),
+        ("time,a_z\n0,1\n0.01,hm\n0.02,3\n", [], "'hm'"),
+        ("a_z\n1\n2\n", [], "no column"),
+        ("time,up\n0,1\n0.01,2\n", [], "found time, up"),
+        ("time,a_z\n0,1\n0.01,2\n", ["--unit", "furlong"], "'furlong'"),
+        ("time,a_z\n0,1\n0.01,2\n", ["--column", "w=up"], "NAME=COLUMN"),
+    ],
+)
+def test_mistakes_are_one_line_and_leave_nothing(tmp_path, content, arguments, message):
+    file = tmp_path / "my.csv"
+    file.write_text(content)
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iso2631", str(file), *arguments])
+    assert str(end.value).startswith("error: ") and message in str(end.value) and "\n" not in str(end.value)
+    assert [each.name for each in tmp_path.iterdir()] == ["my.csv"]
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(SystemExit, match="no such file"):
+        main(["comfort", "--iri", str(tmp_path / "none.csv")])
+
+
+def test_a_real_recording(shared, tmp_path):
+    """comma2k19: 60 s of an IMU with gravity, 104 Hz, upside down."""
+    folder = shared / "data/comma2k19/processed_log/IMU/accelerometer"
+    time, values = np.load(folder / "t.npy"), np.load(folder / "value.npy")
+    file = write(tmp_path / "imu.csv", time=time - time[0], a_x=values[:, 0], a_y=values[:, 1], a_z=values[:, 2])
+    recording = alone.recording(file)
+    assert recording.attrs["rate"] == pytest.approx(104.26, abs=0.01)
+    total = float(alone.ride(recording).signals["a_v"].median())
+    assert 0.1 < total < 1.0

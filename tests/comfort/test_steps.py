@@ -1,0 +1,86 @@
+"""The steps of the workflow: shards in, the comfort datasets of the study out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ridecomfort import store
+from ridecomfort.comfort import bands, iriclass, jerk, thresholds
+from ridecomfort.errors import InputError
+from ridecomfort.steps import iri, iso2631
+from ridecomfort.steps import thresholds as thresholds_step
+
+CONFIG = {
+    "critical_length": 5,
+    "sections": "sequential",
+    "jerk": {name: [band.lower, band.upper] for name, band in jerk.BANDS.items()},
+    "thresholds": {
+        axis: {style: [band.lower, band.upper] for style, band in styles.items()}
+        for axis, styles in thresholds.ACCELERATION.items()
+    },
+    "iso2631": {"bands": {name: [low, None if high == np.inf else high] for name, (low, high) in bands.BANDS.items()}},
+    "iri": {
+        "segment": 50,
+        "wheel_tracks": [-0.75, 0.75],
+        "moving_average": 0.25,
+        "speed_km_h": list(iriclass.SPEED_KM_H),
+        "thresholds": {name: list(edge) for name, edge in iriclass.EDGES.items()},
+    },
+}
+
+
+@pytest.fixture
+def files(tmp_path):
+    rng = np.random.default_rng(1)
+    s = 50.0 + 0.25 * np.arange(500)
+    shards = []
+    for first in (0, 5):
+        size = (5, s.size)
+        names = ("a_x", "a_y", "a_z")
+        shard = xr.Dataset({name: (("run", "s"), rng.standard_normal(size).astype(np.float32)) for name in names})
+        shard["v_x"] = ("run", "s"), np.full(size, 20.0, np.float32)
+        shard["a_v"] = ("run", "s"), rng.uniform(0.2, 0.5, size).astype(np.float32)
+        shard["weighted_rms"] = ("run", "axis"), rng.uniform(0.1, 0.4, (5, 3))
+        shard["vdv"] = ("run", "axis"), rng.uniform(1, 2, (5, 3))
+        shard["msdv_z"], shard["duration"] = ("run", rng.uniform(0.1, 1.0, 5)), ("run", np.full(5, 6.25))
+        shard = shard.assign_coords(axis=list(names), run=first + np.arange(5), s=s)
+        shards.append(tmp_path / f"{first}.nc")
+        store.write(shard, shards[-1], title="shard")
+    u = np.arange(0, 200, 0.1)
+    heights = np.repeat((rng.standard_normal(u.size).cumsum() * 4e-4)[:, None], 3, axis=1)
+    road = xr.Dataset({"elevation": (("u", "v"), heights)}, {"u": u, "v": [-1.0, 0.0, 1.0]})
+    store.write(road, tmp_path / "road.nc", title="road")
+    return tmp_path, shards
+
+
+@pytest.mark.parametrize(
+    "step, dims, variables",
+    [
+        (thresholds_step, ("axis", "style"), {"a_x", "a_y", "a_z", "lower", "upper", "jerk_critical"}),
+        (iso2631, ("band",), {"a_v", "band_lower", "band_upper", "window_mean"}),
+        (iri, ("quality",), {"iri", "iri_full", "v_x", "threshold"}),
+    ],
+)
+def test_a_step_writes_the_comfort_dataset_of_its_method(files, step, dims, variables):
+    folder, shards = files
+    inputs = {"road": folder / "road.nc"} if step is iri else {}
+    step.main(shards=shards, config=CONFIG, output=folder / "out.nc", **inputs)
+    found = store.read(folder / "out.nc")
+    common = {"window_start", "critical", "exceedance_probability", "critical_count", "critical_share"}
+    assert common | variables <= set(found.data_vars)
+    assert found["critical"].dims == (*dims, "window") and found.sizes["window"] == 25
+    assert found["critical_share"].values == pytest.approx(4.0 * found["critical_count"].values)
+    assert found[dims[-1]].long_name.split()[0] in ("driving", "comfort", "class")
+    assert found["run"].values.tolist() == list(range(10))
+    numbers = [variable for variable in found.data_vars.values() if variable.dtype.kind in "fi"]
+    assert all("units" in variable.attrs for variable in numbers)
+
+
+def test_a_truncated_shard_is_named_and_nothing_written(files):
+    folder, shards = files
+    shards[1].write_bytes(shards[1].read_bytes()[:4000])
+    with pytest.raises(InputError, match="5.nc"):
+        iso2631.main(shards=shards, config=CONFIG, output=folder / "out.nc")
+    assert not (folder / "out.nc").exists()

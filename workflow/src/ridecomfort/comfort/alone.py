@@ -1,0 +1,229 @@
+"""Each method on a single recording or profile of a user's own, without a study around it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from ..drive import sampling, units
+from ..drive.readers import csv
+from ..errors import InputError
+from ..vocabulary import STANDARD_GRAVITY, describe
+from . import bands, exposure, iri, iso2631, jerk, quantities, seat, thresholds, total
+
+AXES = ("a_x", "a_y", "a_z")
+
+NEAR_GRAVITY = 1.0
+"""m/s2; a mean of a_z this close to gravity is gravity."""
+
+HEIGHTS = ("left", "right", "elevation")
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a method says: a table (for printing and CSV), sentences, and the signals to be drawn."""
+
+    method: str
+    title: str
+    table: pd.DataFrame
+    remarks: list[str]
+    signals: xr.Dataset
+    unit: str = ""
+    edges: Mapping = field(default_factory=dict)
+
+    def text(self) -> str:
+        """Title, table and remarks for a terminal."""
+        table = self.table.to_string(index=False, float_format=lambda number: f"{number:.4g}")
+        return "\n".join([self.title, "", table, *(["", *self.remarks] if self.remarks else [])])
+
+
+def recording(file, settings: Mapping | None = None) -> xr.Dataset:
+    """The accelerations of a CSV file in m/s2 over uniform ``time``; attribute ``rate`` in Hz.
+
+    ``settings``: ``columns`` (quantity to {"column": name}) and ``unit``. Without
+    columns the file has ``time`` and any of AXES. Time stamps that jitter are
+    brought to a uniform clock; a file that skips samples is refused.
+    """
+    settings = settings or {}
+    unit = settings.get("unit", "m/s2")
+    given = dict(settings.get("columns", {}))
+    present = list(_table(file, rows=0).columns)
+    columns = {name: given.get(name, {"column": name}) for name in ("time", *AXES) if name in given or name in present}
+    for name in AXES:
+        if name in columns:
+            units.factor(name, unit, file=file, place="--unit")
+            columns[name] = {**columns[name], "unit": unit}
+    found, _ = csv.read(file, columns)
+    if not found:
+        raise InputError(f"no column {', '.join(AXES)} (found {', '.join(present)})", file=file)
+    clock = next(iter(found.values()))[0]
+    sampling.check_clock(clock, file=file)
+    start, interval, _ = sampling.require_uniform(clock, file=file)
+    rate = 1.0 / interval
+    # A clock written with few digits: 99.9998 Hz is 100 Hz.
+    rate = round(rate) if abs(rate / round(rate) - 1.0) < 1e-4 else rate
+    time = start + np.arange(len(clock)) / rate
+    signals = {
+        name: ("time", sampling.resample_inertial(clock, values, time, rate, file=file)[0])
+        for name, (_, values) in found.items()
+    }
+    answer = xr.Dataset(signals, {"time": time - time[0]}, {"rate": float(rate), "file": str(file)})
+    return describe(answer)
+
+
+def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.Seat | None = None) -> Result:
+    """Comfort, health and motion sickness of a recording on the seat after ISO 2631-1.
+
+    A recording of the floor goes through a ``chair`` first: its a_z only.
+
+    Offsets, gravity among them, do not matter: no weighting passes them. Health and
+    sickness are stated for ``exposure_time`` s of nothing but this recording, or
+    for the recording alone.
+    """
+    rate = recording.attrs["rate"]
+    rows, remarks, rms, squares = [], [], {}, 0.0
+    duration = recording.sizes["time"] / rate
+    trip, dose = duration if exposure_time is None else exposure_time, 0.0
+    names = [name for name in AXES if name in recording]
+    running = xr.Dataset(coords={"time": recording["time"]})
+    if chair is not None and "a_z" in names:
+        level = recording["a_z"].mean()
+        recording = recording.assign(a_z=seat.on_seat(recording["a_z"] - level, rate, chair) + level)
+        remarks.append(f"a_z through a seat of {chair.natural_frequency:g} Hz, damping ratio {chair.damping_ratio:g}")
+    for name in names:
+        axis = name[-1]
+        weighting, factor = total.COMFORT["seat", axis]
+        found = iso2631.metrics(iso2631.weight(recording[name], rate, weighting, before="mirror"), rate)
+        rms[axis] = float(found["rms"])
+        squares = squares + factor**2 * found["running_rms"] ** 2
+        running[f"a_w{axis}"] = found["running_rms"]
+        k_health = total.HEALTH["seat", axis][1]
+        repeated = exposure.repeated(float(found["vdv"]), float(found["msdv"]), duration, trip)
+        dose = max(dose, k_health * repeated.vdv)
+        rows.append(
+            {
+                "axis": name,
+                "weighting": weighting,
+                "a_w [m/s2]": rms[axis],
+                "MTVV [m/s2]": float(found["mtvv"]),
+                "VDV [m/s1.75]": float(found["vdv"]),
+                "eVDV [m/s1.75]": float(found["evdv"]),
+                "crest factor": float(found["crest_factor"]),
+                "A(8) [m/s2]": float(exposure.a8(k_health * rms[axis], trip)),
+            }
+        )
+        remarks += [f"{name}: {sentence}" for sentence in quantities.advice(found)]
+    running["a_v"] = np.sqrt(squares)
+    value = float(total.total_value(rms))
+    rows.append({"axis": "a_v", "a_w [m/s2]": value, "MTVV [m/s2]": float(running["a_v"].max())})
+    verdicts = [f"a_v over the whole recording: {' and '.join(bands.names(value))}"]
+    shares = bands.membership(running["a_v"].values).mean(axis=1)
+    verdicts.append(
+        "running a_v (1 s), share of time: "
+        + ", ".join(f"{name} {100 * share:.1f} %" for name, share in zip(bands.BANDS, shares) if share > 0)
+        + "; bands overlap"
+    )
+    worst = max(total.HEALTH["seat", axis][1] * value for axis, value in rms.items())
+    zone = exposure.rms_zone(trip)
+    verdicts.append(
+        f"health, {trip / 60:.1f} min a day of nothing else: {worst:.2f} m/s2 on the worst axis, "
+        f"{zone.place(worst)} (caution zone {zone.lower:.2f} to {zone.upper:.2f} m/s2); "
+        f"VDV {dose:.1f} m/s1.75, {exposure.DOSE_ZONE.place(dose)} "
+        f"({exposure.DOSE_ZONE.lower:g} to {exposure.DOSE_ZONE.upper:g} m/s1.75)"
+    )
+    if "a_z" in names:
+        verdicts.append(_sickness(recording["a_z"], rate, duration, trip))
+    if len(names) < len(AXES):
+        verdicts.append(f"only {', '.join(names)}: a_v lacks the other axes")
+    title = f"ISO 2631-1 comfort on the seat, {duration:.1f} s at {rate:g} Hz"
+    return Result("iso2631", title, pd.DataFrame(rows), verdicts + remarks, describe(running), "m/s2", bands.BANDS)
+
+
+def _sickness(a_z: xr.DataArray, rate: float, duration: float, trip: float) -> str:
+    found = iso2631.metrics(iso2631.weight(a_z, rate, "Wf", before="mirror"), rate)
+    dose = exposure.repeated(float(found["vdv"]), float(found["msdv"]), duration, trip).msdv
+    caveat = " (a recording below 10 min says little of 0.1 to 0.5 Hz)" if duration < 600 else ""
+    return (
+        f"motion sickness after {trip / 60:.1f} min of nothing else: MSDV_z {dose:.2f} m/s1.5, "
+        f"{exposure.vomiting_share(dose):.1f} % may vomit, "
+        f"illness rating {exposure.illness_rating(dose):.2f} of 3{caveat}"
+    )
+
+
+def styles(recording: xr.Dataset) -> Result:
+    """Share of time outside the acceleration and jerk bands of a recording."""
+    rate = recording.attrs["rate"]
+    remarks = ["accelerations as recorded; gravity and the offset of the sensor are thought to be out of them"]
+    rows, signals = [], xr.Dataset(coords={"time": recording["time"]})
+    for name in (name for name in AXES if name in recording):
+        signal = recording[name].values
+        if name == "a_z" and abs(abs(signal.mean()) - STANDARD_GRAVITY) < NEAR_GRAVITY:
+            remarks = [f"a_z holds gravity: its mean of {signal.mean():.2f} m/s2 was taken off"]
+            signal = signal - signal.mean()
+        signals[name] = ("time", signal)
+        rows += [
+            _outside(name, style, signal, band, "m/s2", rate) for style, band in thresholds.ACCELERATION[name].items()
+        ]
+        if name != "a_z":
+            rows += [
+                _outside(f"jerk of {name}", style, jerk.of_drive(signal, rate), band, "m/s3", rate)
+                for style, band in jerk.BANDS.items()
+            ]
+    title = f"Accelerations and jerk against driving styles, {recording.sizes['time'] / rate:.1f} s at {rate:g} Hz"
+    return Result("thresholds", title, pd.DataFrame(rows), remarks, describe(signals), "m/s2", thresholds.ACCELERATION)
+
+
+def _outside(quantity: str, style: str, signal: np.ndarray, band: thresholds.Band, unit: str, rate: float) -> dict:
+    outside = np.concatenate([[False], (signal < band.lower) | (signal > band.upper), [False]])
+    edges = np.flatnonzero(np.diff(outside.astype(np.int8)))
+    longest = np.max(edges[1::2] - edges[::2], initial=0)
+    return {
+        "quantity": quantity,
+        "style": style,
+        "lower": band.lower,
+        "upper": band.upper,
+        "unit": unit,
+        "time outside [%]": 100.0 * outside.sum() / len(signal),
+        "longest [s]": longest / rate,
+        "source": band.source,
+    }
+
+
+def roughness(file, segment: float, *, smoothed: bool = False) -> Result:
+    """IRI per segment of a profile in a CSV file: columns ``s`` and any of HEIGHTS in m; of two tracks MRI and HRI."""
+    table = _table(file)
+    names = [name for name in HEIGHTS if name in table.columns]
+    if "s" not in table.columns or not names:
+        raise InputError(f"expected columns s and any of {', '.join(HEIGHTS)}", file=file)
+    text = [name for name in ("s", *names) if table[name].dtype.kind not in "fiu"]
+    if text:
+        raise InputError(f"column {text[0]!r} holds something else than numbers", file=file)
+    s = table["s"].to_numpy(float)
+    settings = {"moving_average": None} if smoothed else {}
+    profiles = {name: table[name].to_numpy(float) for name in names}
+    try:
+        start, stop = iri.segments(s[0], s[-1], segment)
+        found = {f"IRI {name}": iri.iri(profile, s, segment, **settings) for name, profile in profiles.items()}
+        if {"left", "right"} <= set(names):
+            found["MRI"] = iri.mean_of_tracks(profiles["left"], profiles["right"], s, segment, **settings)
+            found["HRI"] = iri.half_car(profiles["left"], profiles["right"], s, segment, **settings)
+    except InputError as problem:
+        raise InputError(str(problem), file=file) from None
+    columns = {f"{name} [m/km]": each for name, each in found.items()}
+    rows = pd.DataFrame({"from [m]": start, "to [m]": stop, **columns})
+    signals = xr.Dataset({name: ("segment", each) for name, each in found.items()}, {"s": s})
+    remarks = ["profile taken as averaged over 250 mm already" if smoothed else "moving average of 250 mm applied"]
+    return Result("iri", f"IRI at 80 km/h, segments of {segment:g} m", rows, remarks, describe(signals), "m/km")
+
+
+def _table(file, rows: int | None = None) -> pd.DataFrame:
+    try:
+        return pd.read_csv(file, skipinitialspace=True, nrows=rows)
+    except FileNotFoundError:
+        raise InputError("no such file", file=file) from None
+    except (OSError, ValueError, UnicodeDecodeError) as problem:
+        raise InputError(f"not a readable CSV file ({str(problem).splitlines()[0]})", file=file) from None

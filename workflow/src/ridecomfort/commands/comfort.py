@@ -1,0 +1,65 @@
+"""Comfort of one recording or profile of your own: ISO 2631-1, thresholds or IRI.
+
+Recordings are CSV files with one row of column names, a column ``time`` in s and any of
+``a_x``, ``a_y``, ``a_z``; profiles have a column ``s`` in m and one or two of ``left``,
+``right``, ``elevation`` in m.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..comfort import alone
+from ..comfort.seat import Seat
+from ..errors import InputError
+from ..report import recording as drawing
+from ..store import replacing
+
+
+def arguments(parser) -> None:
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--iso2631", type=Path, metavar="CSV", help="comfort, health and sickness by ISO 2631-1")
+    what.add_argument("--thresholds", type=Path, metavar="CSV", help="acceleration and jerk against driving styles")
+    what.add_argument("--iri", type=Path, metavar="CSV", help="IRI of a profile, per segment")
+    parser.add_argument("--unit", default="m/s2", help="unit of the accelerations: m/s2 or g (default m/s2)")
+    parser.add_argument(
+        "--column", action="append", default=[], metavar="NAME=COLUMN", help="which column is a_x, a_y, a_z or time"
+    )
+    parser.add_argument("--exposure", type=float, metavar="MINUTES", help="of a trip made of nothing else")
+    parser.add_argument(
+        "--seat", type=float, nargs=2, metavar=("HZ", "DAMPING"), help="recorded on the floor: a_z through such a seat"
+    )
+    parser.add_argument("--segment", type=float, default=100.0, metavar="M", help="of the IRI (default 100)")
+    parser.add_argument("--smoothed", action="store_true", help="the profile is averaged over 250 mm already")
+    parser.add_argument("--output", type=Path, metavar="FOLDER", help="for table and plot (default beside the CSV)")
+
+
+def run(options) -> None:
+    method = next(name for name in ("iso2631", "thresholds", "iri") if getattr(options, name))
+    file = getattr(options, method)
+    if method == "iri":
+        result = alone.roughness(file, options.segment, smoothed=options.smoothed)
+    else:
+        recording = alone.recording(file, _columns(options))
+        if method == "iso2631":
+            exposure = None if options.exposure is None else 60.0 * options.exposure
+            result = alone.ride(recording, exposure, Seat(*options.seat) if options.seat else None)
+        else:
+            result = alone.styles(recording)
+    print(result.text())
+    table, plot = ((options.output or file.parent) / f"{file.stem}_{method}{suffix}" for suffix in (".csv", ".png"))
+    with replacing(table) as table_part, replacing(plot) as plot_part:
+        result.table.to_csv(table_part, index=False)
+        drawing.draw(result, plot_part)
+    print(f"\nwritten: {table} and {plot}")
+
+
+def _columns(options) -> dict:
+    columns = {}
+    for entry in options.column:
+        name, equals, column = entry.partition("=")
+        if not equals or name not in ("time", *alone.AXES):
+            names = ", ".join(("time", *alone.AXES))
+            raise InputError(f"{entry!r} is not NAME=COLUMN with a NAME of {names}", place="--column")
+        columns[name] = {"column": column}
+    return {"columns": columns, "unit": options.unit}
