@@ -1,0 +1,1 @@
+"""Stand-in sites: roads and measured drives made from seeds, hidden effects included."""
