@@ -1,0 +1,128 @@
+"""Figures: labelled axes with units, nothing cut off, equal bytes for equal data, any set of sites."""
+
+import dataclasses
+import io
+import re
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+from PIL import Image
+from scipy import signal
+
+from ridecomfort.comfort import weighting
+from ridecomfort.report import catalogue, figures, style
+from ridecomfort.report.figures.weighting import bilinear_sections, response_of_weight, sample_signal
+from tests.report import synthetic
+
+DIAGRAMS = ("framework", "leastsquare", "optichain")
+BY_BLOCK = ("convergence",)
+ALL = list(figures.BUILDERS)
+
+
+@pytest.fixture(scope="module")
+def drawn(paper_like):
+    """Every figure of the paper-like study, laid out."""
+    found = {}
+    for name in ALL:
+        each = figures.draw(paper_like, name)
+        with style.styled():
+            FigureCanvasAgg(each).draw()
+        found[name] = each
+    return found
+
+
+def test_names_are_those_of_the_catalogue(paper_like):
+    assert list(catalogue.figures(paper_like.settings["sites"])) == ALL
+
+
+@pytest.mark.parametrize("name", [name for name in ALL if name not in DIAGRAMS])
+def test_axes_are_labelled_with_units(name, drawn):
+    axes = drawn[name].axes
+    unit = re.compile(r"\[[^\]]+\]$")
+    for each in axes:
+        numbers = [label.get_text() for label in each.get_yticklabels() if label.get_visible()]
+        if any(text[-1:].isdigit() for text in numbers) and each.yaxis.get_tick_params().get("labelleft", True):
+            row = [other for other in axes if np.isclose(other.get_position().y0, each.get_position().y0)]
+            labels = [other.get_ylabel() for other in row]
+            assert any(unit.search(label) for label in labels), f"{name}: {numbers}"
+        for label in (each.get_xlabel(), each.get_ylabel()):
+            assert not label or unit.search(label), label
+    assert name in BY_BLOCK or any(unit.search(each.get_xlabel()) for each in axes)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_nothing_is_cut_off(name, drawn):
+    each = drawn[name]
+    with style.styled():
+        box = each.get_tightbbox(FigureCanvasAgg(each).get_renderer())
+    width, height = each.get_size_inches()
+    margin = 0.02
+    assert box.x0 > -margin and box.y0 > -margin
+    assert box.x1 < width + margin and box.y1 < height + margin
+
+
+@pytest.mark.parametrize("suffix", list(style.METADATA))
+def test_equal_data_give_equal_bytes(suffix, paper_like, tmp_path):
+    for copy in ("one", "two"):
+        style.save(figures.draw(paper_like, "ride_comfors"), tmp_path / f"{copy}{suffix}")
+    one, two = ((tmp_path / f"{copy}{suffix}").read_bytes() for copy in ("one", "two"))
+    assert one == two
+    assert b"CreationDate" not in one and b"Matplotlib" not in one
+
+
+def test_drawing_leaves_the_settings_of_others_alone(own_site):
+    import matplotlib
+
+    before = dict(matplotlib.rcParams)
+    figures.draw(own_site, "critical_shares")
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_own_site_without_drives(own_site):
+    for name in catalogue.figures(own_site.settings["sites"]):
+        image = io.BytesIO()
+        with style.styled():
+            figures.draw(own_site, name).savefig(image, format="png")
+        assert np.asarray(Image.open(image)).std() > 1.0
+
+
+def test_calibration_of_effects_goes_on_below(paper_like):
+    study = dataclasses.replace(paper_like, calibrations={"ts1": synthetic.calibration_with_effect()})
+    for name in ("optichain", "convergence"):
+        each = figures.draw(study, name)
+        with style.styled():
+            box = each.get_tightbbox(FigureCanvasAgg(each).get_renderer())
+        assert box.x0 > -0.02 and box.x1 < each.get_size_inches()[0] + 0.02
+        words = " ".join(text.get_text() for text in each.findobj(Text))
+        assert "friction" in words
+
+
+def test_severity_darkens_from_class_to_class():
+    """So that it reads in grey, too: luminance (ITU-R BT.709) falls within each method."""
+    for classes in (("PT", "ND", "AG"), ("NU", "LU", "FU", "U", "VU", "EU"), ("VG", "G", "F", "M", "P")):
+        codes = [style.SEVERITY[name] for name in classes]
+        colours = [[int(code[i : i + 2], 16) for i in (1, 3, 5)] for code in codes]
+        luminance = [np.dot((0.2126, 0.7152, 0.0722), colour) for colour in colours]
+        assert all(np.diff(luminance[1:]) < 0)
+
+
+def test_bilinear_filter_is_the_analogue_one_at_warped_frequencies():
+    """Bilinear without prewarping: H_d(f) = H_a(rate / pi tan(pi f / rate)), exactly."""
+    frequency = np.array([0.8, 4.0, 12.5, 31.5, 45.0])
+    digital = np.abs(signal.sosfreqz(bilinear_sections("Wk", 100.0), frequency, fs=100.0)[1])
+    warped = 100.0 / np.pi * np.tan(np.pi * frequency / 100.0)
+    assert digital == pytest.approx(weighting.named("Wk").factor(warped), rel=1e-9)
+
+
+def test_sines_are_measured_with_their_weighting_factor():
+    frequency, amplitude = response_of_weight("Wk", 100.0, count=3)
+    assert amplitude == pytest.approx(weighting.named("Wk").factor(frequency), rel=1e-4)
+
+
+def test_sample_is_measured_where_drives_are_and_the_mean_of_the_runs_elsewhere(paper_like, own_site):
+    measured, origin = sample_signal(paper_like)
+    assert origin == "measured on Ts1" and np.isfinite(measured).all()
+    mean, origin = sample_signal(own_site)
+    assert origin == "mean of the runs on home" and mean.size == measured.size == 2200

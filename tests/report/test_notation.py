@@ -1,0 +1,28 @@
+"""Marked-up text in its three forms."""
+
+import pytest
+
+from ridecomfort.report import notation
+
+
+@pytest.mark.parametrize(
+    "text, plain, html, latex",
+    [
+        ("$R_c$ [%]", "R_c [%]", "<i>R</i><sub>c</sub> [%]", r"$R_c$ [\%]"),
+        (r"$\pm a_{x,PT}$", "±a_x,PT", "±<i>a</i><sub>x,PT</sub>", r"$\pm a_{x,PT}$"),
+        (r"$\Phi$-rate", "Φ-rate", "<i>Φ</i>-rate", r"$\Phi$-rate"),
+        ("road_friction < 1", "road_friction < 1", "road_friction &lt; 1", r"road\_friction $<$ 1"),
+        ("m/s² & −1", "m/s² & −1", "m/s² &amp; −1", r"m/s$^2$ \& $-$1"),
+    ],
+)
+def test_forms(text, plain, html, latex):
+    assert notation.plain(text) == plain
+    assert notation.html(text) == html
+    assert notation.latex(text) == latex
+
+
+def test_symbols_and_units_of_the_vocabulary():
+    assert notation.symbol("a_z") == "$a_z$"
+    assert notation.symbol("suspension_friction.front") == "suspension friction: front"
+    assert notation.unit("m/s2") == "m/s²"
+    assert notation.unit("m/km") == "m/km"

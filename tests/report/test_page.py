@@ -1,0 +1,91 @@
+"""The page: self-contained, complete, honest about stand-in data."""
+
+import dataclasses
+from html.parser import HTMLParser
+
+import pytest
+
+from ridecomfort.report import catalogue, claims, page, tables
+
+PIXEL = bytes.fromhex(
+    "89504e470d0a1a0a0000000d49484452000000010000000108060000001f15c4890000000d4944415478da63f8cfc0f01f0005000"
+    "1ff5bd6e5cd0000000049454e44ae426082"
+)
+
+
+class Resources(HTMLParser):
+    """What a page loads, its elements' ids, and its text."""
+
+    def __init__(self):
+        super().__init__()
+        self.loaded, self.links, self.ids, self.tags, self.text = [], [], [], [], []
+        self.style = ""
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        self.tags.append(tag)
+        self.loaded += [attrs[key] for key in ("src", "srcset", "data", "poster") if key in attrs]
+        self.links += [attrs["href"]] if "href" in attrs else []
+        self.ids += [attrs["id"]] if "id" in attrs else []
+
+    def handle_data(self, data):
+        if self.tags[-1:] == ["style"]:
+            self.style += data
+        self.text.append(data)
+
+
+def rendered(study):
+    made = tables.make(study)
+    made["claims"] = claims.table(study, made)
+    figures = dict.fromkeys(catalogue.figures(study.settings["sites"]), PIXEL)
+    text = page.render(study, made, figures)
+    parser = Resources()
+    parser.feed(text)
+    return text, parser
+
+
+@pytest.fixture(scope="module", params=["paper_like", "own_site"])
+def study(request):
+    return request.getfixturevalue(request.param)
+
+
+def test_nothing_is_loaded_from_elsewhere(study):
+    _, found = rendered(study)
+    assert found.loaded and all(source.startswith("data:") for source in found.loaded)
+    assert all(link.startswith("#") and link[1:] in found.ids for link in found.links)
+    assert "script" not in found.tags and "link" not in found.tags
+    assert "url(" not in found.style and "@import" not in found.style
+
+
+def test_every_table_and_figure_is_on_it_once(study):
+    _, found = rendered(study)
+    sites = study.settings["sites"]
+    expected = [f"tab-{name}" for name in catalogue.tables(sites) if name != "claims"]
+    expected += [f"fig-{name}" for name in catalogue.figures(sites)]
+    assert sorted(name for name in found.ids if name[:4] in ("tab-", "fig-")) == sorted(expected)
+
+
+def test_claims_and_provenance_are_on_it(study):
+    text, found = rendered(study)
+    words = " ".join(found.text)
+    assert words.count("by the paper's own tables:") == len(claims.CLAIMS)
+    for site in study.sites:
+        assert site.files["iri"] in words
+    assert "seed: 2021" in words and "numpy" in words
+
+
+def test_stand_in_is_said_where_it_is_shown_and_not_elsewhere(study):
+    text, _ = rendered(study)
+    figures_with_data = [name for name in catalogue.figures(study.settings["sites"]) if name not in page.WITHOUT_DATA]
+    if study.standin:
+        assert "made from seeds" in text and "of Ts1, Ts2, Ts3 are" in text
+        assert text.count("Stand-in data.</figcaption>") == len(figures_with_data)
+    else:
+        assert "tand-in" not in text
+
+
+def test_names_with_markup_are_shown_not_run(own_site):
+    named = dataclasses.replace(own_site.sites[0], title="<script>alert(1)</script>")
+    study = dataclasses.replace(own_site, sites=(named,))
+    text, found = rendered(study)
+    assert "script" not in found.tags and "&lt;script&gt;" in text

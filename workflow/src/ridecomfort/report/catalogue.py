@@ -1,0 +1,115 @@
+"""Names and captions of every table and figure, for a given set of sites.
+
+Names are the paper's labels where it has one (``tab:rid_comf_res`` becomes
+``rid_comf_res``). The module is light: the workflow reads it to know what will be made.
+
+``sites`` maps the name of each site to what the configuration says of it. Looked at here are
+``has_drives`` (measured drives exist, and with them a comparison) and ``calibrated_on`` (the site
+whose calibration the site is simulated with; ``none``, None or absent: the nominal vehicle).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+INPUT_TABLES = {
+    "sites": "The sites: what the paper publishes of its roads beside the roads of this study.",
+    "quantities": "Vehicle dynamics quantities for model validation and calibration.",
+    "lhs_input": "Probabilistic input parameters: as published, as configured and as sampled.",
+    "thresholds_manual": "Thresholds in m/s² for public transport (PT), normal (ND) and aggressive driving (AG).",
+    "acc_thresholds": "Bands of the vibration total value in m/s² (ISO 2631-1, Annex C).",
+    "IRI_thresholds": "Upper edges of the IRI classes in m/km as a function of speed.",
+}
+
+COMPARISON_TABLES = {
+    "baseline_res": "NRMSE of the model before calibration, against the measured drives.",
+}
+
+CALIBRATION_TABLES = {
+    "constraints": "Calibrated parameters: bounds, initial and calibrated values with 90 % intervals.",
+}
+
+COMFORT_TABLES = {
+    "thresholding_table": "Critical sections by thresholds of the longitudinal, lateral and vertical acceleration.",
+    "rid_comf_res": "Critical sections by the vibration total value of ISO 2631.",
+    "rid_comf_res2": "Critical sections by the IRI with thresholds that depend on the speed driven.",
+    "perception": "The vibration total value along the sites against the threshold of perception.",
+    "exceedance": "Critical sections of the mean over the runs beside those of the single runs.",
+    "claims": "The paper's claims, answered from the tables of this study.",
+}
+
+ROAD_FIGURES = {
+    "testsection_figs": "The sites: plan, height, slope and curvature of the reference line.",
+}
+
+METHOD_FIGURES = {
+    "framework": "The study from road surface to comfort: what flows into what.",
+    "leastsquare": "One block of the calibration: bounded nonlinear least squares.",
+    "validation_iso": "Frequency weighting after ISO 2631-1 against the exact analogue filter, "
+    "and the paper's bilinear transform without prewarping.",
+}
+
+CALIBRATION_FIGURES = {
+    "optichain": "The calibration as a chain of least-squares blocks: what each block set and what it cost.",
+    "convergence": "Cost of the calibration and its parameters after each block.",
+}
+
+COMPARISON_FIGURES = {
+    "opti_plots": "Measured and simulated signals before and after calibration.",
+}
+
+STRIPS = "below, the critical sections of each class, paler where only some of the runs are critical."
+
+COMFORT_FIGURES = {
+    "thresholding_results_1": "Longitudinal and lateral acceleration along the sites, mean over the runs, with the "
+    f"thresholds that apply; {STRIPS}",
+    "thresholding_results_2": "Vertical acceleration along the sites, mean over the runs, with the thresholds that "
+    f"apply; {STRIPS}",
+    "ride_comfors": "Vibration total value of ISO 2631 along the sites, mean over the runs, on its bands, each shown "
+    f"from its lower edge to that of the next; {STRIPS}",
+    "IRI_thresholds": "IRI along the sites as a survey reports it and in full resolution, on the classes at the mean "
+    f"speed of the runs; {STRIPS}",
+    "critical_shares": "Share of critical sections by method and class, this study beside the paper.",
+}
+
+
+def with_drives(sites: Mapping[str, Mapping]) -> list[str]:
+    """Names of the sites that have measured drives, in the order of the study."""
+    return [name for name, site in sites.items() if site.get("has_drives")]
+
+
+def calibrated_on(sites: Mapping[str, Mapping]) -> list[str]:
+    """Names of the sites whose calibrations the study uses, each once."""
+    named = [site.get("calibrated_on") for site in sites.values()]
+    return list(dict.fromkeys(name for name in named if name and name != "none"))
+
+
+def tables(sites: Mapping[str, Mapping]) -> dict[str, str]:
+    """Name and caption of every table of a study of these sites, in the order of the page."""
+    found = dict(INPUT_TABLES)
+    if with_drives(sites):
+        found |= COMPARISON_TABLES
+    if calibrated_on(sites):
+        found |= CALIBRATION_TABLES
+    found |= {f"opti_res_{name}": opti_res_caption(name) for name in with_drives(sites)}
+    return found | COMFORT_TABLES
+
+
+def figures(sites: Mapping[str, Mapping]) -> dict[str, str]:
+    """Name and caption of every figure of a study of these sites, in the order of the page."""
+    found = METHOD_FIGURES | ROAD_FIGURES
+    if calibrated_on(sites):
+        found |= CALIBRATION_FIGURES
+    if with_drives(sites):
+        found |= COMPARISON_FIGURES
+    return found | COMFORT_FIGURES
+
+
+def opti_res_caption(site: str) -> str:
+    """Caption of a site's table of errors before and after calibration."""
+    return f"NRMSE before (Ref) and after calibration (Opt), {label(site)}."
+
+
+def label(site: str) -> str:
+    """How a site is called in print: the paper's Ts1 for ``ts1``, any other name as it is."""
+    return site.capitalize() if site in ("ts1", "ts2", "ts3") else site

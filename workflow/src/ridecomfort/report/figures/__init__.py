@@ -1,0 +1,32 @@
+"""Every data figure of the paper and of the study, and drawn diagrams of how it works."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from matplotlib.figure import Figure
+
+from .. import style
+from ..study import Study
+from . import along, calibration, diagrams, overview, roads, weighting
+
+BUILDERS: Mapping[str, Callable[[Study], Figure]] = {
+    "framework": diagrams.framework,
+    "leastsquare": diagrams.leastsquare,
+    "validation_iso": weighting.validation_iso,
+    "testsection_figs": roads.testsection_figs,
+    "optichain": diagrams.optichain,
+    "convergence": calibration.convergence,
+    "opti_plots": calibration.opti_plots,
+    "thresholding_results_1": along.thresholding_results_1,
+    "thresholding_results_2": along.thresholding_results_2,
+    "ride_comfors": along.ride_comfors,
+    "IRI_thresholds": along.iri_thresholds,
+    "critical_shares": overview.critical_shares,
+}
+
+
+def draw(study: Study, name: str) -> Figure:
+    """One figure by its name in ``catalogue.figures``, in the study's style."""
+    with style.styled():
+        return BUILDERS[name](study)

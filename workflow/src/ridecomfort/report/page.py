@@ -1,0 +1,145 @@
+"""One self-contained HTML page: claims, tables, figures and where everything comes from."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from importlib.resources import files
+
+import jinja2
+import yaml
+from markupsafe import Markup
+
+from . import catalogue, claims, notation, published
+from .study import STANDIN, Study
+from .table import Table, to_html
+
+SECTIONS = (
+    ("sites", "Sites", ("sites", "testsection_figs")),
+    (
+        "method",
+        "Method",
+        (
+            "framework",
+            "quantities",
+            "lhs_input",
+            "thresholds_manual",
+            "acc_thresholds",
+            "IRI_thresholds",
+            "validation_iso",
+        ),
+    ),
+    (
+        "calibration",
+        "Calibration",
+        ("leastsquare", "optichain", "convergence", "constraints", "baseline_res", "opti_res_*", "opti_plots"),
+    ),
+    ("overview", "Comfort at a glance", ("critical_shares", "exceedance")),
+    ("thresholding", "Thresholding", ("thresholding_results_1", "thresholding_results_2", "thresholding_table")),
+    ("iso2631", "ISO 2631", ("ride_comfors", "rid_comf_res", "perception")),
+    ("iri", "International Roughness Index", ("IRI_thresholds.figure", "rid_comf_res2")),
+)
+"""Key, title and pieces of each section; ``.figure`` tells a figure from the table of the same name."""
+
+WITHOUT_DATA = ("framework", "leastsquare")
+"""Figures that show no results of any site."""
+
+KINDS = {claims.HOLDS: "holds", claims.FAILS: "fails", claims.UNKNOWN: "open"}
+
+
+def render(study: Study, tables: Mapping[str, Table], figures: Mapping[str, bytes]) -> str:
+    """The page as HTML text. ``tables`` hold the claims too; ``figures`` are PNG files by name."""
+    environment = jinja2.Environment(autoescape=True, trim_blocks=False, undefined=jinja2.StrictUndefined)
+    template = environment.from_string(files(__package__).joinpath("page.html").read_text(encoding="utf-8"))
+    return template.render(
+        title="Critical ride comfort along the road",
+        lead=_lead(study),
+        standin=_standin(study),
+        claims=[_claim(row) for row in tables["claims"].rows],
+        sections=list(_sections(study, tables, figures)),
+        files=_files(study),
+        software=sorted(study.software.items()),
+        configuration=yaml.safe_dump(dict(study.settings), default_flow_style=None, allow_unicode=True, width=100),
+        citation=published.CITATION,
+    )
+
+
+def _standin(study: Study) -> str | None:
+    note = study.standin_note()
+    if note is None:
+        return None
+    sentence = note.removeprefix(STANDIN)
+    return sentence[0].upper() + sentence[1:]
+
+
+def _lead(study: Study) -> str:
+    runs = ", ".join(f"{site.samples.sizes['run']} on {site.label}" for site in study.sites)
+    return (
+        f"From the road surface to critical sections by three methods: thresholds, ISO 2631 and the IRI. "
+        f"Simulated drives: {runs}; model: {study.model}. The study follows {published.CITATION}."
+    )
+
+
+def _sections(study: Study, tables: Mapping[str, Table], figures: Mapping[str, bytes]):
+    captions = {**catalogue.METHOD_FIGURES, **catalogue.ROAD_FIGURES, **catalogue.CALIBRATION_FIGURES}
+    captions |= {**catalogue.COMPARISON_FIGURES, **catalogue.COMFORT_FIGURES}
+    for key, title, names in SECTIONS:
+        pieces = []
+        for name in names:
+            figure = name.removesuffix(".figure")
+            if name.endswith("*"):
+                pieces += [_table(table) for other, table in tables.items() if other.startswith(name[:-1])]
+            elif name in tables:
+                pieces.append(_table(tables[name]))
+            elif figure in figures:
+                pieces.append(_figure(figure, captions[figure], figures[figure]))
+        if pieces:
+            yield {"key": key, "title": title, "pieces": pieces}
+
+
+def _table(table: Table) -> dict:
+    return {
+        "name": table.name,
+        "image": None,
+        "caption": _marked(table.caption),
+        "table": Markup(to_html(table)),
+        "notes": [_marked(note) for note in table.notes if not note.startswith(STANDIN)],
+        "sources": [
+            [_marked(text) for text in (source.cells, source.file, source.variable, source.rule)]
+            for source in table.sources
+        ],
+    }
+
+
+def _figure(name: str, caption: str, image: bytes) -> dict:
+    return {
+        "name": name,
+        "image": base64.b64encode(image).decode("ascii"),
+        "caption": _marked(caption),
+        "alternative": notation.plain(caption),
+        "data": name not in WITHOUT_DATA,
+    }
+
+
+def _claim(row) -> dict:
+    answer = dict(zip(("number", "text", "verdict", "reason", "paper"), row))
+    return answer | {"kind": KINDS[answer["verdict"]]}
+
+
+def _files(study: Study) -> list[tuple[str, ...]]:
+    """File, title, configuration hash, seed and source of every dataset that was read."""
+    found = []
+    for site in study.sites:
+        for name, file in site.files.items():
+            found.append(_file(file, getattr(site, name)))
+    found += [_file(study.calibration_files[name], dataset) for name, dataset in study.calibrations.items()]
+    return found
+
+
+def _file(file: str, dataset) -> tuple[str, ...]:
+    keys = ("title", "configuration_hash", "seed", "source")
+    return file, *(str(dataset.attrs.get(key, "")) for key in keys)
+
+
+def _marked(text: str) -> Markup:
+    return Markup(notation.html(text))

@@ -1,0 +1,82 @@
+"""What a report is made from: the results of every site, and how the study was set."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import xarray as xr
+
+from .catalogue import label
+
+
+STANDIN = "Stand-in data: "
+"""How every sentence begins that says so."""
+
+
+@dataclass(frozen=True)
+class Site:
+    """One site's results; what the study does not have (a site without drives) is None.
+
+    ``files`` names the file of each dataset, ``speed_limit_km_h`` and ``sampling`` are
+    the site's settings, ``standin`` says that its road and drives are made up.
+    """
+
+    name: str
+    road: xr.Dataset
+    samples: xr.Dataset
+    thresholds: xr.Dataset
+    iso2631: xr.Dataset
+    iri: xr.Dataset
+    comparison: xr.Dataset | None = None
+    standin: bool = False
+    title: str = ""
+    calibrated_on: str | None = None
+    speed_limit_km_h: float | None = None
+    sampling: Mapping = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def label(self) -> str:
+        """How the site is called in print."""
+        return label(self.name)
+
+
+@dataclass(frozen=True)
+class Study:
+    """The sites in order, the calibrations by the site that they were made on, and the settings.
+
+    ``settings`` is the configuration that the report was made with (plain data), ``software``
+    maps names of software to versions.
+    """
+
+    sites: tuple[Site, ...]
+    calibrations: Mapping[str, xr.Dataset] = field(default_factory=dict)
+    calibration_files: Mapping[str, str] = field(default_factory=dict)
+    model: str = "base"
+    settings: Mapping = field(default_factory=dict)
+    software: Mapping[str, str] = field(default_factory=dict)
+
+    def site(self, name: str) -> Site | None:
+        """The site of that name, None where the study has none."""
+        return next((site for site in self.sites if site.name == name), None)
+
+    @property
+    def compared(self) -> tuple[Site, ...]:
+        """The sites with measured drives."""
+        return tuple(site for site in self.sites if site.comparison is not None)
+
+    @property
+    def standin(self) -> tuple[Site, ...]:
+        """The sites whose road and drives are stand-ins."""
+        return tuple(site for site in self.sites if site.standin)
+
+    def standin_note(self) -> str | None:
+        """The sentence that goes wherever results of stand-in sites are shown, None without them."""
+        if not self.standin:
+            return None
+        names = ", ".join(site.label for site in self.standin)
+        return (
+            f"{STANDIN}the roads and measured drives of {names} are made from seeds to match what the "
+            "paper publishes of its inputs; they are not the paper's own."
+        )

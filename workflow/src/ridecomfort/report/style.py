@@ -1,0 +1,123 @@
+"""Colours, sizes and fonts of all figures: one colour for one thing everywhere.
+
+Colours are those of Okabe and Ito (2008), which colour-blind readers tell apart; severity
+runs from light to dark so that it also reads in grey.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..vocabulary import VARIABLES
+from . import notation
+
+SINGLE, DOUBLE = 3.5, 7.2
+"""Width of one and of two columns in inches (88 mm and 183 mm)."""
+
+MEASURED = "#3A3A3A"
+REFERENCE = "#E69F00"
+CALIBRATED = "#0072B2"
+SIGNAL = "#0072B2"
+ROAD = "#5B4636"
+PAPER = "#CC79A7"
+OURS = "#0072B2"
+FAINT = "#9AA0A6"
+GRID = "#DDDDDD"
+
+SEVERITY = {
+    "PT": "#F3C64E",
+    "ND": "#DD7D1F",
+    "AG": "#8C1C13",
+    "NU": "#DCE6EC",
+    "LU": "#F7DD8F",
+    "FU": "#F0B13C",
+    "U": "#DD7D1F",
+    "VU": "#B6421A",
+    "EU": "#6B0F12",
+    "VG": "#DCE6EC",
+    "G": "#F7DD8F",
+    "F": "#F0B13C",
+    "M": "#CF5F1C",
+    "P": "#6B0F12",
+}
+"""Classes of the three methods, from mild (light) to severe (dark)."""
+
+LINES = (
+    ("#0072B2", "o"),
+    ("#E69F00", "s"),
+    ("#009E73", "^"),
+    ("#CC79A7", "D"),
+    ("#56B4E9", "v"),
+    ("#D55E00", "P"),
+    ("#000000", "X"),
+)
+"""Colour and marker of lines that are only told apart, such as parameters."""
+
+SETTINGS: Mapping = {
+    "font.family": "DejaVu Sans",
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.labelsize": 8,
+    "xtick.labelsize": 7,
+    "ytick.labelsize": 7,
+    "legend.fontsize": 7,
+    "legend.frameon": False,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlelocation": "left",
+    "axes.grid": False,
+    "grid.color": GRID,
+    "grid.linewidth": 0.5,
+    "lines.linewidth": 0.9,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "mathtext.default": "it",
+    "pdf.fonttype": 42,
+    "path.simplify_threshold": 0.4,
+    "svg.hashsalt": "ridecomfort",
+}
+
+RESOLUTION = 200
+"""Dots per inch of the PNG files."""
+
+METADATA = {
+    ".png": {"Software": None},
+    ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}
+"""What is not written into the files, which are the same for the same data at any time."""
+
+
+def figure(width: float, height: float, **options) -> Figure:
+    """An empty figure of a size in inches with the study's style, laid out so that nothing overlaps."""
+    options.setdefault("layout", "constrained")
+    return Figure(figsize=(width, height), **options)
+
+
+def styled():
+    """A context in which figures are drawn and saved with the study's style."""
+    defaults = {key: value for key, value in matplotlib.rcParamsDefault.items() if "backend" not in key}
+    return matplotlib.rc_context({**defaults, **SETTINGS})
+
+
+def axis_label(name: str) -> str:
+    """Symbol and unit of a variable for an axis."""
+    return f"{notation.symbol(name)} [{notation.unit(VARIABLES[name].unit)}]"
+
+
+def note(axes: Axes, text: str, place: tuple[float, float]) -> None:
+    """A small note above and to the right of a point."""
+    axes.annotate(text, place, xytext=(3, 4), textcoords="offset points", fontsize=6)
+
+
+def save(drawn: Figure, path) -> None:
+    """Write a figure as PNG or PDF, by the ending of its path, without time stamps: equal data, equal bytes."""
+    with styled():
+        drawn.savefig(path, dpi=RESOLUTION, metadata=METADATA[Path(path).suffix], facecolor="white")
+    # What is laid out once is laid out: the next format costs half, and looks the same.
+    drawn.set_layout_engine("none")

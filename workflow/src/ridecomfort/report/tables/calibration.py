@@ -1,0 +1,198 @@
+"""Errors before and after calibration, and the calibrated parameters."""
+
+from __future__ import annotations
+
+import xarray as xr
+
+from ...vocabulary import SIGNALS
+from .. import catalogue, published
+from ..notation import symbol, unit, words
+from ..study import Site, Study
+from ..table import Column, Source, Table
+from .comfort import OURS, PAPER
+
+CHANGE = r"$\pm$ [%]"
+STATES = (("reference", "ref", "Ref"), ("calibrated", "opt", "Opt"))
+
+_BOUNDS = {
+    "spring_stiffness_front": "spring_stiffness_front_N_per_m",
+    "spring_stiffness_rear": "spring_stiffness_rear_N_per_m",
+    "tyre_friction": "tyre_friction",
+    "tyre_radial_stiffness": "tyre_radial_stiffness_N_per_m",
+    "tyre_radial_damping": "tyre_radial_damping_Ns_per_m",
+}
+
+
+def nrmse(site: Site, state: str, role: str = "fit") -> list[float]:
+    """NRMSE of each of ``SIGNALS``, mean over the drives of a role: ``fit``, at the usual speed, or ``check``."""
+    chosen = site.comparison["nrmse"].isel(drive=_drives(site, role)).sel(state=state).mean("drive")
+    return [float(chosen.sel(signal=signal)) for signal in SIGNALS]
+
+
+def initial_cost(calibration: xr.Dataset) -> float:
+    """Cost of the start in the units of ``cost``: half the sum of NRMSE^2 over the signals, mean over the drives."""
+    return 0.5 * float((calibration["initial_nrmse"] ** 2).sum("signal").mean("drive"))
+
+
+def baseline_res(study: Study) -> Table:
+    """tab:baseline_res: NRMSE of the model before calibration."""
+    rows = []
+    for site in study.compared:
+        rows.append((site.label, OURS, *nrmse(site, "reference", _main_role(site))))
+        paper = published.figures()["nrmse"].get(site.name)
+        if paper:
+            rows.append((site.label, PAPER, *(paper["ref"][signal] for signal in SIGNALS)))
+    return Table(
+        "baseline_res",
+        catalogue.COMPARISON_TABLES["baseline_res"],
+        _columns("Site"),
+        tuple(rows),
+        (*_sources(study.compared), Source.paper("nrmse", "tab:baseline_res")),
+        _notes(study),
+    )
+
+
+def opti_res(study: Study, site: Site) -> Table:
+    """tab:opti_res_<site>: NRMSE before and after calibration and the change in percent."""
+    rows = _changes(site, _main_role(site), "")
+    sources = _sources((site,))
+    breaks, notes = [], []
+    if _main_role(site) == "fit" and _drives(site, "check"):
+        breaks.append(len(rows))
+        rows += _changes(site, "check", ", check")
+        notes.append("check: drives that nothing is fitted to.")
+        file = site.files.get("comparison", "")
+        sources.append(Source(f"{OURS}, check", file, "nrmse", "mean over the drives of role check, never fitted"))
+    rule = "100 (Ref − Opt) / Ref, from unrounded values"
+    sources.append(Source(f"{CHANGE}, {OURS}", "this table", "Ref, Opt", rule))
+    paper = published.figures()["nrmse"].get(site.name)
+    if paper:
+        breaks.append(len(rows))
+        for _, key, title in STATES:
+            rows.append((title, PAPER, *(paper[key][signal] for signal in SIGNALS)))
+        rows.append((CHANGE, PAPER, *(paper["improvement_pct"][signal] for signal in SIGNALS)))
+        sources.append(Source.paper(f"nrmse.{site.name}", f"tab:opti_res_{site.name}"))
+    where = f"Calibrated on {catalogue.label(site.calibrated_on)}." if site.calibrated_on else "Not calibrated."
+    return Table(
+        f"opti_res_{site.name}",
+        f"{catalogue.opti_res_caption(site.name)} {where}",
+        _columns("State"),
+        tuple(rows),
+        tuple(sources),
+        _notes(study, notes),
+        breaks=tuple(breaks),
+    )
+
+
+def constraints(study: Study) -> Table:
+    """tab:constraints, with what the calibration made of the parameters."""
+    columns = (
+        Column("calibrated_on", ("", "Calibrated on")),
+        Column("parameter", ("", "Parameter")),
+        Column("unit", ("", "Unit")),
+        Column("paper_lower", ("Bounds, paper", "lower"), ".7g"),
+        Column("paper_upper", ("Bounds, paper", "upper"), ".7g"),
+        Column("lower", ("Bounds, this study", "lower"), ".7g"),
+        Column("upper", ("Bounds, this study", "upper"), ".7g"),
+        Column("initial", ("Value, this study", "initial"), ".4g"),
+        Column("value_sequence", ("Value, this study", "after OP blocks"), ".4g"),
+        Column("value", ("Value, this study", "calibrated"), ".4g"),
+        Column("interval_lower", ("90 % interval", "lower"), ".4g"),
+        Column("interval_upper", ("90 % interval", "upper"), ".4g"),
+        Column("verdict", ("", "In words")),
+    )
+    rows, sources, breaks = [], [], []
+    bounds = published.figures()["calibration_bounds"]
+    for name, calibration in study.calibrations.items():
+        if rows:
+            breaks.append(len(rows))
+        for parameter in calibration["parameter"].values.tolist():
+            chosen = calibration.sel(parameter=parameter)
+            in_words = words(parameter).capitalize()
+            sign = symbol(parameter) if parameter in _BOUNDS else ""
+            rows.append(
+                (
+                    catalogue.label(name),
+                    f"{in_words} {sign}".strip(),
+                    unit(str(chosen["unit"].item())),
+                    *(bounds[_BOUNDS[parameter]] if parameter in _BOUNDS else (None, None)),
+                    *(float(chosen[key]) for key in ("lower", "upper", "initial", "value_sequence", "value")),
+                    *(float(chosen[key]) for key in ("interval_lower", "interval_upper")),
+                    str(chosen["verdict"].item()),
+                )
+            )
+        file = study.calibration_files.get(name, "")
+        variables = "lower, upper, initial, value_sequence, value, interval_lower, interval_upper, verdict"
+        sources.append(Source(f"{OURS}, 90 % interval, in words", file, variables, "as in the file"))
+    sources.append(Source.paper("calibration_bounds", "tab:constraints"))
+    notes = [
+        "The paper writes the rear spring stiffness both $K_{sr}$ and $K_{rf}$. Its damping bounds lie above "
+        "what is published for passenger car tyres (0 to 2000 N s/m); they are kept for the paper's calibration.",
+        "The paper does not publish its calibrated values.",
+    ]
+    for name, calibration in study.calibrations.items():
+        applied = {"joint": "the joint search", "sequence": "the sequence of blocks"}[calibration.attrs["applied"]]
+        remarks = calibration.attrs["remarks"]
+        notes.append(
+            f"{catalogue.label(name)}: calibrated values are those of {applied}; stopped by "
+            f"{calibration.attrs['stopping_rule']}. Remarks: {remarks}."
+        )
+    return Table(
+        "constraints",
+        catalogue.CALIBRATION_TABLES["constraints"],
+        columns,
+        tuple(rows),
+        tuple(sources),
+        _notes(study, notes, normalisation=False),
+        breaks=tuple(breaks),
+    )
+
+
+def _drives(site: Site, role: str) -> list[int]:
+    return [drive for drive, its in enumerate(site.comparison["role"].values.tolist()) if its == role]
+
+
+def _main_role(site: Site) -> str:
+    """The role that stands for the site: ``fit``, or ``check`` where nothing is fitted."""
+    return "fit" if _drives(site, "fit") else "check"
+
+
+def _changes(site: Site, role: str, suffix: str) -> list[tuple]:
+    """Rows Ref, Opt and change of the drives of a role; Ref alone where nothing is calibrated."""
+    errors = {
+        title: nrmse(site, state, role) for state, _, title in STATES if state in site.comparison["state"].values
+    }
+    rows = [(title + suffix, OURS, *values) for title, values in errors.items()]
+    if len(errors) == len(STATES):
+        change = [100.0 * (before - after) / before for before, after in zip(*errors.values())]
+        rows.append((CHANGE + suffix, OURS, *change))
+    return rows
+
+
+def _columns(heading: str) -> tuple[Column, ...]:
+    errors = (Column(f"nrmse_{signal}", (f"NRMSE {symbol(signal)}",), ".4f") for signal in SIGNALS)
+    return Column(heading.lower(), (heading,)), Column("source", ("Source",)), *errors
+
+
+def _sources(sites) -> list[Source]:
+    return [
+        Source(
+            f"{OURS}, {site.label}",
+            site.files.get("comparison", ""),
+            "nrmse",
+            f"mean over the drives of role {_main_role(site)}",
+        )
+        for site in sites
+    ]
+
+
+def _notes(study: Study, notes=(), normalisation: bool = True) -> tuple[str, ...]:
+    notes = list(notes)
+    if normalisation:
+        notes.append(
+            "NRMSE: RMSE over the range (largest − smallest value) of the measured signal; the paper does not "
+            "state how it normalises."
+        )
+    if study.standin_note():
+        notes.append(study.standin_note())
+    return tuple(notes)
