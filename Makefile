@@ -1,0 +1,24 @@
+# Aliases only; what they call can be called by hand as well.
+PYTHON ?= python3
+CORES ?= $(shell getconf _NPROCESSORS_ONLN)
+BIN = .venv/bin
+
+.PHONY: env study test bench
+
+env: .venv/installed
+
+.venv/installed: requirements.lock
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "error: Python 3.11 or later is needed, e.g. make env PYTHON=python3.12")'
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+study: env
+	$(BIN)/snakemake -j$(CORES)
+
+test: env
+	$(BIN)/python -m pytest
+
+bench: env
+	$(BIN)/python tests/bench

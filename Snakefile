@@ -1,0 +1,86 @@
+# The study: from road surface to comfort tables. `snakemake -j2` makes everything.
+# Steps are `python -m ridecomfort.steps.<step>`; the rules, in the order in which data flows,
+# say which files they read and write. Everything that computes is in workflow/src/ridecomfort.
+import os
+import sys
+from pathlib import Path
+
+PROJECT = Path(workflow.basedir)
+sys.path.insert(0, str(PROJECT / "workflow" / "src"))
+
+from ridecomfort import config as configuration
+from ridecomfort.errors import InputError
+from ridecomfort.report import catalogue
+from ridecomfort.steps import modules, progress
+
+os.environ.update(
+    PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),
+    PYTHONPATH=str(PROJECT / "workflow" / "src"),
+    NUMBA_CACHE_DIR=str(PROJECT / ".cache" / "numba" / modules.compiled()),
+    RIDECOMFORT_CACHE=str(PROJECT / ".cache"),
+)
+
+
+configfile: "config/study.yaml"
+
+
+# Only with `--software-deployment-method apptainer`; else the environment of `make env`.
+container: "docker://python:3.11-bookworm"
+
+
+try:
+    study = configuration.load(config, given=workflow.config_settings.config)
+except InputError as problem:
+    sys.exit(f"error: {problem}")
+
+progress.follow(workflow)
+
+
+wildcard_constraints:
+    site="|".join(study.sites),
+    model=r"[A-Za-z0-9_+]+",
+    runs=r"\d+-\d+",
+
+
+rule all:
+    input:
+        "results/report.html",
+
+
+for site in study.names:
+
+    rule:
+        name:
+            site
+        input:
+            expand(
+                "results/{site}/{model}/comfort/{method}.nc",
+                site=site,
+                model=study.model,
+                method=["thresholds", "iso2631", "iri"],
+            ),
+            expand(
+                "results/{site}/{model}/comparison.nc",
+                site=[site] if study.drives(site) else [],
+                model=study.model,
+            ),
+
+
+rule compare:
+    input:
+        expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
+
+
+report: "workflow/report/study.rst"
+
+
+include: "workflow/rules/standin.smk"
+include: "workflow/rules/road.smk"
+include: "workflow/rules/measured.smk"
+include: "workflow/rules/calibrate.smk"
+include: "workflow/rules/sample.smk"
+include: "workflow/rules/simulate.smk"
+include: "workflow/rules/space.smk"
+include: "workflow/rules/comfort.smk"
+include: "workflow/rules/compare.smk"
+include: "workflow/rules/report.smk"

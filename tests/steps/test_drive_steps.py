@@ -1,0 +1,87 @@
+"""From records to a comparison through the commands that the workflow calls; a mistake leaves nothing behind."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from ridecomfort import simulate, store
+from ridecomfort.steps import calibrate, compare, measured
+from ridecomfort.vocabulary import CALIBRATED, SIGNALS, STANDARD_GRAVITY
+from tests import quarter_cars
+
+SIMULATION = {"step": 0.001, "rate": 100}
+COLUMNS = {"time": {"column": "t", "unit": "s"}, "v_x": {"column": "v", "unit": "km/h"}, "s": {"column": "s", "unit": "m"}}
+COLUMNS |= {name: {"column": name, "unit": "m/s2"} for name in SIGNALS[:3]}
+COLUMNS |= {name: {"column": name, "unit": "deg/s"} for name in SIGNALS[3:]}
+ENTRY = {"columns": COLUMNS, "lateral_position": 0.0, "sensor": {"behind_front_axle": 1.371, "above_wheel_centres": 0.2}}
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory, repository):
+    """A road, and two records made by the study's simulator with a softer front spring."""
+    folder = tmp_path_factory.mktemp("site")
+    road = quarter_cars.road(length=320.0)
+    store.write(road, folder / "road.nc", title="a road")
+    car = quarter_cars.vehicle(repository).replace(spring_stiffness_front=22000.0)
+    for name, speed in (("fit", 20.0), ("check", 16.0)):
+        u = road["u"].values
+        run = simulate.run(road, car, speed=xr.DataArray(speed + np.sin(u / 30), {"u": u}, "u"))
+        table = pd.DataFrame({"t": run["time"], "v": 3.6 * run["v_x"], "s": run["s"]})
+        for signal in SIGNALS[:3]:
+            table[signal] = run[signal]
+        table["a_x"] -= STANDARD_GRAVITY * np.sin(run["pitch"].values)
+        table["a_y"] += STANDARD_GRAVITY * np.cos(run["pitch"].values) * np.sin(run["roll"].values)
+        table["a_z"] += STANDARD_GRAVITY * np.cos(run["pitch"].values) * np.cos(run["roll"].values)
+        for signal in SIGNALS[3:]:
+            table[signal] = np.degrees(run[signal])
+        table.to_csv(folder / f"{name}.csv", index=False)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def car_file(repository):
+    return repository / "config" / "vehicles" / "midsize.yaml"
+
+
+def test_records_are_aligned_fitted_and_compared(files, car_file):
+    entries = [ENTRY | {"name": name, "role": name} for name in ("fit", "check")]
+    common = {"road": files / "road.nc", "vehicle": car_file}
+    config = {"site": "here", "drives": entries, "simulation": SIMULATION, "alignment": {"search": 0.5}}
+    measured.main(**common, drives=[files / "fit.csv", files / "check.csv"], config=config, output=files / "measured.nc")
+    drives = store.read(files / "measured.nc")
+    assert list(drives["drive"].values) == ["fit", "check"]
+    assert drives["clock_offset"].attrs["units"] == "s" and (abs(drives["clock_offset"]) < 5e-4).all()
+
+    model = {"site": "here", "effects": {}, "effects_folder": None, "simulation": SIMULATION}
+    settings = {"bounds": {}, "signals": list(SIGNALS), "tolerance": 1e-4, "restarts": 0, "seed": 1, "applied": "joint"}
+    common["measured"] = files / "measured.nc"
+    calibrate.main(**common, config=model | {"calibration": settings}, output=files / "calibration.nc")
+    found = store.read(files / "calibration.nc")
+    assert list(found["parameter"].values) == list(CALIBRATED) and found.attrs["calibrated_on"] == "here"
+    assert float(found["value"][0]) == pytest.approx(22000.0, rel=0.03)
+
+    compare.main(**common, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc")
+    nrmse = store.read(files / "comparison.nc")["nrmse"].sel(signal="pitch_rate")
+    assert (nrmse.sel(state="calibrated") < 0.3 * nrmse.sel(state="reference")).all()
+
+
+def test_a_bad_record_ends_the_step_with_one_line_and_no_file(files, car_file, tmp_path):
+    table = pd.read_csv(files / "fit.csv")
+    table.loc[200:, "t"] -= 1.0
+    table.to_csv(tmp_path / "bad.csv", index=False)
+    config = {"site": "here", "drives": [ENTRY], "simulation": SIMULATION, "alignment": {"search": 0.5}}
+    output = tmp_path / "out" / "measured.nc"
+    words = ["--road", files / "road.nc", "--vehicle", car_file, "--drives", tmp_path / "bad.csv", "--output", output]
+    command = [sys.executable, "-m", "ridecomfort.steps.measured", *map(str, words), "--config", json.dumps(config)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 1
+    (line,) = done.stderr.strip().splitlines()
+    assert line.startswith(f"error: {tmp_path / 'bad.csv'}: time") and "does not advance at row 201" in line
+    assert not output.parent.exists()

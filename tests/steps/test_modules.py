@@ -1,0 +1,71 @@
+"""The modules a step rests on: found as Python itself finds them, and no others."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ridecomfort.steps import modules
+
+STEPS = sorted(
+    path.stem
+    for path in (modules.PACKAGE / "steps").glob("*.py")
+    if "__main__" in path.read_text(encoding="utf-8")
+)
+
+LOADED = """
+import importlib, sys
+importlib.import_module("ridecomfort.steps." + sys.argv[1])
+for name, module in sorted(sys.modules.items()):
+    if name.split(".")[0] == "ridecomfort" and getattr(module, "__file__", None):
+        print(module.__file__)
+"""
+
+
+@pytest.fixture(scope="module")
+def found():
+    return {step: {Path(path).resolve() for path in modules.of_step(step)} for step in STEPS}
+
+
+@pytest.mark.parametrize("step", ["sample", "space", "thresholds"])
+def test_covers_what_python_loads(step, found):
+    run = subprocess.run([sys.executable, "-c", LOADED, step], capture_output=True, text=True, check=True)
+    loaded = {Path(line).resolve() for line in run.stdout.splitlines()}
+    assert loaded <= found[step]
+
+
+def test_leaves_out_what_a_step_does_not_use(found):
+    names = {path.relative_to(modules.PACKAGE).as_posix() for path in found["sample"]}
+    assert "sample.py" in names and "steps/command.py" in names and "store.py" in names
+    assert not any(name.startswith(("vehicle/", "comfort/", "report/", "standin/")) for name in names)
+
+
+def test_only_its_own_steps_use_the_stand_ins(found):
+    users = {step for step, paths in found.items() if any("standin" in path.parts for path in paths)}
+    assert users <= {"standin_road", "standin_drives"}
+
+
+def test_paths_do_not_depend_on_where_the_project_lies():
+    assert not any(Path(path).is_absolute() for path in modules.of_step("sample"))
+
+
+def test_every_import_form_is_followed(tmp_path, monkeypatch):
+    package = tmp_path / "ridecomfort"
+    texts = {
+        "__init__.py": "",
+        "errors.py": "",
+        "one.py": "",
+        "two.py": "def f():\n    from . import errors\n",
+        "steps/__init__.py": "",
+        "steps/try_it.py": "import numpy\nimport ridecomfort.one\nfrom ridecomfort.road import grid\nfrom ..two import f\n",
+        "road/__init__.py": "",
+        "road/grid.py": "",
+        "road/other.py": "",
+    }
+    for name, text in texts.items():
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_text(text)
+    monkeypatch.setattr(modules, "PACKAGE", package)
+    found = {Path(path).resolve().relative_to(package).as_posix() for path in modules.of_step("try_it")}
+    assert found == set(texts) - {"road/other.py"}

@@ -1,0 +1,89 @@
+"""What a person sees of a run, from the records that Snakemake logs."""
+
+import io
+import logging
+
+import pytest
+
+from ridecomfort.steps import progress
+
+
+class Clock:
+    now = 0.0
+
+    def monotonic(self):
+        return self.now
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    clock = Clock()
+    monkeypatch.setattr(progress, "time", clock)
+    return clock
+
+
+@pytest.fixture
+def watched(tmp_path, clock):
+    stream = io.StringIO()
+    handler = progress.Progress(tmp_path / "benchmarks", stream)
+    handler.said = lambda: stream.getvalue().splitlines()
+    return handler
+
+
+def log(handler, event, **fields):
+    handler.emit(logging.makeLogRecord({"event": event, "msg": None, **fields}))
+
+
+def start(handler, number, rule, **wildcards):
+    log(handler, "job_info", jobid=number, rule_name=rule, wildcards=wildcards, benchmark="b.tsv")
+
+
+def test_time_left_is_that_of_the_jobs_to_come_shared_among_those_that_run(watched, clock):
+    log(watched, "run_info", stats={"simulate": 10, "all": 1, "total": 11})
+    for number in (1, 2):
+        start(watched, number, "simulate", site="ts1", runs=f"{number}")
+    clock.now = 8.0
+    for number in (1, 2):
+        log(watched, "job_finished", job_id=number)
+        start(watched, number + 2, "simulate", site="ts1", runs=f"{number + 2}")
+    # Eight shards, by two at a time, the target as long as a shard: nine of 8 s.
+    assert watched.time_left() == pytest.approx((8 * 8 + 8) / 2)
+    assert watched.said()[-1] == "[ 18 %] simulate ts1 2 done in 8.0 s (2 of 10); 9 to go, about 36 s"
+
+
+def test_no_guess_before_the_main_rule_was_timed(watched, clock):
+    log(watched, "run_info", stats={"road": 1, "simulate": 10, "total": 11})
+    start(watched, 1, "road", site="ts1")
+    clock.now = 1.0
+    log(watched, "job_finished", job_id=1)
+    assert watched.said()[-1] == "[  9 %] road ts1 done in 1.0 s; 10 to go"
+
+
+def test_earlier_runs_give_a_first_guess(tmp_path, clock):
+    folder = tmp_path / "benchmarks" / "simulate" / "ts1"
+    folder.mkdir(parents=True)
+    for number, seconds in enumerate([4.0, 6.0]):
+        (folder / f"{number}.tsv").write_text(f"s\th:m:s\n{seconds}\t0:00:05\n")
+    handler = progress.Progress(tmp_path / "benchmarks", io.StringIO())
+    log(handler, "run_info", stats={"simulate": 10, "total": 10})
+    assert handler.time_left() == pytest.approx(50.0)
+
+
+def test_a_users_mistake_is_one_line(watched, tmp_path):
+    (tmp_path / "road.log").write_text("error: data/a/road.crg: 3e38 m, expected less\n")
+    start(watched, 1, "road", site="a")
+    log(watched, "job_error", jobid=1, rule_name="road", log=[f"{tmp_path / 'road.log'} (check log file(s))"])
+    assert watched.said()[-1] == "[  0 %] road a failed: error: data/a/road.crg: 3e38 m, expected less"
+
+
+def test_an_unexpected_failure_shows_its_log(watched, tmp_path):
+    (tmp_path / "road.log").write_text("Traceback\n  File x\nZeroDivisionError: division by zero\n")
+    start(watched, 1, "road", site="a")
+    log(watched, "job_error", jobid=1, rule_name="road", log=[str(tmp_path / "road.log")])
+    assert "see " in watched.said()[-4] and watched.said()[-1].strip() == "ZeroDivisionError: division by zero"
+
+
+@pytest.mark.parametrize(("event", "kept"), [("job_info", False), ("run_info", True), (None, True)])
+def test_snakemake_keeps_its_other_lines(watched, event, kept):
+    record = logging.makeLogRecord({"event": event, "msg": "text"})
+    assert watched.replaces(record) is kept

@@ -1,0 +1,85 @@
+"""What the workflow does: a small study, what reruns, and that shards leave no trace."""
+
+import shutil
+
+import pytest
+
+from ridecomfort import store
+
+pytestmark = pytest.mark.study
+
+METHODS = ("thresholds", "iso2631", "iri")
+
+
+def test_lint_is_clean(project):
+    answer = project.snakemake("--lint")
+    assert answer.status == 0 and "good condition" in answer.text
+
+
+def test_the_truth_is_sealed(repository):
+    users = [path.name for path in (repository / "workflow" / "rules").glob("*.smk") if "truth" in path.read_text()]
+    assert users == ["standin.smk"]
+
+
+def test_a_dry_run_of_the_papers_study_plans_every_step(repository, project):
+    shutil.rmtree(project.folder / "config")
+    shutil.copytree(repository / "config", project.folder / "config")
+    answer = project.snakemake("--dry-run")
+    assert answer.status == 0, answer.text
+    assert sum(job.startswith("simulate ") for job in answer.jobs) == 3 * 16
+    for once in ("calibrate ts1 base", "comparison ts3 base", "iri ts2 base", "tables", "figures", "report"):
+        assert once in answer.jobs
+    assert "calibrate ts2 base" not in answer.jobs
+
+
+def test_a_site_needs_no_more_than_a_road(finished):
+    for site in ("one", "two"):
+        for method in METHODS:
+            found = store.read(finished.folder / "results" / site / "base" / "comfort" / f"{method}.nc")
+            assert found.sizes["window"] == (250 - 50 - 25) // 5
+            assert found.attrs["configuration_hash"]
+    assert not any("calibration" in file or "comparison" in file for file in finished.files())
+
+
+def test_drives_over_time_are_not_kept(finished):
+    assert not any("/drives/" in file for file in finished.files())
+    shards = {file for file in finished.files() if "/space/" in file}
+    assert shards == {f"results/{site}/base/space/{runs}.nc" for site in ("one", "two") for runs in ("0000-0003", "0004-0005")}
+
+
+def test_nothing_to_do_on_the_second_call(finished):
+    answer = finished.snakemake("--dry-run", "one", "two")
+    assert answer.status == 0 and "Nothing to be done" in answer.text
+
+
+def test_touching_a_file_reruns_nothing(finished):
+    for file in ("config/sites/one.yaml", "road.crg", "config/vehicles/midsize.yaml"):
+        (finished.folder / file).touch()
+    assert "Nothing to be done" in finished.snakemake("--dry-run", "one", "two").text
+
+
+def test_changing_a_site_reruns_that_site_alone(finished):
+    finished.site("two", speed={"limit_km_h": 50})
+    try:
+        jobs = finished.snakemake("--dry-run", "one", "two").jobs
+    finally:
+        finished.site("two")
+    assert jobs and all(" two" in job for job in jobs)
+    assert {job.split()[0] for job in jobs} == {"simulate", "space", *METHODS}
+
+
+def test_a_setting_reruns_the_step_that_uses_it(finished):
+    jobs = finished.snakemake("--dry-run", "one", "--config", "comfort={iri: {segment: 25}}").jobs
+    assert jobs == ["iri one base"]
+
+
+def test_results_depend_neither_on_shards_nor_on_where_the_folder_lies(finished):
+    moved = type(finished)(finished.folder.with_name("moved"), finished.repository)
+    shutil.copytree(finished.folder, moved.folder)
+    assert "Nothing to be done" in moved.snakemake("--dry-run", "one", "two").text
+    answer = moved.snakemake("-j2", "one", "--config", "simulation={runs_per_shard: 5}")
+    assert answer.status == 0, answer.text
+    assert "results/one/base/space/0000-0004.nc" in moved.files()
+    for method in METHODS:
+        name = f"results/one/base/comfort/{method}.nc"
+        assert (moved.folder / name).read_bytes() == (finished.folder / name).read_bytes(), method

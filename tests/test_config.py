@@ -1,0 +1,239 @@
+"""The configuration: the paper's defaults, and each mistake answered by name in one line."""
+
+import shutil
+
+import pytest
+import yaml
+
+from ridecomfort import config, schema
+from ridecomfort.errors import InputError
+
+
+@pytest.fixture
+def project(repository, tmp_path):
+    """A project folder with a copy of the configuration and a user's site without drives."""
+    shutil.copytree(repository / "config", tmp_path / "config")
+    (tmp_path / "road.crg").touch()
+    write(tmp_path, "own", {"road": {"file": "road.crg"}})
+    return tmp_path
+
+
+def write(project, site, content):
+    (project / config.SITES / f"{site}.yaml").write_text(yaml.safe_dump(content))
+
+
+def read(project):
+    return schema.read_yaml(project / config.STUDY)
+
+
+def test_the_study_file_states_the_defaults(repository):
+    stated = schema.read_yaml(repository / config.STUDY)
+    assert stated == schema.defaults("study", sites=stated["sites"])
+
+
+def test_the_defaults_are_the_papers(shared):
+    published = yaml.safe_load((shared / "paper" / "published.yaml").read_text())
+    study = schema.defaults("study", sites=["ts1"])
+    assert study["runs"] == published["sampling"]["runs_per_site"]
+    assert study["comfort"]["critical_length"] == published["critical_length_m"]
+    assert study["comfort"]["thresholds"] == published["acceleration_thresholds"]
+    bands = {name: [low, None if high == float("inf") else high] for name, (low, high) in published["iso2631_bands"].items()}
+    assert study["comfort"]["iso2631"]["bands"] == bands
+    iri = dict(published["iri_thresholds"])
+    assert study["comfort"]["iri"]["speed_km_h"] == iri.pop("kmh")
+    assert study["comfort"]["iri"]["thresholds"] == iri
+    bounds = published["calibration_bounds"].values()
+    assert list(study["calibration"]["bounds"].values()) == list(bounds)
+
+
+def test_the_sites_are_sampled_as_published(shared, repository):
+    published = yaml.safe_load((shared / "paper" / "published.yaml").read_text())["sampling"]
+    study = config.load(schema.read_yaml(repository / config.STUDY), repository)
+    for site in ("ts1", "ts2", "ts3"):
+        assert study.sites[site]["sampling"] == {
+            name: published[name][site] for name in ("speed_deviation", "lateral_position", "road_friction")
+        }
+
+
+def test_every_key_says_what_it_means():
+    def silent(part, path):
+        for key, entry in part.get("properties", {}).items():
+            if "description" not in entry and "$ref" not in entry and entry.get("type") != "object":
+                yield f"{path}{key}"
+            yield from silent(entry, f"{path}{key}: ")
+
+    assert not list(silent(schema.load("study"), "")) and not list(silent(schema.load("site"), ""))
+
+
+def test_shards_name_every_run_once(project):
+    for runs, size in [(1, 250), (250, 250), (4000, 250), (4001, 250), (20000, 333)]:
+        study = config.load({"sites": ["own"], "runs": runs, "simulation": {"runs_per_shard": size}}, project)
+        named = [range(int(first), int(last) + 1) for first, last in (shard.split("-") for shard in study.shards)]
+        assert [run for shard in named for run in shard] == list(range(runs))
+
+
+def test_a_site_is_a_road_and_nothing_else(project):
+    study = config.load({"sites": ["own"]}, project)
+    assert study.calibrated_on("own") is None and study.measured == [] and study.made == []
+    assert study.model == "base" and study.vehicle("own") == "config/vehicles/midsize.yaml"
+
+
+def test_a_site_calibrated_elsewhere_brings_that_site_along(project):
+    study = config.load({"sites": ["ts2"]}, project)
+    assert study.names == ["ts2"] and set(study.sites) == {"ts2", "ts1"} and study.calibrations == ["ts1"]
+
+
+EFFECT = """
+from ridecomfort.effects.contract import Effect, Parameter
+
+effect = Effect(
+    "{name}", "A test.", "none", "drive", (Parameter("size", "N", 0.0, 1.0, (0.0, 10.0), "how much"),)
+)
+
+
+def act(force, speed, size):
+    return force + size
+"""
+
+
+@pytest.fixture
+def own_effects(project):
+    (project / "mine").mkdir()
+    for name in ("pull", "headwind"):
+        (project / "mine" / f"{name}.py").write_text(EFFECT.format(name=name))
+    return {"sites": ["own"], "effects_folder": "mine"}
+
+
+def test_effects_name_the_model_in_whatever_order(project, own_effects):
+    study = config.load({**own_effects, "effects": [{"pull": {"size": 2.0}}, "headwind"]}, project)
+    assert study.model == "headwind+pull"
+    assert study.effects("headwind+pull") == {"headwind": {}, "pull": {"size": 2.0}}
+    assert study.effects("base") == {}
+    assert study.effect_files("headwind+pull") == ["mine/headwind.py", "mine/pull.py"]
+
+
+@pytest.mark.parametrize(
+    ("effects", "said"),
+    [(["magic"], "unknown effect 'magic'"), ([{"pull": {"sise": 1.0}}], "effect 'pull' has no parameter 'sise'")],
+)
+def test_mistake_in_an_effect(project, own_effects, effects, said):
+    assert_said(project, {**own_effects, "effects": effects}, f"effects: {said}", config.STUDY)
+
+
+@pytest.mark.parametrize("step", ["simulate", "thresholds", "road", "sample"])
+def test_a_step_is_told_only_what_it_uses(project, step):
+    plain = config.load({"sites": ["own"]}, project)
+    sharded = config.load({"sites": ["own"], "simulation": {"runs_per_shard": 10, "keep_drives": True}}, project)
+    assert plain.config(step, "own", "base") == sharded.config(step, "own", "base")
+    assert "runs_per_shard" not in plain.config(step, "own", "base")
+
+
+def test_another_speed_in_the_study_leaves_the_measured_drives_as_they_are(project):
+    before = config.load({"sites": ["ts1"]}, project)
+    content = schema.read_yaml(project / config.SITES / "ts1.yaml")
+    write(project, "ts1", {**content, "speed": {"limit_km_h": 70}})
+    after = config.load({"sites": ["ts1"]}, project)
+    changed = {
+        step
+        for step in ("standin_road", "standin_drives", "road", "measured", "calibrate", "compare", "sample", "simulate")
+        if before.config(step, "ts1", "base") != after.config(step, "ts1", "base")
+    }
+    assert changed == {"simulate"}
+
+
+def test_a_number_on_the_command_line_may_stand_in_a_block(project):
+    study = config.load({"sites": ["own"], "space": {"spacing": "0.5"}}, project, given=["space"])
+    assert study.settings["space"]["spacing"] == 0.5
+
+
+STUDY_MISTAKES = [
+    ({"runs": 0}, "runs: 0, expected at least 1"),
+    ({"runs": 2.5}, "runs: 2.5, expected a whole number"),
+    ({"runs": "many"}, "runs: 'many', expected a whole number"),
+    ({"runs": True}, "runs: True, expected a whole number"),
+    ({"run": 3}, "unknown key 'run'; did you mean 'runs'"),
+    ({"simulation": {"stepp": 1}}, "simulation: unknown key 'stepp'; did you mean 'step'"),
+    ({"simulation": {"step": "1e-3"}}, "write 0.001"),
+    ({"simulation": {"rate": 333}}, "expected a rate that a step of 0.001 s divides"),
+    ({"space": {"spacing": -0.25}}, "space: spacing: -0.25, expected at least 0.1"),
+    ({"space": {"run_in": float("nan")}}, "space: run_in: nan, expected a finite number"),
+    ({"comfort": {"critical_length": -5}}, "comfort: critical_length: -5, expected at least 1"),
+    ({"calibration": {"bounds": {"tyre_friction": [1.4, 0.7]}}}, "tyre_friction: [1.4, 0.7], expected the lower value first"),
+    ({"calibration": {"signals": ["a_w"]}}, "'a_w', expected one of a_x"),
+    ({"comfort": {"iri": {"speed_km_h": [50, 60]}}}, "one for each of the 2 speeds"),
+    ({"sites": []}, "sites: [], expected at least 1"),
+    ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: own, ts1"),
+    ({"vehicle": "tank"}, "vehicle: unknown vehicle 'tank'; known vehicles: "),
+    ({"effects": ["magic"]}, "effects: unknown effect 'magic'"),
+    ({"effects": [{"a": {"b": "c"}}]}, "is not of the expected form"),
+    ({"effects_folder": "missing"}, "effects_folder: no such folder"),
+]
+
+
+@pytest.mark.parametrize(("change", "said"), STUDY_MISTAKES, ids=[said for _, said in STUDY_MISTAKES])
+def test_mistake_in_the_study(project, change, said):
+    assert_said(project, {"sites": ["own"], **change}, said, config.STUDY)
+
+
+@pytest.mark.parametrize(("change", "said"), STUDY_MISTAKES[:1])
+def test_mistake_on_the_command_line(project, change, said):
+    with pytest.raises(InputError, match="--config: runs"):
+        config.load({"sites": ["own"], **change}, project, given=["runs"])
+
+
+DRIVE = {"file": "drive.csv"}
+
+SITE_MISTAKES = [
+    ({"road": {"file": "gone.crg"}}, "road: file: no such file 'gone.crg'"),
+    ({"rode": {"file": "road.crg"}}, "'rode'"),
+    ({}, "key 'road' is missing"),
+    ({"road": {"file": "road.crg"}, "speed": {"limit_km_h": -50}}, "speed: limit_km_h: -50, expected at least 5"),
+    ({"road": {"file": "road.crg"}, "drives": [DRIVE]}, "drives: entry 1: file: no such file 'drive.csv'"),
+    ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "role": "fix"}]}, "role: 'fix', expected one of fit, check"),
+    (
+        {"road": {"file": "road.crg"}, "sampling": {"road_friction": {"uniform": [-0.1, 1]}}},
+        "-0.1, expected more than 0",
+    ),
+    (
+        {"road": {"file": "road.crg"}, "sampling": {"lateral_position": {"normal": [0, -1]}}},
+        "-1, expected at least 0",
+    ),
+    ({"road": {"file": "road.crg"}, "sampling": {"lateral_position": {"cauchy": [0, 1]}}}, "unknown key 'cauchy'"),
+    ({"road": {"file": "road.crg"}, "calibrated_on": "own"}, "calibrated_on: site 'own' has no measured drives"),
+    ({"road": {"file": "road.crg"}, "standin": True}, "config/standin.yaml has no site 'own'"),
+    ({"road": {"file": "road.crg"}, "vehicle": "tank"}, "vehicle: unknown vehicle 'tank'"),
+]
+
+
+@pytest.mark.parametrize(("content", "said"), SITE_MISTAKES, ids=[said for _, said in SITE_MISTAKES])
+def test_mistake_in_a_site(project, content, said):
+    write(project, "own", content)
+    assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
+
+
+def test_a_site_may_not_be_named_like_a_target(project):
+    write(project, "tables", {"road": {"file": "road.crg"}})
+    assert_said(project, {"sites": ["tables"]}, "'tables' is the name of something else", config.STUDY)
+
+
+def test_a_stand_in_lies_in_its_folder(project):
+    content = schema.read_yaml(project / config.SITES / "ts1.yaml")
+    content["road"]["file"] = "elsewhere/road.crg"
+    write(project, "ts1", content)
+    assert_said(project, {"sites": ["ts1"]}, "expected a file in data/ts1/", config.SITES / "ts1.yaml")
+
+
+def test_mistake_in_a_vehicle(project):
+    file = project / config.VEHICLES / "midsize.yaml"
+    vehicle = yaml.safe_load(file.read_text())
+    vehicle["parameters"]["sprung_mass"]["unit"] = "t"
+    file.write_text(yaml.safe_dump(vehicle))
+    with pytest.raises(InputError, match="sprung_mass: unit 't', expected 'kg'"):
+        config.load({"sites": ["own"]}, project)
+
+
+def assert_said(project, settings, said, file):
+    with pytest.raises(InputError) as problem:
+        config.load(settings, project)
+    text = str(problem.value)
+    assert said in text and text.startswith(f"{file}: ") and "\n" not in text, text

@@ -1,0 +1,20 @@
+# The vehicle's parameters that fit the drives measured on a site.
+rule calibrate:
+    input:
+        code=modules.of_step("calibrate"),
+        effects=lambda wildcards: study.effect_files(wildcards.model),
+        road="results/{site}/road.nc",
+        measured="results/{site}/measured.nc",
+        vehicle=lambda wildcards: study.vehicle(wildcards.site),
+    output:
+        "results/{site}/{model}/calibration.nc",
+    params:
+        config=lambda wildcards: study.config("calibrate", wildcards.site, wildcards.model),
+    log:
+        "results/logs/calibrate/{site}/{model}.log",
+    benchmark:
+        "results/benchmarks/calibrate/{site}/{model}.tsv"
+    priority: 20
+    shell:
+        "python -m ridecomfort.steps.calibrate --road {input.road:q} --measured {input.measured:q}"
+        " --vehicle {input.vehicle:q} --config {params.config:q} --output {output:q} 2> {log:q}"

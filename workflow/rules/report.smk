@@ -1,0 +1,85 @@
+# Tables, figures and the page, from the results of all sites.
+results = [
+    *expand("results/{site}/{file}.nc", site=study.names, file=["road", "samples"]),
+    *expand(
+        "results/{site}/{model}/comfort/{method}.nc",
+        site=study.names,
+        model=study.model,
+        method=["thresholds", "iso2631", "iri"],
+    ),
+    *expand("results/{site}/{model}/calibration.nc", site=study.calibrations, model=study.model),
+    *expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
+]
+tables = catalogue.tables(study.summary())
+figures = catalogue.figures(study.summary())
+
+
+rule tables:
+    input:
+        results,
+        code=modules.of_step("tables"),
+    output:
+        expand("results/tables/{name}.{suffix}", name=tables, suffix=["csv", "md", "tex", "trace.csv"]),
+        html=[
+            report(
+                f"results/tables/{name}.html",
+                caption="../report/table.rst",
+                category="Tables",
+                labels={"table": name, "shows": caption},
+            )
+            for name, caption in tables.items()
+        ],
+    params:
+        config=study.config("tables", model=study.model),
+    log:
+        "results/logs/tables/study.log",
+    benchmark:
+        "results/benchmarks/tables/study.tsv"
+    shell:
+        "python -m ridecomfort.steps.tables --results results"
+        " --config {params.config:q} --output results/tables 2> {log:q}"
+
+
+rule figures:
+    input:
+        results,
+        code=modules.of_step("figures"),
+    output:
+        expand("results/figures/{name}.pdf", name=figures),
+        png=[
+            report(
+                f"results/figures/{name}.png",
+                caption="../report/figure.rst",
+                category="Figures",
+                labels={"figure": name, "shows": caption},
+            )
+            for name, caption in figures.items()
+        ],
+    params:
+        config=study.config("figures", model=study.model),
+    log:
+        "results/logs/figures/study.log",
+    benchmark:
+        "results/benchmarks/figures/study.tsv"
+    shell:
+        "python -m ridecomfort.steps.figures --results results"
+        " --config {params.config:q} --output results/figures 2> {log:q}"
+
+
+rule report:
+    input:
+        results,
+        rules.tables.output,
+        rules.figures.output,
+        code=modules.of_step("report"),
+    output:
+        "results/report.html",
+    params:
+        config=study.config("report", model=study.model),
+    log:
+        "results/logs/report/study.log",
+    benchmark:
+        "results/benchmarks/report/study.tsv"
+    shell:
+        "python -m ridecomfort.steps.report --results results"
+        " --config {params.config:q} --output {output:q} 2> {log:q}"

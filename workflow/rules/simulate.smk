@@ -1,0 +1,29 @@
+# The Monte Carlo simulation, in shards of runs that no result depends on.
+rule simulate:
+    input:
+        code=modules.of_step("simulate"),
+        effects=lambda wildcards: study.effect_files(wildcards.model),
+        road="results/{site}/road.nc",
+        samples="results/{site}/samples.nc",
+        vehicle=lambda wildcards: study.vehicle(wildcards.site),
+        calibration=lambda wildcards: expand(
+            "results/{site}/{model}/calibration.nc",
+            site=study.calibrated_on(wildcards.site) or [],
+            model=wildcards.model,
+        ),
+    output:
+        (
+            "results/{site}/{model}/drives/{runs}.nc"
+            if study.settings["simulation"]["keep_drives"]
+            else temp("results/{site}/{model}/drives/{runs}.nc")
+        ),
+    params:
+        config=lambda wildcards: study.config("simulate", wildcards.site, wildcards.model),
+    log:
+        "results/logs/simulate/{site}/{model}/{runs}.log",
+    benchmark:
+        "results/benchmarks/simulate/{site}/{model}/{runs}.tsv"
+    shell:
+        "python -m ridecomfort.steps.simulate --road {input.road:q} --samples {input.samples:q}"
+        " --vehicle {input.vehicle:q} --calibration {input.calibration:q} --runs {wildcards.runs}"
+        " --config {params.config:q} --output {output:q} 2> {log:q}"

@@ -1,0 +1,44 @@
+# Roads and drives that stand in for measured ones, made from seeds (config/standin.yaml).
+# The truth about them is sealed in data/<site>/truth; nothing but a scoring rule may read it.
+for site in study.made:
+
+    rule:
+        name:
+            f"standin_road_{site}"
+        input:
+            code=modules.of_step("standin_road"),
+        output:
+            crg=study.road(site),
+            truth=f"data/{site}/truth/road.json",
+        params:
+            config=study.config("standin_road", site),
+        log:
+            f"results/logs/standin_road/{site}.log",
+        benchmark:
+            f"results/benchmarks/standin_road/{site}.tsv"
+        shell:
+            "python -m ridecomfort.steps.standin_road --config {params.config:q}"
+            " --output {output.crg:q} --truth {output.truth:q} 2> {log:q}"
+
+    if study.drives(site):
+
+        rule:
+            name:
+                f"standin_drives_{site}"
+            input:
+                code=modules.of_step("standin_drives"),
+                road=study.road(site),
+                vehicle=study.vehicle(site),
+            output:
+                drives=study.drives(site),
+                truth=f"data/{site}/truth/drives.json",
+            params:
+                config=study.config("standin_drives", site),
+            log:
+                f"results/logs/standin_drives/{site}.log",
+            benchmark:
+                f"results/benchmarks/standin_drives/{site}.tsv"
+            shell:
+                "python -m ridecomfort.steps.standin_drives --road {input.road:q}"
+                " --vehicle {input.vehicle:q} --config {params.config:q}"
+                " --output {output.drives:q} --truth {output.truth:q} 2> {log:q}"

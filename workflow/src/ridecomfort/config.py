@@ -1,0 +1,364 @@
+"""The study as configured: read, checked against the schemas and among itself, defaults filled in."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import yaml
+
+from .comfort import bands
+from .effects import library
+from .errors import InputError
+from .schema import defaults, read_yaml, validate
+from .vehicle import parameters
+
+STUDY = Path("config/study.yaml")
+SITES = Path("config/sites")
+VEHICLES = Path("config/vehicles")
+STANDIN = Path("config/standin.yaml")
+DATA = Path("data")
+
+BASE = "base"
+"""Name of the model without effects."""
+
+JOIN = "+"
+"""Between the names of effects in the name of a model."""
+
+TAKEN = frozenset(
+    "all compare diagnose report blind road measured calibrate sample simulate space thresholds iso2631 iri "
+    "comparison agreement maps comfort tables figures diagnosis logs benchmarks bench none".split()
+)
+"""Names of targets and of folders in results/, which no site may have."""
+
+NO_CALIBRATION = "none"
+"""What a site file's ``calibrated_on`` says to drive the nominal vehicle."""
+
+
+@dataclass(frozen=True)
+class Study:
+    """The configuration of a study, complete and consistent.
+
+    ``settings`` is config/study.yaml with its defaults, ``sites`` the configured sites
+    and those that they are calibrated on, each with its defaults, ``standin`` the
+    content of config/standin.yaml (empty without one). Paths are relative to ``folder``.
+    """
+
+    settings: Mapping
+    sites: Mapping[str, Mapping]
+    standin: Mapping = field(default_factory=dict)
+    folder: Path = Path()
+
+    @property
+    def names(self) -> list[str]:
+        """The configured sites, in their order."""
+        return list(self.settings["sites"])
+
+    @property
+    def model(self) -> str:
+        """Name of the configured model: ``base``, or its effects joined by ``+``."""
+        return JOIN.join(self.effects()) or BASE
+
+    @property
+    def shards(self) -> list[str]:
+        """Runs of each shard, first and last: ``0000-0249``, ``0250-0499``, ..."""
+        runs, size = self.settings["runs"], self.settings["simulation"]["runs_per_shard"]
+        width = max(4, len(str(runs - 1)))
+        return [
+            f"{first:0{width}}-{min(first + size, runs) - 1:0{width}}" for first in range(0, runs, size)
+        ]
+
+    def effects(self, model: str | None = None) -> dict[str, dict]:
+        """The effects of a model by name, each with the values set for it; default is the configured model."""
+        configured = {}
+        for entry in self.settings["effects"]:
+            configured.update({entry: {}} if isinstance(entry, str) else entry)
+        if model is None:
+            return dict(sorted(configured.items()))
+        return {} if model == BASE else {name: configured.get(name, {}) for name in model.split(JOIN)}
+
+    def effect_files(self, model: str) -> list[str]:
+        """The files of a model's effects."""
+        known = effect_files(self._effects_folder)
+        return [os.path.relpath(known[name], self.folder) for name in self.effects(model) if name in known]
+
+    def vehicle(self, site: str) -> str:
+        """File of the vehicle that drives on a site."""
+        return str(VEHICLES / f"{self.sites[site].get('vehicle', self.settings['vehicle'])}.yaml")
+
+    def calibrated_on(self, site: str) -> str | None:
+        """Site on whose drives the vehicle of this site is calibrated, None for the nominal vehicle."""
+        named = self.sites[site].get("calibrated_on")
+        if named is None:
+            return site if _has_fit(self.sites[site]) else None
+        return None if named == NO_CALIBRATION else named
+
+    def road(self, site: str) -> str:
+        """File of a site's road."""
+        return self.sites[site]["road"]["file"]
+
+    def drives(self, site: str) -> list[str]:
+        """Files of the drives measured on a site."""
+        return [drive["file"] for drive in self.sites[site]["drives"]]
+
+    @property
+    def measured(self) -> list[str]:
+        """The configured sites with measured drives."""
+        return [site for site in self.names if self.sites[site]["drives"]]
+
+    @property
+    def calibrations(self) -> list[str]:
+        """The sites on whose drives some configured site is calibrated."""
+        found = (self.calibrated_on(site) for site in self.names)
+        return list(dict.fromkeys(site for site in found if site))
+
+    @property
+    def made(self) -> list[str]:
+        """The sites whose road and drives are made from seeds."""
+        return [site for site in self.sites if self.sites[site]["standin"]]
+
+    @property
+    def _effects_folder(self) -> Path | None:
+        named = self.settings["effects_folder"]
+        return None if named is None else self.folder / named
+
+    def config(self, step: str, site: str | None = None, model: str | None = None) -> str:
+        """Exactly the settings that a step uses, as JSON: when they change, and only then, it runs again."""
+        return json.dumps(self._config(step, site, model))
+
+    def _config(self, step: str, site: str | None, model: str | None) -> dict:
+        study = self.settings
+        own = {} if site is None else self.sites[site]
+        at = {} if site is None else {"site": site}
+        simulation = {key: study["simulation"][key] for key in ("step", "rate")}
+        simulated = {
+            **at,
+            "effects": self.effects(model),
+            "effects_folder": study["effects_folder"],
+            "simulation": simulation,
+        }
+        comfort = study["comfort"]
+        sections = {**at, **{key: comfort[key] for key in ("critical_length", "sections")}}
+        match step:
+            case "standin_road":
+                surface = {key: value for key, value in self.standin.items() if key != "measurement"}
+                return {**surface, **at, "sites": {site: self.standin["sites"][site]}}
+            case "standin_drives":
+                speed = {site: {"speed": self.standin["sites"][site]["speed"]}}
+                keys = ("file", "columns", "sensor", "role")
+                drives = [{key: drive[key] for key in keys if key in drive} for drive in own["drives"]]
+                return {**at, **{key: self.standin[key] for key in ("seed", "measurement")}, "sites": speed, "drives": drives}
+            case "road":
+                return {**at, "title": own["title"], "standin": own["standin"], "options": own["road"]["options"]}
+            case "measured":
+                return {**at, "drives": own["drives"], "alignment": study["alignment"], "simulation": simulation}
+            case "calibrate":
+                return {**simulated, "calibration": study["calibration"]}
+            case "compare":
+                return simulated
+            case "sample":
+                return {
+                    **at,
+                    "runs": study["runs"],
+                    "seed": study["seed"],
+                    "method": study["sampling_method"],
+                    "sampling": own["sampling"],
+                }
+            case "simulate":
+                return {**simulated, "speed": own["speed"]}
+            case "space":
+                weighted = {key: value for key, value in comfort["iso2631"].items() if key not in ("bands", "label")}
+                return {**at, "space": study["space"], "iso2631": weighted}
+            case "thresholds":
+                return {**sections, **{key: comfort[key] for key in ("thresholds", "jerk")}}
+            case "iso2631":
+                banded = {key: value for key, value in comfort["iso2631"].items() if key != "label"}
+                return {**sections, "iso2631": banded}
+            case "iri":
+                return {**sections, "iri": comfort["iri"]}
+            case "agreement":
+                return {"sites": self.names, "seed": study["seed"], "label": comfort["iso2631"]["label"]}
+            case "maps":
+                return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"]}
+            case "tables" | "figures" | "report":
+                keys = ("runs", "seed", "sampling_method", "space", "calibration", "comfort")
+                return {
+                    **simulated,
+                    "sites": self.summary(),
+                    "model": model,
+                    **{key: study[key] for key in keys},
+                }
+        raise KeyError(step)
+
+    def summary(self) -> dict[str, dict]:
+        """What tables and figures say of each configured site."""
+        return {
+            site: {
+                "title": self.sites[site]["title"],
+                "standin": self.sites[site]["standin"],
+                "has_drives": bool(self.sites[site]["drives"]),
+                "calibrated_on": self.calibrated_on(site),
+                "speed": self.sites[site]["speed"],
+                "sampling": self.sites[site]["sampling"],
+                "vehicle": self.vehicle(site),
+            }
+            for site in self.names
+        }
+
+
+def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ()) -> Study:
+    """The study of these settings (the content of config/study.yaml) in this project folder.
+
+    ``given`` are the keys that were set on the command line, so that a mistake in them is
+    not looked for in the file. Raises InputError on the first mistake found, in the study,
+    its sites or its vehicles.
+    """
+    folder = Path(folder)
+    given = list(given)
+    settings = _study({**settings, **{key: _typed(settings[key]) for key in given}}, given)
+    standin = _standin(folder)
+    known = sorted(path.stem for path in (folder / SITES).glob("*.yaml"))
+    sites: dict[str, Mapping] = {}
+    waiting = [(name, _source("sites", given), "sites") for name in settings["sites"]]
+    while waiting:
+        name, source, place = waiting.pop(0)
+        if name in sites:
+            continue
+        if name in TAKEN:
+            raise InputError(f"{name!r} is the name of something else; call the site otherwise", file=source, place=place)
+        if name not in known:
+            raise InputError(f"unknown site {name!r}; known sites: {', '.join(known)}", file=source, place=place)
+        sites[name] = _site(name, folder, standin)
+        other = sites[name].get("calibrated_on", NO_CALIBRATION)
+        if other != NO_CALIBRATION:
+            waiting.append((other, SITES / f"{name}.yaml", "calibrated_on"))
+    study = Study(settings, sites, standin, folder)
+    _check_effects(study, given)
+    _check_vehicles(study, given)
+    _check_calibrations(study)
+    return study
+
+
+def effect_files(folder: Path | None = None) -> dict[str, Path]:
+    """The file of every effect there is, by name: those of the library and those of a user's folder."""
+    files = [path for path in library.FOLDER.glob("*.py") if path.stem not in library.HOUSE]
+    if folder is not None:
+        files += [path for path in folder.glob("*.py") if not path.stem.startswith("_")]
+    return {path.stem: path for path in sorted(files)}
+
+
+def _typed(value):
+    """A value of the command line, whose inner numbers arrive as text."""
+    if isinstance(value, Mapping):
+        return {key: _typed(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_typed(part) for part in value]
+    return yaml.safe_load(value) if isinstance(value, str) else value
+
+
+def _source(key: str, given: Iterable[str]):
+    return "--config" if key in given else STUDY
+
+
+def _study(settings: Mapping, given: list[str]) -> dict:
+    own = {key: value for key, value in settings.items() if key not in given}
+    if given:
+        validate({"sites": ["any"], **{key: settings[key] for key in given}}, "study", "--config")
+        if "sites" in given:
+            own["sites"] = settings["sites"]
+    validate(own, "study", STUDY)
+    settings = validate(settings, "study", STUDY)
+    simulation = settings["simulation"]
+    per_record = 1.0 / (simulation["rate"] * simulation["step"])
+    if abs(per_record - round(per_record)) > 1e-6 or per_record < 1:
+        raise InputError(
+            f"{simulation['rate']!r}, expected a rate that a step of {simulation['step']!r} s divides",
+            file=_source("simulation", given),
+            place="simulation: rate",
+        )
+    try:
+        bands.edges(settings["comfort"]["iso2631"]["bands"])
+    except InputError as problem:
+        raise InputError(str(problem), file=_source("comfort", given), place="comfort") from None
+    iri = settings["comfort"]["iri"]
+    below = [0.0] * len(iri["speed_km_h"])
+    for quality, edges in iri["thresholds"].items():
+        place = f"comfort: iri: thresholds: {quality}"
+        if len(edges) != len(below):
+            raise InputError(
+                f"{len(edges)} values, expected one for each of the {len(below)} speeds",
+                file=_source("comfort", given),
+                place=place,
+            )
+        if any(edge <= lower for edge, lower in zip(edges, below)):
+            raise InputError("expected values above those of the class before", file=_source("comfort", given), place=place)
+        below = edges
+    return settings
+
+
+def _standin(folder: Path) -> dict:
+    if not (folder / STANDIN).is_file():
+        return {}
+    return validate(read_yaml(folder / STANDIN), "standin", STANDIN)
+
+
+def _site(name: str, folder: Path, standin: Mapping) -> dict:
+    file = SITES / f"{name}.yaml"
+    site = {"title": name, **validate(read_yaml(folder / file), "site", file)}
+    if site["standin"] and name not in standin.get("sites", {}):
+        raise InputError(f"{STANDIN} has no site {name!r}", file=file, place="standin")
+    for place, needed in _files(site):
+        if site["standin"]:
+            if DATA / name not in Path(needed).parents:
+                raise InputError(f"{needed!r}, expected a file in {DATA / name}/ for a stand-in", file=file, place=place)
+        elif not (folder / needed).is_file():
+            raise InputError(f"no such file {needed!r}", file=file, place=place)
+    names = [drive.setdefault("name", Path(drive["file"]).stem) for drive in site["drives"]]
+    for twice in {drive for drive in names if names.count(drive) > 1}:
+        raise InputError(f"two drives are named {twice!r}", file=file, place="drives")
+    return site
+
+
+def _files(site: Mapping) -> list[tuple[str, str]]:
+    drives = [(f"drives: entry {i + 1}: file", drive["file"]) for i, drive in enumerate(site["drives"])]
+    return [("road: file", site["road"]["file"]), *drives]
+
+
+def _has_fit(site: Mapping) -> bool:
+    return any(drive["role"] == "fit" for drive in site["drives"])
+
+
+def _check_effects(study: Study, given: list[str]) -> None:
+    folder = study._effects_folder
+    if folder is not None and not folder.is_dir():
+        raise InputError(f"no such folder {str(folder)!r}", file=_source("effects_folder", given), place="effects_folder")
+    if study.effects():
+        try:
+            library.choose(study.effects(), folder)
+        except InputError as problem:
+            raise InputError(str(problem), file=_source("effects", given), place="effects") from None
+
+
+def _check_vehicles(study: Study, given: list[str]) -> None:
+    for name, site in study.sites.items():
+        file = study.folder / study.vehicle(name)
+        if not file.is_file():
+            known = ", ".join(sorted(path.stem for path in (study.folder / VEHICLES).glob("*.yaml")))
+            source = SITES / f"{name}.yaml" if "vehicle" in site else _source("vehicle", given)
+            raise InputError(f"unknown vehicle {file.stem!r}; known vehicles: {known}", file=source, place="vehicle")
+        parameters.read(file)
+
+
+def _check_calibrations(study: Study) -> None:
+    for name in study.sites:
+        other = study.calibrated_on(name)
+        if other is None:
+            continue
+        file, place = SITES / f"{name}.yaml", "calibrated_on"
+        if not _has_fit(study.sites[other]):
+            raise InputError(f"site {other!r} has no measured drives to fit", file=file, place=place)
+        if study.vehicle(other) != study.vehicle(name):
+            raise InputError(f"site {other!r} has another vehicle", file=file, place=place)

@@ -1,0 +1,160 @@
+"""Configuration against its schema: defaults filled in, a mistake named in one line."""
+
+from __future__ import annotations
+
+import copy
+import difflib
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from pathlib import Path
+
+import yaml
+from jsonschema import Draft202012Validator, ValidationError, validators
+
+from .errors import InputError
+
+SCHEMAS = Path(__file__).parents[2] / "schemas"
+
+_TYPES = {
+    "string": "text",
+    "integer": "a whole number",
+    "number": "a number",
+    "boolean": "true or false",
+    "array": "a list",
+    "object": "a mapping of keys to values",
+    "null": "null",
+}
+
+
+def read_yaml(path) -> dict:
+    """The mapping that a YAML file holds. Raises InputError where it is none."""
+    path = Path(path)
+    try:
+        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as problem:
+        raise InputError(f"cannot be read ({problem.strerror})", file=path) from None
+    except UnicodeDecodeError:
+        raise InputError("is not a text file", file=path) from None
+    except yaml.YAMLError as problem:
+        mark = getattr(problem, "problem_mark", None)
+        place = f"line {mark.line + 1}" if mark else None
+        raise InputError("is not valid YAML", file=path, place=place) from None
+    if not isinstance(content, dict):
+        raise InputError("expected a mapping of keys to values", file=path)
+    return content
+
+
+def validate(settings: Mapping, kind: str, file) -> dict:
+    """A copy of the settings with every default of the schema ``kind`` filled in, in the order of the schema.
+
+    Raises InputError that names the file, the key, the value and what was expected.
+    """
+    schema = load(kind)
+    errors = sorted(_Validator(schema).iter_errors(settings), key=lambda error: error.json_path)
+    if errors:
+        raise InputError(_explain(errors[0]), file=file, place=_place(errors[0].absolute_path))
+    for path, value in _leaves(settings):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise InputError(f"{value!r}, expected a finite number", file=file, place=_place(path))
+    return _filled(copy.deepcopy(dict(settings)), schema, schema)
+
+
+def defaults(kind: str, **required) -> dict:
+    """The settings of a file that states nothing but its required keys."""
+    return validate(required, kind, kind)
+
+
+@cache
+def load(kind: str) -> Mapping:
+    """The schema of ``study``, ``site``, ``vehicle`` or ``standin``."""
+    return yaml.safe_load((SCHEMAS / f"{kind}.yaml").read_text(encoding="utf-8"))
+
+
+def _ascending(validator, wanted, instance, schema):
+    numbers = [value for value in instance if isinstance(value, (int, float))] if isinstance(instance, list) else []
+    if wanted and numbers != sorted(numbers):
+        yield ValidationError(f"{instance!r}, expected the lower value first")
+
+
+_Validator = validators.extend(Draft202012Validator, {"ascending": _ascending})
+
+
+def _leaves(value, path: tuple = ()) -> Iterator[tuple[tuple, object]]:
+    if isinstance(value, Mapping):
+        for key, part in value.items():
+            yield from _leaves(part, (*path, key))
+    elif isinstance(value, list):
+        for index, part in enumerate(value):
+            yield from _leaves(part, (*path, index))
+    else:
+        yield path, value
+
+
+def _place(path: Iterable) -> str | None:
+    return ": ".join(f"entry {key + 1}" if isinstance(key, int) else str(key) for key in path) or None
+
+
+def _explain(error: ValidationError) -> str:
+    value, expected = error.instance, error.validator_value
+    meaning = error.schema.get("description", "") if isinstance(error.schema, Mapping) else ""
+    meaning = f" ({meaning.strip().split('. ')[0].rstrip('.')})" if meaning else ""
+    match error.validator:
+        case "additionalProperties":
+            known = list(error.schema.get("properties", {}))
+            unknown = next(key for key in value if key not in known)
+            close = difflib.get_close_matches(str(unknown), known, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known keys: {', '.join(known)}"
+            return f"unknown key {unknown!r}; {hint}"
+        case "required":
+            missing = next(key for key in expected if key not in value)
+            return f"key {missing!r} is missing"
+        case "type":
+            kinds = [expected] if isinstance(expected, str) else expected
+            number = isinstance(value, str) and {"number", "integer"} & set(kinds) and _is_number(value)
+            hint = f"; YAML reads this as text, write {float(value)!r}" if number else ""
+            return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{hint}{meaning}"
+        case "minimum":
+            return f"{value!r}, expected at least {expected}{meaning}"
+        case "maximum":
+            return f"{value!r}, expected at most {expected}{meaning}"
+        case "exclusiveMinimum":
+            return f"{value!r}, expected more than {expected}{meaning}"
+        case "enum":
+            return f"{value!r}, expected one of {', '.join(map(str, expected))}{meaning}"
+        case "minItems" | "minProperties":
+            return f"{value!r}, expected at least {expected} entries{meaning}"
+        case "maxItems" | "maxProperties" | "items":
+            return f"{value!r} has too many entries{meaning}"
+        case "uniqueItems":
+            return f"{value!r}, expected each entry once"
+        case "pattern":
+            return f"{value!r}, expected a name of letters, digits and underscores"
+        case "ascending":
+            return error.message + meaning
+        case _:
+            return f"{value!r} is not of the expected form{meaning}"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _filled(value, schema: Mapping, root: Mapping):
+    if "$ref" in schema:
+        referred = root
+        for key in schema["$ref"].removeprefix("#/").split("/"):
+            referred = referred[key]
+        schema = {**referred, **schema}
+    if isinstance(value, dict):
+        parts = schema.get("properties", {})
+        filled = {key: part["default"] for key, part in parts.items() if "default" in part} | value
+        ordered = [key for key in parts if key in filled] + [key for key in filled if key not in parts]
+        value = {key: _filled(copy.deepcopy(filled[key]), parts.get(key, {}), root) for key in ordered}
+    if isinstance(value, list) and isinstance(schema.get("items"), Mapping):
+        value = [_filled(entry, schema["items"], root) for entry in value]
+    return value

@@ -1,0 +1,96 @@
+"""From time to space: records of each drive at equal steps along the road (sec:th_methdology)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from numba import njit
+
+from .errors import InputError
+
+
+def places(start: float, end: float, *, spacing: float, run_in: float, run_out: float) -> np.ndarray:
+    """Distances in m along the road at which drives are evaluated, ``spacing`` apart.
+
+    They cover the road from ``run_in`` behind its start to ``run_out`` before its end.
+    Raises InputError where nothing is left.
+    """
+    first, last = start + run_in, end - run_out
+    count = int(np.floor((last - first) / spacing + 1e-9)) + 1
+    if count < 2:
+        raise InputError(
+            f"a road of {end - start:g} m leaves nothing to evaluate between run_in {run_in:g} m and run_out {run_out:g} m",
+            place="space",
+        )
+    return first + spacing * np.arange(count)
+
+
+def along(drives: xr.Dataset, s: np.ndarray, variables: Sequence[str]) -> xr.Dataset:
+    """The variables of drives over ``time``, interpolated linearly to the distances ``s`` [m].
+
+    ``drives`` has dims run and time, padded with NaN at the end of shorter runs, and holds
+    the distance ``s``. Each record stands where the body was at that moment. Distances
+    must not fall; records at which the body stands still count once, the first of them.
+
+    Returns float32 variables with dims run and s. Raises InputError, naming the run, where
+    a drive does not cover ``s``, runs backwards or holds a gap.
+    """
+    s = np.asarray(s, dtype=np.float64)
+    distance = drives["s"].transpose("run", "time").values
+    lengths = _lengths(distance)
+    for run, row, length in zip(drives["run"].values, distance, lengths):
+        _check(run, row[:length], s)
+    result = xr.Dataset(coords={"run": drives["run"].values, "s": s})
+    for name in variables:
+        values = drives[name].transpose("run", "time").values
+        _check_values(drives["run"].values, values, lengths, name)
+        result[name] = (("run", "s"), _interpolate(distance, values, lengths, s))
+    result.attrs = {"evaluated": f"{s[0]:g} to {s[-1]:g} m in steps of {s[1] - s[0]:g} m"}
+    return result
+
+
+def _lengths(distance: np.ndarray) -> np.ndarray:
+    """Records of each run before its padding."""
+    known = np.isfinite(distance)
+    return np.where(known.any(axis=1), distance.shape[1] - np.argmax(known[:, ::-1], axis=1), 0)
+
+
+def _check_values(runs: np.ndarray, values: np.ndarray, lengths: np.ndarray, name: str) -> None:
+    for run, row, length in zip(runs, values, lengths):
+        if not np.isfinite(row[:length]).all():
+            raise InputError(f"{name} has a gap", place=f"run {run}")
+
+
+def _check(run, distance: np.ndarray, s: np.ndarray) -> None:
+    place = f"run {run}"
+    if not len(distance):
+        raise InputError("holds no records", place=place)
+    if not np.isfinite(distance).all():
+        raise InputError("distance s has a gap", place=place)
+    step = np.diff(distance)
+    if (step < 0).any():
+        where = distance[int(np.argmax(step < 0))]
+        raise InputError(f"distance s falls at {where:.1f} m, expected a drive that never runs backwards", place=place)
+    if distance[0] > s[0] or distance[-1] < s[-1]:
+        raise InputError(
+            f"covers {distance[0]:.1f} to {distance[-1]:.1f} m, expected {s[0]:.1f} to {s[-1]:.1f} m; "
+            "the vehicle stopped or left the road",
+            place=place,
+        )
+
+
+@njit(cache=True)
+def _interpolate(distance, values, lengths, s):
+    result = np.empty((len(distance), len(s)), dtype=np.float32)
+    for run in range(len(distance)):
+        right = 1
+        for place in range(len(s)):
+            while right < lengths[run] - 1 and distance[run, right] < s[place]:
+                right += 1
+            before = float(distance[run, right - 1])
+            step = float(distance[run, right]) - before
+            share = (s[place] - before) / step if step > 0.0 else 1.0
+            result[run, place] = (1.0 - share) * values[run, right - 1] + share * values[run, right]
+    return result

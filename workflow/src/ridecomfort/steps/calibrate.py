@@ -1,0 +1,30 @@
+"""Fit the vehicle, and the effects of the model, to the drives measured on a site."""
+
+from ridecomfort import calibrate, simulate, store
+from ridecomfort.effects import library
+from ridecomfort.steps.command import Command
+from ridecomfort.vehicle import parameters
+
+
+def main(road, measured, vehicle, config, output):
+    chosen = library.choose(config["effects"], config["effects_folder"])
+    settings = dict(config["calibration"])
+    bounds, units = calibrate.effect_parameters(chosen, held=config["effects"])
+    result = calibrate.calibrate(
+        store.read(measured),
+        simulate.prepare(store.read(road)),
+        parameters.read(vehicle),
+        bounds={**settings.pop("bounds"), **bounds},
+        units=units,
+        effects={entry.effect.name: sizes for entry, sizes in chosen},
+        options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
+        **settings,
+    )
+    result.attrs["calibrated_on"] = config["site"]
+    store.write(
+        result, output, title=f"Calibration on {config['site']}", configuration=config, seed=settings["seed"]
+    )
+
+
+if __name__ == "__main__":
+    Command(main, inputs=("road", "measured", "vehicle")).run()

@@ -1,0 +1,73 @@
+"""How every step is called: files and configuration in, files out, one clear line on a user's mistake."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import InputError
+
+
+@dataclass(frozen=True)
+class Command:
+    """A step as a command of its own, ``python -m ridecomfort.steps.<step>``.
+
+    ``main`` is called with one keyword argument per option. Options are files
+    (``inputs``, ``outputs``; those in ``many`` take several and give a list,
+    those in ``optional`` may be left out or empty and give None), plain ``texts``, and
+    ``--config``, a JSON object of exactly the settings that the step uses.
+    """
+
+    main: Callable
+    inputs: Sequence[str] = ()
+    outputs: Sequence[str] = ("output",)
+    many: Sequence[str] = ()
+    optional: Sequence[str] = ()
+    texts: Sequence[str] = ()
+
+    def parser(self) -> argparse.ArgumentParser:
+        module = sys.modules[self.main.__module__]
+        spec = getattr(module, "__spec__", None)
+        parser = argparse.ArgumentParser(
+            prog=f"python -m {spec.name}" if spec else None, description=module.__doc__
+        )
+        for name in (*self.inputs, *self.optional, *self.outputs):
+            parser.add_argument(
+                f"--{name.replace('_', '-')}",
+                dest=name,
+                type=Path,
+                metavar="FILE",
+                nargs="+" if name in self.many else "?" if name in self.optional else None,
+                required=name not in self.optional,
+            )
+        for name in self.texts:
+            parser.add_argument(f"--{name.replace('_', '-')}", dest=name, required=True)
+        parser.add_argument("--config", type=json.loads, default={}, metavar="JSON")
+        return parser
+
+    def run(self, arguments: Sequence[str] | None = None) -> None:
+        """Parse, call, and leave the process with status 1 on a user's mistake."""
+        options = self.parser().parse_args(arguments)
+        start = time.perf_counter()
+        try:
+            self.main(**vars(options))
+        except InputError as problem:
+            sys.exit(f"error: {problem}")
+        print(f"done in {time.perf_counter() - start:.1f} s", file=sys.stderr)
+
+
+def countdown(total: int, what: str) -> Callable[[int], None]:
+    """A function to call with the number done so far; every tenth of them it says how long it still takes."""
+    start = time.perf_counter()
+
+    def say(done: int) -> None:
+        if done == total or done % max(1, total // 10) == 0:
+            left = (time.perf_counter() - start) * (total - done) / done
+            print(f"{done} of {total} {what}, {left:.0f} s left", file=sys.stderr, flush=True)
+
+    return say

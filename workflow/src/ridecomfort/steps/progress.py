@@ -1,0 +1,190 @@
+"""What a person sees while the study runs: one line per finished job, and how long it will still take."""
+
+from __future__ import annotations
+
+import logging
+import sys
+import time
+from collections import Counter, defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+SILENCED = ("job_info", "job_started", "job_finished", "job_error", "progress")
+"""Events that Snakemake would print in several lines each."""
+
+CHATTER = ("Removing temporary output", "Would remove temporary output", "Select jobs to execute", "Singularity containers: ignored")
+"""Beginnings of messages that say nothing to a person who waits."""
+
+LOG_LINES = 15
+"""Lines shown of the log of a job that failed unexpectedly."""
+
+
+@dataclass(frozen=True)
+class Job:
+    rule: str
+    where: str
+    start: float
+    benchmark: str | None
+
+
+class Progress(logging.Handler):
+    """Follows Snakemake's log records and prints one line where it would print ten.
+
+    The time left is that of the jobs still to come, each taken to last as long as those of its
+    rule have lasted so far, or last time (Snakemake's benchmark files), shared among as many as
+    run at once. Where the rule with the most jobs to come was never timed, none is given.
+    A dry run (``planning``) has one line per job too: what would run, and why.
+    """
+
+    def __init__(self, benchmarks: Path, stream: TextIO | None = None, planning: bool = False):
+        super().__init__()
+        self.stream = stream or sys.stderr
+        self.planning = planning
+        self.earlier = _earlier(benchmarks)
+        self.todo: Counter[str] = Counter()
+        self.counts: Counter[str] = Counter()
+        self.seconds: dict[str, list[float]] = defaultdict(list)
+        self.running: dict[int, Job] = {}
+        self.announced: set[tuple[str, str]] = set()
+        self.together = 1
+        self.done = 0
+
+    def emit(self, record: logging.LogRecord) -> None:
+        try:
+            match str(getattr(record, "event", None)):
+                case "run_info":
+                    self._count(record.stats)
+                case "job_info":
+                    self._started(record)
+                case "job_finished":
+                    self._finished(record.job_id)
+                case "job_error":
+                    self._failed(record)
+        except Exception:  # a study must not end because of a line on the screen
+            self.handleError(record)
+
+    def replaces(self, record: logging.LogRecord) -> bool:
+        """Filter for the handler that prints Snakemake's own lines: those that this one prints instead."""
+        if str(getattr(record, "event", None)) in SILENCED:
+            return False
+        if getattr(record, "exception", None) == "RuleException" and "CalledProcessError" in str(record.msg):
+            return False
+        return not str(record.msg).startswith(CHATTER)
+
+    def time_left(self) -> float | None:
+        """Seconds until all jobs are done, None where too little is known."""
+        left = +self.todo
+        if not left:
+            return None
+        mean = {rule: sum(times) / len(times) for rule, times in self.seconds.items()}
+        mean = {**self.earlier, **mean}
+        known = [mean[rule] for rule in left if rule in mean]
+        if left.most_common(1)[0][0] not in mean:
+            return None
+        usual = sum(known) / len(known)
+        total = sum(count * mean.get(rule, usual) for rule, count in left.items())
+        elapsed = sum(time.monotonic() - job.start for job in self.running.values())
+        return max(total - elapsed, 0.0) / self.together
+
+    def _count(self, stats: Mapping[str, int]) -> None:
+        self.counts = Counter({rule: count for rule, count in stats.items() if rule != "total"})
+        self.todo = self.counts.copy()
+
+    def _started(self, record: logging.LogRecord) -> None:
+        wildcards = dict(record.wildcards)
+        where = " ".join(str(value) for value in wildcards.values())
+        if self.planning:
+            self._write(f"{_joined(record.rule_name, where)}: {_shortened(record.reason)}")
+            return
+        self.running[record.jobid] = Job(record.rule_name, where, time.monotonic(), record.benchmark)
+        self.together = max(1, len(self.running))
+        site = str(next(iter(wildcards.values()), ""))
+        if record.benchmark and (record.rule_name, site) not in self.announced:
+            self.announced.add((record.rule_name, site))
+            self._print(f"{_joined(record.rule_name, site)} ...")
+
+    def _finished(self, number: int) -> None:
+        job = self.running.pop(number, None)
+        if job is None:
+            return
+        self.done += 1
+        self.todo[job.rule] -= 1
+        if not job.benchmark:
+            return
+        took = time.monotonic() - job.start
+        self.seconds[job.rule].append(took)
+        of = f" ({self.counts[job.rule] - self.todo[job.rule]} of {self.counts[job.rule]})"
+        of = of if self.counts[job.rule] > 1 else ""
+        self._print(f"{_joined(job.rule, job.where)} done in {_duration(took)}{of}{self._left()}")
+
+    def _left(self) -> str:
+        steps = sum((+self.todo).values())
+        left = self.time_left()
+        if left is None:
+            return f"; {steps} to go" if steps else ""
+        return f"; {steps} to go, about {_duration(left)}"
+
+    def _failed(self, record: logging.LogRecord) -> None:
+        job = self.running.pop(record.jobid, None)
+        logs = [Path(str(name).split(" ")[0]) for name in record.log]
+        lines = [line for log in logs if log.is_file() for line in log.read_text(errors="replace").splitlines()]
+        named = [line for line in lines if line.startswith("error: ")]
+        reason = named[-1] if named else f"see {logs[0] if logs else record.msg}"
+        self._print(f"{_joined(record.rule_name, job.where if job else '')} failed: {reason}")
+        if not named:
+            self._write("\n".join(f"    {line}" for line in lines[-LOG_LINES:]))
+
+    def _print(self, text: str) -> None:
+        total = sum(self.counts.values())
+        self._write(f"[{100 * self.done // total if total else 0:3} %] {text}")
+
+    def _write(self, text: str) -> None:
+        print(text, file=self.stream, flush=True)
+
+
+def follow(workflow) -> None:
+    """Print progress for a run of this Snakemake workflow, unless it only looks or was asked for details."""
+    from snakemake.logging import logger
+
+    output = workflow.output_settings
+    quiet = any(level.name in ("RULES", "PROGRESS", "ALL") for level in output.quiet or ())
+    if not workflow.is_main_process or output.verbose or quiet:
+        return
+    for handler in logger.handlers:
+        if handler.name == "DefaultStreamHandler":
+            progress = Progress(Path("results/benchmarks"), planning=output.dryrun)
+            handler.addFilter(progress.replaces)
+            logger.addHandler(progress)
+            return
+
+
+def _earlier(benchmarks: Path) -> dict[str, float]:
+    """Mean seconds of each rule in the benchmark files of earlier runs, ``<rule>/**/*.tsv``."""
+    means = {}
+    for folder in benchmarks.glob("*/"):
+        seconds = []
+        for path in folder.rglob("*.tsv"):
+            fields = path.read_text().splitlines()[-1].split("\t")
+            if fields[0].replace(".", "", 1).isdigit():
+                seconds.append(float(fields[0]))
+        if seconds:
+            means[folder.name] = sum(seconds) / len(seconds)
+    return means
+
+
+def _joined(rule: str, where: str) -> str:
+    return f"{rule} {where}".rstrip()
+
+
+def _shortened(reason: str, length: int = 150) -> str:
+    return reason if len(reason) <= length else f"{reason[: length - 3].rstrip(' ,')}..."
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 10:
+        return f"{seconds:.1f} s"
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min"

@@ -1,0 +1,46 @@
+"""Bring a shard of simulated drives from time to space, with what ISO 2631-1 makes of them over time."""
+
+from ridecomfort import store
+from ridecomfort.comfort import iso2631
+from ridecomfort.comfort.doses import Doses
+from ridecomfort.comfort.seat import Seat
+from ridecomfort.space import along, places
+from ridecomfort.steps.command import Command
+
+VARIABLES = ("v_x", "a_x", "a_y", "a_z", "a_v")
+KEPT_BITS = 10
+
+
+def main(drives, road, config, output):
+    u = store.read(road, ["u"])["u"].values
+    s = places(u[0], u[-1], **config["space"])
+    runs = store.read(drives, ["s", "v_x", "a_x", "a_y", "a_z"])
+    weighting = config["iso2631"]
+    rate = 1.0 / float(runs["time"][1] - runs["time"][0])
+    doses = Doses(runs["s"].transpose("run", "time"), rate, s[0], s[-1])
+    runs["a_v"] = iso2631.running_total_value(
+        runs["a_x"],
+        runs["a_y"],
+        runs["a_z"],
+        rate,
+        weighting["time_constant"],
+        weighting["averaging"],
+        weightings=tuple(weighting["weightings"]),
+        factors=tuple(weighting["factors"]),
+        before="mirror",
+        seat=Seat(**weighting["seat"]) if weighting["seat"] else None,
+        weighted=doses.weighted,
+    )
+    doses.vertical(runs["a_z"], before="mirror")
+    in_space = along(runs, s, VARIABLES).merge(doses.dataset(runs["run"]))
+    store.write(
+        in_space,
+        output,
+        title=f"Simulated drives on {config['site']} over distance",
+        configuration=config,
+        keep_bits=KEPT_BITS,
+    )
+
+
+if __name__ == "__main__":
+    Command(main, inputs=("drives", "road")).run()
