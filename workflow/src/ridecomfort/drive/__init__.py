@@ -1,0 +1,1 @@
+"""Measured drives: reading, checking, gravity, sensor position, alignment with the road."""

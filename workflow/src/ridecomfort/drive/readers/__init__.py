@@ -1,0 +1,45 @@
+"""Readers of measured drives, found by the suffix of the file.
+
+A reader is a module of this folder with the suffixes it reads (``SUFFIXES``) and
+``read(path, columns) -> (quantities, attributes)``: quantities map a name of
+``vocabulary.DRIVE`` to (time, values) in SI units, attributes are what the file
+itself says about gravity, sensor, ... Another format is one more file here.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Mapping
+from pathlib import Path
+
+import xarray as xr
+
+from ...errors import InputError
+from .. import record
+
+
+def suffixes() -> dict[str, str]:
+    """Suffix of a file -> module that reads it."""
+    found = {}
+    for module in pkgutil.iter_modules(__path__):
+        for suffix in importlib.import_module(f"{__name__}.{module.name}").SUFFIXES:
+            found[suffix] = f"{__name__}.{module.name}"
+    return found
+
+
+def read(path, columns: Mapping[str, Mapping] | None = None, **attributes) -> xr.Dataset:
+    """A measured drive from a file, by the reader of its suffix; see ``record.from_arrays``.
+
+    ``columns`` maps quantities to ``{"column": ..., "unit": ..., "factor": 1}``.
+    Attributes given here (name, role, gravity, sensor, ...) win over what the file says.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError("no such file", file=path)
+    readers = suffixes()
+    if path.suffix.lower() not in readers:
+        raise InputError(f"no reader for {path.suffix!r} (expected {', '.join(sorted(readers))})", file=path)
+    reader = importlib.import_module(readers[path.suffix.lower()])
+    quantities, own = reader.read(path, columns)
+    return record.from_arrays(quantities, **{"name": path.stem, **own, **attributes}, file=path)

@@ -1,0 +1,160 @@
+"""Alignment finds the errors that were planted in a record, with a nominal vehicle that does not fit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ridecomfort.drive import align, mounting, place, record, replay
+from ridecomfort.errors import InputError
+from tests import quarter_cars
+
+LATERAL = 0.13
+
+
+@pytest.fixture(scope="module")
+def road():
+    return quarter_cars.road(length=560.0)
+
+
+@pytest.fixture(scope="module")
+def nominal(repository):
+    return quarter_cars.vehicle(repository)
+
+
+@pytest.fixture(scope="module")
+def truth(nominal):
+    return nominal.replace(
+        spring_stiffness_front=24000.0, spring_stiffness_rear=35000.0, tyre_radial_stiffness=320000.0, damping_front=1700.0
+    )
+
+
+def driven(road, vehicle, *, aside=0.0, along=0.0):
+    """A drive with changing speed, recorded once the start has died away; ``aside`` and ``along`` wander (m)."""
+    u = road["u"].values
+    speed = xr.DataArray(20 + 2 * np.sin(2 * np.pi * u / 250), {"u": u}, "u")
+    lateral = xr.DataArray(LATERAL + aside * np.sin(2 * np.pi * u / 200), {"u": u}, "u")
+    run = quarter_cars.run(road, vehicle, speed=speed, lateral=lateral, end=550.0)
+    run = run.isel(time=(run["s"] > 60).values)
+    run["s"] = run["s"] + along * np.sin(2 * np.pi * run["s"] / 300)
+    return run.assign_coords(time=run["time"] - run["time"][0])
+
+
+@pytest.fixture(scope="module")
+def drive(road, truth):
+    return driven(road, truth)
+
+
+def aligned(recorded, road, nominal):
+    return align.align(recorded, road, nominal, simulate=quarter_cars.run)
+
+
+@pytest.mark.parametrize("clock", [0.1234, -0.0317])
+def test_clock_is_found_to_better_than_a_millisecond(drive, road, nominal, clock):
+    found = aligned(quarter_cars.recorded(drive, clock=clock, noise=1.0, lateral_position=LATERAL), road, nominal)
+    assert found.attrs["clock_offset"] == pytest.approx(clock, abs=0.5e-3)
+
+
+def test_all_errors_at_once_are_found(drive, road, nominal):
+    recorded = quarter_cars.recorded(
+        drive,
+        clock=0.0307,
+        gain=1.01,
+        rotation=(0.02, -0.03, 0.01),
+        bias=(0.003, -0.002, 0.004),
+        speed_scale=1.007,
+        noise=1.0,
+        lateral_position=LATERAL - 0.2,
+    )
+    found = aligned(recorded, road, nominal)
+    assert found.attrs["clock_offset"] == pytest.approx(0.0307, abs=1e-3)
+    assert found.attrs["speed_scale"] == pytest.approx(1.007, abs=1e-3)
+    assert found.attrs["lateral_position"] == pytest.approx(LATERAL, abs=0.02)
+    assert found.attrs["acceleration_gain"] == pytest.approx(1.01, abs=2e-3)
+    for axis, rotation, bias in zip(("roll", "pitch", "yaw"), (0.02, -0.03, 0.01), (0.003, -0.002, 0.004)):
+        assert found.attrs[f"mounting_{axis}"] == pytest.approx(rotation, abs=2e-3)
+        assert found.attrs[f"{axis}_rate_bias"] == pytest.approx(bias, abs=3e-4)
+    clean = aligned(quarter_cars.recorded(drive, lateral_position=LATERAL), road, nominal)
+    count = min(found.sizes["time"], clean.sizes["time"])
+    shift = int(round((found.attrs["start_time"] - 0.0307) * 100))  # the record begins when its last clock does
+    for name, tolerance in (("a_z", 0.05), ("a_y", 0.05), ("pitch_rate", 2e-3)):
+        one, other = found[name].values[: count - 5], clean[name].values[shift : shift + count - 5]
+        assert np.sqrt(np.mean((one - other) ** 2)) < tolerance
+
+
+def test_the_path_is_found_where_none_is_recorded(drive, road, nominal):
+    found = aligned(quarter_cars.recorded(drive, noise=1.0), road, nominal)
+    assert found.attrs["lateral_position"] == pytest.approx(LATERAL, abs=0.02)
+
+
+def test_a_wandering_path_and_place_are_followed(road, truth, nominal):
+    drive = driven(road, truth, aside=0.08, along=0.05)
+    found = aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL), road, nominal)
+    place = found["s"].values
+    inside = slice(150, -100)
+    assert np.sqrt(np.mean((found["e"].values - drive["e"].values)[inside] ** 2)) < 0.02
+    true_place = drive["s"].values - 0.05 * np.sin(2 * np.pi * drive["s"].values / 300)
+    before, after = (np.std((row - true_place)[inside]) for row in (drive["s"].values, place))
+    assert after < 0.5 * before
+
+
+def test_nothing_is_found_where_nothing_is_wrong(road, nominal):
+    drive = driven(road, nominal)
+    found = aligned(quarter_cars.recorded(drive, lateral_position=LATERAL), road, nominal)
+    for name, tolerance in (("clock_offset", 1e-4), ("lateral_correction", 0.02), ("lateral_wander", 0.01)):
+        assert abs(found.attrs[name]) < tolerance, name
+    assert found.attrs["speed_scale"] == pytest.approx(1.0, abs=5e-4)
+    np.testing.assert_allclose(found["a_z"], drive["a_z"].values[: found.sizes["time"]], atol=0.01)
+
+
+def test_an_odometer_without_a_fix_is_scaled_and_placed_by_the_road(drive, road, nominal):
+    start = float(drive["s"][0])
+    recorded = quarter_cars.recorded(
+        drive, place=False, speed_scale=1.013, distance_start=start + 6.0, noise=1.0, lateral_position=LATERAL
+    )
+    found = aligned(recorded, road, nominal)
+    assert found.attrs["speed_scale"] == pytest.approx(1.013, abs=5e-4)
+    np.testing.assert_allclose(found["s"], drive["s"], atol=0.06)
+
+
+def test_accelerations_that_hold_no_gravity_keep_what_they_are(drive, road, nominal):
+    time = drive["time"].values
+    given = {name: (time, drive[name].values) for name in (*record.SIGNALS, "s", "v_x")}
+    found = aligned(record.from_arrays(given, gravity=False, lateral_position=LATERAL), road, nominal)
+    np.testing.assert_array_equal(found["a_z"], drive["a_z"])
+    assert not found["roll"].any() and found.attrs["acceleration_gain"] == 1.0
+
+
+def test_the_residual_compares_specific_force_with_specific_force(road, nominal):
+    """Gravity taken out with a wrong attitude changes nothing: the attitude of the simulation replaces it."""
+    drive = driven(road, nominal)
+    recorded = quarter_cars.recorded(drive, lateral_position=LATERAL)
+    level = mounting.level(recorded)
+    again = replay.replay(level, road, quarter_cars.run)
+    residual = again.residual(again(nominal))[:, again.compared]
+    assert np.abs(level["a_x"].values).mean() > 0.1  # g times the slope of the road
+    assert np.sqrt(np.mean(residual[:3] ** 2, axis=1)).max() < 0.02
+
+
+def test_moving_the_clock_moves_place_and_not_the_inertial_signals(drive):
+    recorded = quarter_cars.recorded(drive)
+    moved = place.moved(recorded, clock=0.25)
+    np.testing.assert_array_equal(moved["a_z"], recorded["a_z"])
+    later = (recorded["time"].values > 0.3) & (recorded["time"].values < 20)
+    expected = np.interp(recorded["time"] - 0.25, recorded["time"], recorded["s"])
+    np.testing.assert_allclose(moved["s"].values[later], expected[later])
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda d: d.assign(v_x=d["v_x"].where(d["time"] < 10, 0.2)), "expected above 1 m/s"),
+        (lambda d: d.assign(s=d["s"] + 300), "within the road"),
+    ],
+)
+def test_a_drive_that_cannot_be_driven_again_is_refused(drive, road, change, words):
+    recorded = quarter_cars.recorded(drive, name="morning")
+    with pytest.raises(InputError, match=words) as problem:
+        replay.replay(change(recorded), road, quarter_cars.run)
+    assert "drive morning" in str(problem.value)

@@ -1,0 +1,158 @@
+"""Drives from files: columns and units, readers by suffix, and one clear line for what cannot be read."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from ridecomfort import store
+from ridecomfort.drive import configured, readers
+from ridecomfort.errors import InputError
+from ridecomfort.vehicle import parameters
+from ridecomfort.vocabulary import SIGNALS, STANDARD_GRAVITY
+
+COLUMNS = {
+    "time": {"column": "t [ms]", "unit": "ms"},
+    "v_x": {"column": "speed [km/h]", "unit": "km/h"},
+    "s": {"column": "way [km]", "unit": "km"},
+    "a_x": {"column": "ax [g]", "unit": "g"},
+    "a_y": {"column": "ay right [m/s2]", "unit": "m/s2", "factor": -1},
+    "a_z": {"column": "az [g]", "unit": "g"},
+    "roll_rate": {"column": "p [deg/s]", "unit": "deg/s"},
+    "pitch_rate": {"column": "q [deg/s]", "unit": "deg/s"},
+    "yaw_rate": {"column": "r [deg/s]", "unit": "deg/s"},
+}
+
+
+def table():
+    time = np.arange(0, 10, 0.01)
+    return pd.DataFrame(
+        {
+            "t [ms]": 1e3 * time,
+            "speed [km/h]": 72.0 + 0 * time,
+            "way [km]": 0.02 * time,
+            "ax [g]": 0.1 * np.sin(time),
+            "ay right [m/s2]": np.cos(time),
+            "az [g]": 1 + 0.1 * np.sin(time),
+            "p [deg/s]": 0 * time,
+            "q [deg/s]": 10 * np.sin(time),
+            "r [deg/s]": 0 * time,
+        }
+    )
+
+
+@pytest.fixture
+def car(repository):
+    return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+
+
+def write(folder, frame):
+    path = folder / "drive.csv"
+    frame.to_csv(path, index=False)
+    return path
+
+
+def test_columns_become_quantities_in_si_units(tmp_path):
+    drive = readers.read(write(tmp_path, table()), COLUMNS)
+    time = drive["time"].values
+    np.testing.assert_allclose(drive["v_x"], 20.0)
+    np.testing.assert_allclose(drive["s"], 20 * time, atol=1e-9)
+    np.testing.assert_allclose(drive["a_x"], 0.1 * STANDARD_GRAVITY * np.sin(time), atol=1e-9)
+    np.testing.assert_allclose(drive["a_y"], -np.cos(time), atol=1e-9)
+    np.testing.assert_allclose(drive["pitch_rate"], np.radians(10) * np.sin(time), atol=1e-9)
+    assert drive.attrs["name"] == "drive" and drive["pitch_rate"].attrs["units"] == "rad/s"
+
+
+def test_a_netcdf_file_of_the_drive_schema_comes_back_as_it_was(tmp_path):
+    drive = readers.read(write(tmp_path, table()), COLUMNS, role="check", sensor=(0.1, 0.2, 0.3), lateral_position=0.4)
+    store.write(drive, tmp_path / "drive.nc", title="a drive")
+    back = readers.read(tmp_path / "drive.nc")
+    for name in (*SIGNALS, "v_x", "s"):
+        np.testing.assert_allclose(back[name], drive[name], atol=1e-12)
+    assert back.attrs["role"] == "check" and back.attrs["gravity"] == 1
+    assert (back.attrs["sensor_x"], back.attrs["sensor_z"], back.attrs["lateral_position"]) == (0.1, 0.3, 0.4)
+
+
+def test_a_netcdf_file_in_other_units_and_names_is_converted(tmp_path):
+    time = np.arange(0, 10, 0.01)
+    other = xr.Dataset({name: ("time", np.sin(time), {"units": "deg/s"}) for name in SIGNALS[3:]}, {"time": time})
+    for name in SIGNALS[:3]:
+        other[name] = "time", 0.1 * np.sin(time), {"units": "g"}
+    other["speed"] = "time", np.full(time.size, 36.0), {"units": "km/h"}
+    other.to_netcdf(tmp_path / "other.nc")
+    drive = readers.read(tmp_path / "other.nc", {"v_x": {"column": "speed"}}, distance_start=100.0)
+    np.testing.assert_allclose(drive["v_x"], 10.0)
+    np.testing.assert_allclose(drive["s"], 100 + 10 * drive["time"], atol=1e-9)
+    np.testing.assert_allclose(drive["yaw_rate"], np.radians(np.sin(time)), atol=1e-12)
+    assert drive.attrs["gravity"] == 0
+
+
+def test_places_at_the_car_become_places_about_its_centre_of_gravity(tmp_path, car):
+    entry = {
+        "columns": COLUMNS,
+        "sensor": {"behind_front_axle": 1.0, "left": 0.2, "above_wheel_centres": 0.95},
+        "distance_of": "front_axle",
+        "role": "check",
+        "road_friction": 0.8,
+    }
+    path = write(tmp_path, table())
+    drive = configured.read(path, entry, car)
+    assert drive.attrs["sensor_x"] == pytest.approx(car["cg_to_front_axle"] - 1.0)
+    assert drive.attrs["sensor_y"] == 0.2
+    wheel_centre = drive.attrs["sensor_z"] - 0.95 + car["cg_height"]
+    assert 0.01 < car["tyre_radius"] - wheel_centre < 0.02  # a loaded tyre is 1 to 2 cm shorter
+    np.testing.assert_allclose(drive["s"], readers.read(path, COLUMNS)["s"] - car["cg_to_front_axle"])
+    assert drive.attrs["role"] == "check" and drive.attrs["road_friction"] == 0.8
+
+
+def broken(column, row, value):
+    frame = table().astype({column: object})
+    frame.loc[row, column] = value
+    return frame
+
+
+@pytest.mark.parametrize(
+    ("frame", "columns", "words"),
+    [
+        (broken("ax [g]", 10, ""), COLUMNS, ("line 12", "'ax [g]'", "nothing")),
+        (broken("ax [g]", 10, "n/a?"), COLUMNS, ("line 12", "'n/a?'")),
+        (table().drop(columns="r [deg/s]"), COLUMNS, ("no column 'r [deg/s]' for yaw_rate", "az [g]")),
+        (table(), COLUMNS | {"a_x": {"column": "ax [g]", "unit": "km/h"}}, ("'ax [g]'", "'km/h' does not fit a_x", "m/s2")),
+        (table(), COLUMNS | {"jerk": {"column": "ax [g]", "unit": "g"}}, ("unknown quantity 'jerk'",)),
+        (table(), {k: v for k, v in COLUMNS.items() if k != "time"}, ("no column stands for time",)),
+        (table(), COLUMNS | {"v_x": {"column": "speed [km/h]", "unit": "m/s"}, "s": COLUMNS["s"]}, ()),
+        (broken("t [ms]", 500, 0.0), COLUMNS, ("row 501", "strictly increasing")),
+    ],
+)
+def test_what_is_wrong_in_a_table_is_said_in_one_line(tmp_path, frame, columns, words):
+    path = write(tmp_path, frame)
+    if not words:  # 72 m/s is possible: alignment, not the reader, finds that it does not fit the distance
+        readers.read(path, columns)
+        return
+    with pytest.raises(InputError) as problem:
+        readers.read(path, columns)
+    message = str(problem.value)
+    assert "\n" not in message and message.startswith(str(path))
+    for word in words:
+        assert word in message, message
+
+
+def test_files_that_cannot_be_read_are_named(tmp_path):
+    with pytest.raises(InputError, match="no such file"):
+        readers.read(tmp_path / "absent.csv")
+    (tmp_path / "drive.mf9").touch()
+    with pytest.raises(InputError, match=r"no reader for '.mf9' \(expected .csv, .nc, .nc4\)"):
+        readers.read(tmp_path / "drive.mf9")
+    (tmp_path / "empty.csv").touch()
+    with pytest.raises(InputError, match="not a readable CSV file"):
+        readers.read(tmp_path / "empty.csv", COLUMNS)
+
+
+def test_a_truncated_netcdf_file_is_refused(tmp_path):
+    whole = tmp_path / "whole.nc"
+    store.write(readers.read(write(tmp_path, table()), COLUMNS), whole, title="a drive")
+    (tmp_path / "half.nc").write_bytes(whole.read_bytes()[:3000])
+    with pytest.raises(InputError, match="half.nc: not a readable NetCDF file"):
+        readers.read(tmp_path / "half.nc")

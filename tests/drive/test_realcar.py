@@ -1,0 +1,103 @@
+"""A car that is not ours: imported as a user would, aligned, calibrated on one drive, checked on another.
+
+The drives were computed by an independent multi-body program. Parameters of its tyres and dampers
+are unknown and lie outside tab:constraints, so the bounds here are those of published cars
+(references/vehicle_parameters.csv: tyres 158 to 358 kN/m and 0 to 2000 N s/m, with a margin).
+"""
+
+from __future__ import annotations
+
+import pytest
+import yaml
+
+from ridecomfort import calibrate, simulate
+from ridecomfort.discrepancy import compare
+from ridecomfort.drive import align, configured
+from ridecomfort.road import crg
+from ridecomfort.vehicle import parameters
+
+SITE = """
+columns: {
+  time: {column: "time [s]", unit: s},
+  s: {column: "distance [m]", unit: m},
+  v_x: {column: "speed [km/h]", unit: km/h},
+  a_x: {column: "acc_x [m/s2]", unit: m/s2},
+  a_y: {column: "acc_y [m/s2]", unit: m/s2},
+  a_z: {column: "acc_z [m/s2]", unit: m/s2},
+  roll_rate: {column: "gyro_x [rad/s]", unit: rad/s},
+  pitch_rate: {column: "gyro_y [rad/s]", unit: rad/s},
+  yaw_rate: {column: "gyro_z [rad/s]", unit: rad/s},
+}
+sensor: {behind_front_axle: 1.37, left: 0.0, above_wheel_centres: 0.95}
+distance_of: front_axle
+road_friction: 0.8
+"""
+
+BOUNDS = {
+    "spring_stiffness_front": (10000.0, 80000.0),
+    "spring_stiffness_rear": (10000.0, 80000.0),
+    "tyre_radial_stiffness": (120000.0, 450000.0),
+    "tyre_radial_damping": (0.0, 2500.0),
+}
+
+
+@pytest.fixture(scope="module")
+def car(repository):
+    return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+
+
+@pytest.fixture(scope="module")
+def road(shared):
+    folder = shared / "data" / "realcar"
+    if not folder.is_dir():
+        pytest.skip("the drives of realcar are not in ../shared")
+    return simulate.prepare(crg.read(folder / "road.crg"))
+
+
+@pytest.fixture(scope="module")
+def drives(shared, car, road):
+    """At 80 km/h along the middle, to fit; at 50 km/h, 0.3 m to its left, to check. Neither path is told."""
+    roles = {"drive_80kmh": "fit", "drive_50kmh": "check"}
+    return [
+        align.align(
+            configured.read(shared / "data" / "realcar" / f"{name}.csv", yaml.safe_load(SITE) | {"role": role}, car),
+            road,
+            car,
+            simulate=simulate.run,
+        )
+        for name, role in roles.items()
+    ]
+
+
+@pytest.fixture(scope="module")
+def calibration(drives, road, car):
+    return calibrate.calibrate(drives, road, car, bounds=BOUNDS, restarts=1)
+
+
+@pytest.fixture(scope="module")
+def nrmse(drives, road, car, calibration):
+    states = {"reference": (car, {}), "calibrated": calibrate.apply(calibration, car)}
+    return compare.compare(drives, road, states, simulate=simulate.run)["nrmse"]
+
+
+def test_its_path_is_found_from_the_road_alone(drives):
+    for drive, lateral in zip(drives, (0.0, 0.3)):
+        assert drive.attrs["lateral_position"] == pytest.approx(lateral, abs=0.03)
+        assert abs(drive.attrs["clock_offset"]) < 0.005 and drive.attrs["speed_scale"] == pytest.approx(1, abs=1e-3)
+        assert drive.attrs["acceleration_gain"] == pytest.approx(1, abs=0.005)
+
+
+def test_calibration_improves_the_drive_it_was_made_on(nrmse):
+    before, after = (nrmse.sel(drive="drive_80kmh", state=state) for state in ("reference", "calibrated"))
+    assert (after.sel(signal="a_z") < 0.6 * before.sel(signal="a_z")).all()
+    assert (after.sel(signal="pitch_rate") < 0.6 * before.sel(signal="pitch_rate")).all()
+
+
+def test_and_the_drive_that_it_never_saw(nrmse):
+    before, after = (nrmse.sel(drive="drive_50kmh", state=state) for state in ("reference", "calibrated"))
+    assert (after.sel(signal="a_z") < 0.6 * before.sel(signal="a_z")).all()
+    assert (after.sel(signal=["a_x", "a_y", "pitch_rate"]) < before.sel(signal=["a_x", "a_y", "pitch_rate"])).all()
+
+
+def test_a_straight_road_does_not_show_the_friction_and_that_is_said(calibration):
+    assert "not identified" in str(calibration["verdict"].sel(parameter="tyre_friction").item())

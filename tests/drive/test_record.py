@@ -1,0 +1,206 @@
+"""What a drive is: gravity, sensor positions, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ridecomfort.drive import record
+from ridecomfort.errors import InputError
+from ridecomfort.vocabulary import DRIVE, SIGNALS, STANDARD_GRAVITY
+
+TIME = np.arange(0, 20, 0.01)
+
+
+def quantities(**changed):
+    """A smooth drive at 20 m/s with gravity in it."""
+    wave = np.sin(2 * np.pi * 1.3 * TIME)
+    values = {name: 0.1 * wave for name in SIGNALS}
+    values["a_z"] = STANDARD_GRAVITY + wave
+    values["v_x"] = 20 + 0 * TIME
+    values["s"] = 20 * TIME
+    return {name: (TIME, row) for name, row in values.items()} | changed
+
+
+def test_level_vehicle_at_rest_reads_one_g_upwards():
+    np.testing.assert_allclose(record.specific_force(np.zeros(3), 0.0, 0.0), [0, 0, STANDARD_GRAVITY])
+
+
+@pytest.mark.parametrize("degrees", [-20, 5, 60])
+def test_at_rest_on_a_slope_gravity_splits_into_sine_and_cosine(degrees):
+    angle = np.radians(degrees)
+    nose_down = record.specific_force(np.zeros(3), 0.0, angle)
+    np.testing.assert_allclose(nose_down, STANDARD_GRAVITY * np.array([-np.sin(angle), 0, np.cos(angle)]), atol=1e-12)
+    left_up = record.specific_force(np.zeros(3), angle, 0.0)
+    np.testing.assert_allclose(left_up, STANDARD_GRAVITY * np.array([0, np.sin(angle), np.cos(angle)]), atol=1e-12)
+
+
+def test_gravity_is_that_of_the_rotation_matrix_for_any_attitude():
+    roll, pitch, yaw = 0.3, -0.2, 1.1
+    x = np.array([[1, 0, 0], [0, np.cos(roll), -np.sin(roll)], [0, np.sin(roll), np.cos(roll)]])
+    y = np.array([[np.cos(pitch), 0, np.sin(pitch)], [0, 1, 0], [-np.sin(pitch), 0, np.cos(pitch)]])
+    z = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1]])
+    body_from_earth = (z @ y @ x).T
+    np.testing.assert_allclose(record.upward(roll, pitch), body_from_earth @ [0, 0, 1], atol=1e-12)
+
+
+def test_a_coordinated_turn_feels_no_sideways_force():
+    lateral = 3.0
+    lean = -np.arctan(lateral / STANDARD_GRAVITY)  # into a turn to the left: the left side down
+    body = np.array([0, lateral * np.cos(lean), -lateral * np.sin(lean)])
+    force = record.specific_force(body, lean, 0.0)
+    assert force[1] == pytest.approx(0.0, abs=1e-12)
+    assert force[2] == pytest.approx(np.hypot(lateral, STANDARD_GRAVITY))
+
+
+def test_removing_gravity_undoes_adding_it():
+    rng = np.random.default_rng(0)
+    body, roll, pitch = rng.normal(size=(3, 50)), rng.normal(0, 0.1, 50), rng.normal(0, 0.1, 50)
+    back = record.acceleration(record.specific_force(body, roll, pitch), roll, pitch)
+    np.testing.assert_allclose(back, body, atol=1e-12)
+
+
+def _moving_body(point, time):
+    """Acceleration of a point of a body in known motion, by differences of its position, in body axes."""
+
+    def rotation(t):
+        roll, pitch, yaw = 0.05 * np.sin(9 * t), 0.03 * np.cos(7 * t), 0.3 * t + 0.02 * np.sin(5 * t)
+        cr, sr, cp, sp, cy, sy = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch), np.cos(yaw), np.sin(yaw)
+        return np.array(
+            [
+                [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+                [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+                [-sp, cp * sr, cp * cr],
+            ]
+        )
+
+    def position(t):
+        centre = np.array([15 * t + 0.1 * np.sin(2 * t), 0.4 * t**2, 0.02 * np.sin(11 * t)])
+        return centre + rotation(t) @ point
+
+    h = 1e-4
+    result = np.empty((3, time.size))
+    rates = np.empty((3, time.size))
+    for i, t in enumerate(time):
+        result[:, i] = rotation(t).T @ (position(t + h) - 2 * position(t) + position(t - h)) / h**2
+        spin = rotation(t).T @ (rotation(t + h) - rotation(t - h)) / (2 * h)
+        rates[:, i] = spin[2, 1], spin[0, 2], spin[1, 0]
+    return result, rates
+
+
+def test_transfer_to_another_place_agrees_with_differences_of_its_position():
+    time = np.arange(0, 3, 0.01)
+    here, there = np.array([0.2, -0.1, 0.3]), np.array([-0.9, 0.4, 1.2])
+    motion, rates = _moving_body(here, time)
+    expected, _ = _moving_body(there, time)
+    columns = dict(zip(SIGNALS, [*motion, *rates])) | {"v_x": 15 + 0 * time, "s": 15 * time, "e": 0 * time}
+    drive = xr.Dataset({name: ("time", columns[name]) for name in DRIVE}, {"time": time})
+    drive.attrs.update(sensor_x=here[0], sensor_y=here[1], sensor_z=here[2])
+    moved = record.transfer(drive, tuple(there))
+    for name, row, before in zip(("a_x", "a_y", "a_z"), expected, motion):
+        inside = slice(5, -5)
+        np.testing.assert_allclose(moved[name].values[inside], row[inside], atol=2e-3)
+        assert np.abs(before - row)[inside].max() > 0.1
+    assert (moved.attrs["sensor_x"], moved.attrs["sensor_z"]) == (-0.9, 1.2)
+
+
+def test_arrays_become_a_drive_and_survive_being_stacked():
+    drive = record.from_arrays(quantities(), name="first", lateral_position=0.2)
+    short = record.from_arrays({k: (t[:500], v[:500]) for k, (t, v) in quantities().items()}, name="second", role="check")
+    back = record.unstack(record.stack([drive, short]))
+    assert [one.attrs["name"] for one in back] == ["first", "second"]
+    assert back[1].sizes["time"] == 500 and back[1].attrs["role"] == "check"
+    xr.testing.assert_identical(back[0]["a_z"].drop_attrs(), drive["a_z"].drop_attrs())
+    assert back[0].attrs["lateral_position"] == 0.2
+
+
+def test_a_record_on_the_study_clock_passes_unchanged():
+    drive = record.from_arrays(quantities())
+    np.testing.assert_array_equal(drive["a_z"].values, quantities()["a_z"][1])
+    assert drive.attrs["treatment"] == "none"
+
+
+def test_down_sampling_keeps_what_lies_below_the_new_rate_and_drops_what_would_fold():
+    fine = np.arange(0, 20, 0.0025)  # 400 Hz
+    slow, fast = np.sin(2 * np.pi * 12 * fine), np.sin(2 * np.pi * 88 * fine)  # 88 Hz would fold to 12 Hz
+    given = {name: (fine, np.interp(fine, TIME, row)) for name, (_, row) in quantities().items()}
+    drive = record.from_arrays(given | {"a_y": (fine, slow), "a_x": (fine, fast)})
+    inside = slice(50, -50)
+    np.testing.assert_allclose(drive["a_y"].values[inside], np.sin(2 * np.pi * 12 * drive["time"].values)[inside], atol=0.01)
+    assert np.abs(drive["a_x"].values[inside]).max() < 0.01
+    assert "400 Hz" in drive.attrs["treatment"]
+
+
+def test_quantities_with_clocks_of_their_own_meet_on_one():
+    imu = np.arange(0.3, 19, 1 / 104.26)
+    wheel = np.sort(np.arange(0, 20, 1 / 83) + 0.004 * np.random.default_rng(1).uniform(size=1660))
+    given = {name: (imu, 0.1 * np.sin(2 * np.pi * 3 * imu)) for name in SIGNALS}
+    given["a_z"] = imu, STANDARD_GRAVITY + 0.1 * np.sin(2 * np.pi * 3 * imu)
+    drive = record.from_arrays(given | {"v_x": (wheel, 20 + 0.1 * wheel)})
+    time = drive["time"].values + drive.attrs["start_time"]
+    np.testing.assert_allclose(drive["v_x"], 20 + 0.1 * time, atol=1e-3)
+    np.testing.assert_allclose(drive["pitch_rate"][50:-50], 0.1 * np.sin(2 * np.pi * 3 * time)[50:-50], atol=1e-3)
+    assert drive.attrs["place_measured"] == 0
+    np.testing.assert_allclose(np.gradient(drive["s"], drive["time"]), drive["v_x"], atol=2e-3)
+
+
+def spoilt(name, row, value):
+    time, values = quantities()[name]
+    values = values.copy()
+    values[row] = value
+    return quantities(**{name: (time, values)})
+
+
+def backwards():
+    time = TIME.copy()
+    time[700] = time[699] - 0.5
+    return quantities(pitch_rate=(time, 0 * TIME))
+
+
+def irregular():
+    time = TIME.copy()
+    time[800:] += 0.05
+    return quantities(a_y=(time, 0 * TIME))
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (spoilt("a_y", 41, np.nan), ("a_y", "row 42", "0.41 s", "nan", "expected a number")),
+        (spoilt("roll_rate", 9, 45.0), ("roll_rate", "row 10", "45", "rad/s", "unit")),
+        (spoilt("v_x", 0, 120.0), ("v_x", "120", "-5 to 90")),
+        (backwards(), ("time of pitch_rate", "row 701", "6.49 s after 6.99 s", "strictly increasing")),
+        (irregular(), ("time of a_y", "irregular", "0.06 s", "7.99 s")),
+        ({k: v for k, v in quantities().items() if k != "yaw_rate"}, ("no yaw_rate", "a_x, a_y, a_z")),
+        ({k: v for k, v in quantities().items() if k not in ("s", "v_x")}, ("neither v_x nor s",)),
+        (quantities(speed=(TIME, TIME)), ("unknown quantity 'speed'",)),
+        (quantities(s=(TIME[:-1], TIME)), ("s has shape (2000,)", "(1999,)")),
+        (quantities(v_x=(TIME + 100, 20 + 0 * TIME)), ("overlap",)),
+        (quantities(v_x=(np.delete(TIME, slice(300, 400)), np.full(1900, 20.0))), ("pause of 1.01 s", "2.99 s")),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(given, words):
+    with pytest.raises(InputError) as problem:
+        record.from_arrays(given, file="drive.csv")
+    message = str(problem.value)
+    assert "\n" not in message and message.startswith("drive.csv")
+    for word in words:
+        assert word in message, message
+
+
+def test_gravity_that_is_not_where_it_is_said_to_be_is_refused():
+    with pytest.raises(InputError, match=r"a_z: mean 9.8.* gravity: False"):
+        record.from_arrays(quantities(), gravity=False)
+    upside_down = quantities(a_z=(TIME, np.full(TIME.size, -STANDARD_GRAVITY)))
+    with pytest.raises(InputError, match="does z point up"):
+        record.from_arrays(upside_down)
+
+
+def test_a_drive_with_a_wrong_unit_or_role_is_refused():
+    drive = record.from_arrays(quantities())
+    drive["yaw_rate"].attrs["units"] = "deg/s"
+    with pytest.raises(InputError, match="yaw_rate is in 'deg/s'"):
+        record.check(drive)
+    with pytest.raises(InputError, match="role 'train'"):
+        record.from_arrays(quantities(), role="train")

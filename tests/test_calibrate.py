@@ -1,0 +1,206 @@
+"""Calibration: known parameters are recovered, and what the data do not say is said."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ridecomfort import calibrate, identifiability, simulate
+from ridecomfort.discrepancy import compare
+from ridecomfort.drive import record
+from ridecomfort.effects import library
+from ridecomfort.errors import InputError
+from ridecomfort.vocabulary import CALIBRATED, SIGNALS
+from tests import quarter_cars
+
+TRUTH = {"spring_stiffness_front": 24000.0, "spring_stiffness_rear": 35000.0, "tyre_radial_stiffness": 320000.0}
+
+
+@pytest.fixture(scope="module")
+def road():
+    return quarter_cars.road(length=460.0)
+
+
+@pytest.fixture(scope="module")
+def nominal(repository):
+    return quarter_cars.vehicle(repository)
+
+
+def measured(road, vehicle, *, noise=1.0, count=2, roles=("fit", "fit"), simulator=quarter_cars.run):
+    """Aligned drives of a vehicle, each with its own speed and noise."""
+    u, drives = road["u"].values, []
+    for i in range(count):
+        speed = xr.DataArray(20 - 3 * (roles[i] == "check") + np.sin(2 * np.pi * u / 150 + i), {"u": u}, "u")
+        run = simulator(road, vehicle, speed=speed, lateral=0.1 * i, end=450.0)
+        run = run.isel(time=(run["s"] > 50).values)
+        run = run.assign_coords(time=run["time"] - run["time"][0])
+        values = {name: run[name].values for name in (*SIGNALS, "v_x", "s")}
+        rng = np.random.default_rng(i)
+        for name in SIGNALS:
+            values[name] = values[name] + noise * (0.02 if name[0] == "a" else 0.001) * rng.standard_normal(run.sizes["time"])
+        time = run["time"].values
+        drives.append(
+            record.from_arrays(
+                {name: (time, row) for name, row in values.items()},
+                name=f"drive_{i}",
+                role=roles[i],
+                gravity=False,
+                lateral_position=0.1 * i,
+            )
+        )
+    return drives
+
+
+@pytest.fixture(scope="module")
+def fitted(road, nominal):
+    drives = measured(road, nominal.replace(**TRUTH))
+    return calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, restarts=1)
+
+
+def value(calibration, name, key="value"):
+    return float(calibration[key].sel(parameter=name))
+
+
+def test_known_parameters_are_recovered_within_their_intervals(fitted):
+    for name, true in TRUTH.items():
+        assert value(fitted, name) == pytest.approx(true, rel=0.03)
+        # Four standard errors where the interval is 1.7: fails by chance once in ten thousand.
+        assert abs(value(fitted, name) - true) < 2.4 * (value(fitted, name, "interval_upper") - value(fitted, name))
+        assert str(fitted["verdict"].sel(parameter=name).item()) == "identified"
+
+
+def test_without_noise_the_truth_is_the_optimum(road, nominal):
+    drives = measured(road, nominal.replace(**TRUTH), noise=0.0)
+    shaken = ("a_z", "roll_rate", "pitch_rate")  # the rest depends on how the speed is smoothed
+    task = calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, signals=shaken)
+    nominal_values = [nominal[name] for name in CALIBRATED]
+    true = task.point([TRUTH.get(name, nominal[name]) for name in CALIBRATED])
+    assert np.sum(task.flat(true) ** 2) < 1e-3 * np.sum(task.flat(task.point(nominal_values)) ** 2)
+
+
+def test_steps_are_those_of_the_paper_and_the_joint_fit_is_at_least_as_good(fitted):
+    assert list(fitted["step"].values) == ["OP_1", "OP_2", "OP_3", "OP_4", "OP_5", "joint"]
+    assert list(fitted["parameter"].values) == list(CALIBRATED)
+    assert (np.diff(fitted["cost"].values) <= 1e-12).all()
+    for i, name in enumerate(CALIBRATED):  # a step moves its own parameter and no other
+        others = [other for other in CALIBRATED if other != name]
+        before = fitted["initial"] if i == 0 else fitted["step_value"].isel(step=i - 1)
+        np.testing.assert_allclose(fitted["step_value"].isel(step=i).sel(parameter=others), before.sel(parameter=others), rtol=1e-5)
+    assert (fitted["iterations"].values[[0, 1, 3, 4, 5]] > 0).all()
+    assert "below 0.0001" in fitted.attrs["stopping_rule"]
+
+
+def test_cost_is_half_the_mean_over_drives_of_the_sum_of_squared_nrmse(fitted):
+    expected = 0.5 * (fitted["step_nrmse"] ** 2).sum("signal").mean("drive")
+    np.testing.assert_allclose(fitted["cost"], expected, rtol=1e-9)
+
+
+def test_a_parameter_that_no_signal_shows_is_left_alone_and_named(fitted, nominal):
+    assert value(fitted, "tyre_friction") == pytest.approx(nominal["tyre_friction"], rel=1e-5)
+    assert str(fitted["verdict"].sel(parameter="tyre_friction").item()) == "not identified"
+    assert "tyre_friction is not identified" in fitted.attrs["remarks"]
+
+
+def test_what_drives_each_parameter_adds_up(fitted):
+    share = fitted["signal_share"].sel(parameter=list(TRUTH))
+    np.testing.assert_allclose(share.sum("signal"), 1.0)
+    assert (share.sel(signal=["a_z", "pitch_rate", "roll_rate"]).sum("signal") > 0.95).all()
+
+
+def test_a_truth_beyond_the_bounds_ends_at_the_bound_in_words(road, nominal):
+    drives = measured(road, nominal.replace(spring_stiffness_front=24000.0), count=1)
+    bounds = {"spring_stiffness_front": (30000.0, 60000.0)}
+    found = calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, bounds=bounds, restarts=0)
+    assert value(found, "spring_stiffness_front", "initial") == 30000.0  # nominal 28000, clipped
+    assert value(found, "spring_stiffness_front") == pytest.approx(30000.0, rel=1e-3)
+    assert "spring_stiffness_front is at its lower bound" in found.attrs["remarks"]
+
+
+def test_drives_kept_for_checking_do_not_enter_the_fit(road, nominal):
+    drives = measured(road, nominal.replace(**TRUTH), roles=("fit", "check"))
+    task = calibrate.problem(record.stack(drives), road, nominal, simulate=quarter_cars.run)
+    assert [again.drive.attrs["name"] for again in task.replays] == ["drive_0"]
+    with pytest.raises(InputError, match="no drive has the role 'fit'"):
+        calibrate.problem(drives[1:], road, nominal, simulate=quarter_cars.run)
+
+
+def test_profile_of_the_cost_is_lowest_at_the_optimum_and_agrees_with_the_interval(road, nominal, fitted):
+    drives = measured(road, nominal.replace(**TRUTH), count=1)
+    task = calibrate.problem(drives, road, nominal, simulate=quarter_cars.run)
+    best = task.point(fitted["value"].values)
+    places = np.array([22000.0, 24000.0, 26000.0])
+    cost = calibrate.profile(task, best, "spring_stiffness_front", places)
+    assert cost.values[1] < min(cost.values[0], cost.values[2])
+
+
+def test_bad_settings_are_refused(road, nominal):
+    drives = measured(road, nominal, count=1)
+    with pytest.raises(InputError, match="tyre_friction: bounds 1.4 to 0.7"):
+        calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, bounds={"tyre_friction": (1.4, 0.7)})
+    with pytest.raises(InputError, match="expected joint or sequence"):
+        calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, applied="both")
+
+
+def test_intervals_hold_the_truth_as_often_as_they_say_though_residuals_are_correlated():
+    """Linear model with residuals correlated over 30 samples: 90 % by blocks, far fewer by the usual formula."""
+    rng = np.random.default_rng(3)
+    count, trials, held, naive = 3000, 400, 0, 0
+    time = np.arange(count)
+    jacobian = np.stack([np.sin(time / 40), np.cos(time / 17)], axis=1)[None]
+    kernel = np.ones(30) / 30**0.5
+    for _ in range(trials):
+        residual = np.convolve(rng.standard_normal(count + 29), kernel, mode="valid")
+        error = np.linalg.lstsq(jacobian[0], residual, rcond=None)[0]
+        left = (residual - jacobian[0] @ error)[None]
+        known = identifiability.assess(jacobian, left, time // 100)
+        held += abs(error[0]) < known.half_width[0]
+        naive += abs(error[0]) < 1.645 * left.std() / np.linalg.norm(jacobian[0, :, 0])
+    assert held / trials == pytest.approx(0.90, abs=0.06)  # four standard errors of 400 trials
+    assert naive / trials < 0.5
+
+
+def test_a_collinear_pair_is_named():
+    rng = np.random.default_rng(0)
+    first = rng.standard_normal(2000)
+    jacobian = np.stack([first, first + 0.05 * rng.standard_normal(2000), rng.standard_normal(2000)], axis=1)[None]
+    known = identifiability.assess(jacobian, 0.01 * rng.standard_normal((1, 2000)), np.arange(2000) // 50)
+    (words,) = identifiability.remarks(["a", "b", "c"], np.full(3, 0.5), known)
+    assert words.startswith("a and b are hard to tell apart (correlation -1.00)")
+
+
+def test_an_effect_is_calibrated_along_with_the_vehicle(nominal):
+    """With the study's own simulator: Coulomb friction in the suspension, its size known to the truth alone."""
+    course = simulate.prepare(quarter_cars.road(length=360.0))
+    hidden = {"suspension_friction": {"front": 150.0, "rear": 150.0}}
+    truth = nominal.replace(spring_stiffness_front=24000.0)
+    speed = xr.DataArray(20 + np.sin(course.u / 25), {"u": course.u}, "u")
+    run = simulate.run(course, truth, speed=speed, effects=hidden, rate=100.0)
+    time = run["time"].values
+    drive = record.from_arrays(
+        {name: (time, run[name].values) for name in (*SIGNALS, "v_x", "s", "e")}, gravity=False, name="hidden"
+    )
+    chosen = library.choose({"suspension_friction": {}})
+    bounds, units = calibrate.effect_parameters(chosen, held={})
+    found = calibrate.calibrate(
+        [drive],
+        course,
+        nominal,
+        bounds=bounds,
+        units=units,
+        effects={"suspension_friction": {"front": 10.0, "rear": 10.0}},
+        restarts=0,
+    )
+    for side in ("front", "rear"):
+        name = f"suspension_friction.{side}"
+        assert value(found, name) == pytest.approx(150.0, rel=0.15)
+        assert found["unit"].sel(parameter=name).item() == "N"
+    assert value(found, "spring_stiffness_front") == pytest.approx(24000.0, rel=0.03)
+    vehicle, effects = calibrate.apply(found, nominal, {})
+    assert effects["suspension_friction"]["front"] == value(found, "suspension_friction.front")
+    assert vehicle["spring_stiffness_front"] == value(found, "spring_stiffness_front")
+    result = compare.compare([drive], course, {"reference": (nominal, {}), "calibrated": (vehicle, effects)}, simulate=simulate.run)
+    assert float(result["nrmse"].sel(state="calibrated", signal="a_z").item()) < 0.2 * float(
+        result["nrmse"].sel(state="reference", signal="a_z").item()
+    )
+

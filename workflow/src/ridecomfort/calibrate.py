@@ -1,0 +1,334 @@
+"""Calibration of the vehicle on measured drives: the five steps of the paper, and all parameters at once.
+
+The residuals are simulated minus measured signals (eq:nonlinlsq), every signal
+divided by its measured range and by the root of its length, so that the sum of
+squares is the sum of NRMSE^2 over the signals, averaged over the drives. They are
+minimised within bounds (eq:opti) by the trust-region reflective method of scipy
+("trf": the damped Gauss-Newton steps of Levenberg and Marquardt, their damping set by
+a trust region that bends at the bounds; MINPACK's own "lm" knows no bounds).
+
+What alignment may have left of every drive's clock offset and of its distance from the path
+is projected out of the residuals, but no more (CLOCK_LEFT): a damping would be fitted to a
+delay, or a delay to a damping.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+from scipy.optimize import least_squares
+from scipy.stats import qmc
+
+from . import identifiability
+from . import simulate as simulator
+from .drive.record import unstack
+from .drive.replay import CLOCK_LEFT, replay
+from .errors import InputError
+from .problem import Problem, with_values
+from .vehicle.parameters import PARAMETERS
+from .vocabulary import SIGNALS
+
+BOUNDS = {
+    "spring_stiffness_front": (15000.0, 40000.0),
+    "spring_stiffness_rear": (15000.0, 40000.0),
+    "tyre_friction": (0.7, 1.4),
+    "tyre_radial_stiffness": (250000.0, 400000.0),
+    "tyre_radial_damping": (4000.0, 7000.0),
+}
+"""tab:constraints, SI."""
+
+UNSEEN = 1e-9
+"""NRMSE over the whole width of the bounds below which a parameter counts as without effect and is left alone."""
+
+MOST_TRIALS = 50
+"""Trial points of one search; a well-posed one takes fewer than 15."""
+
+COARSE = 1e-3
+"""Tolerance of a search from a random start; one that ends below the best is carried on with the full tolerance."""
+
+EQUAL = 1e-4
+"""Relative difference of cost within which two fits are equally good; the first of them stays, the nearest to the
+nominal vehicle where the data are silent."""
+
+BLOCK = 2.0
+"""s; residuals at places farther apart than this at the mean speed are independent in the intervals."""
+
+
+def problem(
+    drives: xr.Dataset | Sequence[xr.Dataset],
+    road,
+    vehicle,
+    *,
+    simulate: Callable[..., xr.Dataset] = simulator.run,
+    bounds: Mapping[str, Sequence[float]] | None = None,
+    effects: Mapping[str, Mapping[str, float]] | None = None,
+    signals: Sequence[str] = SIGNALS,
+    options: Mapping | None = None,
+) -> Problem:
+    """The problem of fitting the drives whose role is "fit"; arguments as for ``calibrate``."""
+    drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
+    roads = list(road) if isinstance(road, (list, tuple)) else [road] * len(drives)
+    replays = [
+        replay(drive, its_road, simulate, options=options).tuned(vehicle, effects or {})
+        for drive, its_road in zip(drives, roads, strict=True)
+        if drive.attrs.get("role", "fit") == "fit"
+    ]
+    if not replays:
+        raise InputError("no drive has the role 'fit' (expected at least one)", place="drives")
+    bounds = {**BOUNDS, **(bounds or {})}
+    for name, (lower, upper) in bounds.items():
+        if not (np.isfinite([lower, upper]).all() and lower < upper):
+            raise InputError(f"bounds {lower:g} to {upper:g} (expected lower < upper)", place=name)
+    lower, upper = np.array(list(bounds.values()), dtype=float).T
+    return Problem(replays, vehicle, tuple(bounds), lower, upper, effects or {}, tuple(signals))
+
+
+def calibrate(
+    drives: xr.Dataset | Sequence[xr.Dataset],
+    road,
+    vehicle,
+    *,
+    simulate: Callable[..., xr.Dataset] = simulator.run,
+    bounds: Mapping[str, Sequence[float]] | None = None,
+    effects: Mapping[str, Mapping[str, float]] | None = None,
+    units: Mapping[str, str] | None = None,
+    signals: Sequence[str] = SIGNALS,
+    applied: str = "joint",
+    restarts: int = 2,
+    tolerance: float = 1e-4,
+    seed: int = 0,
+    options: Mapping | None = None,
+) -> xr.Dataset:
+    """Parameters of the vehicle, and of its effects, that bring the model closest to the aligned drives.
+
+    ``drives`` are aligned (``drive.align``), those of role "check" are left out; ``road`` is one (prepared
+    or not) or a list of one per drive; ``simulate`` has the signature of ``simulate.run``. ``bounds`` widen or narrow
+    tab:constraints and add parameters of effects as "effect.parameter" (SI), whose ``units`` may be named;
+    ``effects`` holds their start and what is not fitted of them. The start is the nominal
+    vehicle, clipped into the bounds. OP_1 ... OP_5 fit one parameter after the other (fig:optichain), an
+    effect's after them; the joint fit starts where they end and from ``restarts`` random points.
+    ``applied`` says whose values are ``value``: "joint" (default) or "sequence", as in the paper.
+
+    Returns the Dataset of calibration.nc: over ``parameter`` value, initial, lower, upper, unit,
+    interval_lower/upper (90 %), value_sequence, verdict and signal_share(parameter, signal);
+    over ``step`` cost, iterations, evaluations, step_value, step_nrmse, stopped; over ``iteration`` the way there.
+    Attributes: stopping rule, remarks in words. Raises InputError.
+    """
+    if applied not in ("joint", "sequence"):
+        raise InputError(f"{applied!r} (expected joint or sequence)", place="applied")
+    task = problem(
+        drives, road, vehicle, simulate=simulate, bounds=bounds, effects=effects, signals=signals, options=options
+    )
+    start = task.point([_nominal(vehicle, effects or {}, name) for name in task.parameters])
+    everything = list(range(len(task.parameters)))
+    path, steps = [], []
+    point = start
+    for index, name in enumerate(task.parameters):
+        label = f"OP_{index + 1}"
+        point, row = _descend(task, point, [index], tolerance, label, path)
+        steps.append(row)
+    sequence = point
+    sampler = qmc.LatinHypercube(len(everything), rng=np.random.default_rng(seed))
+    point, row = _descend(task, sequence, everything, tolerance, "joint", path)
+    fits = [(point, row)]
+    for first in sampler.random(restarts):
+        other, its_row = _descend(task, first, everything, max(tolerance, COARSE), "joint", [])
+        if its_row["cost"] < row["cost"] * (1 - EQUAL):
+            other, its_row = point, row = _descend(task, other, everything, tolerance, "joint", [])
+        fits.append((other, its_row))
+    steps.append(row)
+    chosen = point if applied == "joint" else sequence
+    knowledge = _assess(task, chosen)
+    result = _dataset(task, start, chosen, sequence, steps, path, knowledge)
+    remarks = identifiability.remarks(list(task.parameters), chosen, knowledge)
+    result["restart_cost"] = "restart", np.array([fit["cost"] for _, fit in fits])
+    result["restart_value"] = ("restart", "parameter"), np.stack([task.values(end) for end, _ in fits])
+    eager = result["drive"].values[np.abs(result["clock_correction"].values) >= CLOCK_LEFT]
+    if eager.size:
+        remarks.append(
+            f"the clock of {', '.join(eager)} would move by more than the {1e3 * CLOCK_LEFT:g} ms it is trusted to: "
+            "the model lacks a delay or a damping"
+        )
+    worst = float(result["restart_cost"].max() / row["cost"] - 1)
+    if worst > 0.01:
+        remarks.append(f"starts disagree: the worst of {len(fits)} ends at a cost {100 * worst:.1f} % above the best")
+    result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
+    result.attrs.update(
+        applied=applied,
+        start="the nominal vehicle, clipped into the bounds",
+        stopping_rule=f"relative change of cost or step below {tolerance:g} (scipy least_squares, trf: ftol, xtol)",
+        drives=", ".join(again.drive.attrs["name"] for again in task.replays),
+        remarks="; ".join(remarks) or "none",
+    )
+    return result
+
+
+def apply(calibration: xr.Dataset | None, vehicle, effects: Mapping[str, Mapping[str, float]] | None = None):
+    """The vehicle and the effects with calibrated values: (vehicle, effects). None changes nothing."""
+    if calibration is None:
+        return vehicle, dict(effects or {})
+    found = calibration["value"]
+    values = {str(name): float(value) for name, value in zip(found["parameter"].values, found.values)}
+    return with_values(vehicle, effects or {}, values)
+
+
+def effect_parameters(chosen, held: Mapping[str, Mapping[str, float]]) -> tuple[dict, dict]:
+    """Bounds (the plausible range) and units of all parameters of effects but those that are held.
+
+    ``chosen`` is what ``effects.library.choose`` returns; keys are "effect.parameter".
+    """
+    bounds, units = {}, {}
+    for entry, _ in chosen:
+        for parameter in entry.effect.parameters:
+            if parameter.name not in (held.get(entry.effect.name) or {}):
+                name = f"{entry.effect.name}.{parameter.name}"
+                bounds[name], units[name] = parameter.plausible, parameter.unit
+    return bounds, units
+
+
+def profile(
+    task: Problem, point: np.ndarray, parameter: str, places: np.ndarray, tolerance: float = 1e-4
+) -> xr.DataArray:
+    """Profile of the cost: least cost over all other parameters with ``parameter`` held at each place.
+
+    ``point`` is the optimum and ``places`` are values of the parameter in SI units. Returns cost over
+    ``value``; flat where the data do not see the parameter.
+    """
+    held = task.parameters.index(parameter)
+    free = [index for index in range(len(task.parameters)) if index != held]
+    width = task.upper[held] - task.lower[held]
+    costs = []
+    for place in np.asarray(places, dtype=float):
+        first = np.array(point, dtype=float)
+        first[held] = (place - task.lower[held]) / width
+        costs.append(_descend(task, first, free, tolerance, parameter, [])[1]["cost"])
+    return xr.DataArray(costs, {"value": places}, "value", name=parameter)
+
+
+def _descend(task: Problem, start, free, tolerance, label, path) -> tuple[np.ndarray, dict]:
+    """One least-squares fit of the free parameters: where it ends, and its row of the table of steps."""
+    before, iterations = task.evaluations, []
+    start = np.clip(start, 1e-6, 1 - 1e-6)
+    sensitivity = np.linalg.norm(task.jacobian(start, free), axis=0)
+    free = [index for index, size in zip(free, sensitivity) if size > UNSEEN]
+
+    def full(part: np.ndarray) -> np.ndarray:
+        point = np.array(start, dtype=float)
+        point[free] = part
+        return point
+
+    def row(cost: float, point: np.ndarray, message: str) -> dict:
+        path.extend(iterations)
+        return {
+            "label": label,
+            "cost": cost,
+            "iterations": len(iterations),
+            "evaluations": task.evaluations - before,
+            "point": point,
+            "nrmse": task.nrmse(point),
+            "stopped": message.strip("`. ").replace("`", ""),
+        }
+
+    if not free:
+        cost = 0.5 * float(np.sum(task.flat(start) ** 2))
+        return start, row(cost, start, "no signal depends on the parameter")
+
+    def jacobian(part: np.ndarray) -> np.ndarray:
+        point = full(part)
+        iterations.append((label, point, 0.5 * float(np.sum(task.flat(point) ** 2))))
+        return task.jacobian(point, free)
+
+    outcome = least_squares(
+        lambda part: task.flat(full(part)),
+        start[free],
+        jac=jacobian,
+        bounds=(0.0, 1.0),
+        method="trf",
+        ftol=tolerance,
+        xtol=tolerance,
+        gtol=None,
+        max_nfev=MOST_TRIALS,
+    )
+    point = full(outcome.x)
+    return point, row(float(outcome.cost), point, outcome.message)
+
+
+def _assess(task: Problem, point: np.ndarray) -> identifiability.Knowledge:
+    count = len(task.parameters)
+    jacobian = task.jacobian(point, range(count))
+    parts, residuals, blocks, first = [], [], [], 0
+    length = max(1.0, BLOCK * np.mean([np.ptp(again.place) / np.ptp(again.time) for again in task.replays]))
+    roads = list(dict.fromkeys(id(again.road) for again in task.replays))
+    for again, residual in zip(task.replays, task.residuals(point)):
+        part = jacobian[first : first + residual.size].reshape(*residual.shape, count)
+        first += residual.size
+        place = again.place[again.compared]
+        # Repeats of a place share a block: what the model lacks there, it lacks in every repeat.
+        blocks.append(10**6 * roads.index(id(again.road)) + np.floor(place / length).astype(np.int64))
+        parts.append(part)
+        residuals.append(residual)
+    return identifiability.assess(
+        np.concatenate(parts, axis=1), np.concatenate(residuals, axis=1), np.concatenate(blocks)
+    )
+
+
+def _dataset(task, start, chosen, sequence, steps, path, knowledge) -> xr.Dataset:
+    names = list(task.parameters)
+    width = task.upper - task.lower
+    value = task.values(chosen)
+    verdicts = [identifiability.verdict(place, size) for place, size in zip(chosen, knowledge.half_width)]
+    left_over = task.left_over(chosen)
+    half = np.minimum(knowledge.half_width, 1.0) * width
+    deviation = np.sqrt(np.diag(knowledge.covariance))
+    with np.errstate(invalid="ignore"):
+        correlation = knowledge.covariance / np.outer(deviation, deviation)
+    return xr.Dataset(
+        {
+            "value": ("parameter", value),
+            "initial": ("parameter", task.values(start)),
+            "lower": ("parameter", task.lower),
+            "upper": ("parameter", task.upper),
+            "interval_lower": ("parameter", np.maximum(value - half, task.lower)),
+            "interval_upper": ("parameter", np.minimum(value + half, task.upper)),
+            "value_sequence": ("parameter", task.values(sequence)),
+            "verdict": ("parameter", np.array(verdicts)),
+            "correlation": (("parameter", "other"), correlation),
+            "signal_share": (("parameter", "signal"), knowledge.information),
+            "singular_value": ("rank", knowledge.singular_values),
+            "cost": ("step", np.array([row["cost"] for row in steps])),
+            "iterations": ("step", np.array([row["iterations"] for row in steps])),
+            "evaluations": ("step", np.array([row["evaluations"] for row in steps])),
+            "stopped": ("step", np.array([row["stopped"] for row in steps])),
+            "step_value": (("step", "parameter"), np.stack([task.values(row["point"]) for row in steps])),
+            "step_nrmse": (("step", "drive", "signal"), np.stack([row["nrmse"] for row in steps])),
+            "initial_nrmse": (("drive", "signal"), task.nrmse(start)),
+            "clock_correction": ("drive", left_over[:, 0], {"units": "s"}),
+            "path_correction": ("drive", left_over[:, 1], {"units": "m"}),
+            "iteration_step": ("iteration", np.array([label for label, _, _ in path])),
+            "iteration_cost": ("iteration", np.array([cost for _, _, cost in path])),
+            "iteration_value": (("iteration", "parameter"), np.stack([task.values(point) for _, point, _ in path])),
+        },
+        {
+            "parameter": names,
+            "other": names,
+            "signal": list(task.signals),
+            "step": [row["label"] for row in steps],
+            "drive": [again.drive.attrs["name"] for again in task.replays],
+        },
+    )
+
+
+def _nominal(vehicle, effects: Mapping[str, Mapping[str, float]], name: str) -> float:
+    effect, dot, parameter = name.partition(".")
+    if not dot:
+        return vehicle[name]
+    try:
+        return effects[effect][parameter]
+    except KeyError:
+        raise InputError(f"effect {effect!r} has no starting value of {parameter!r}", place=name) from None
+
+
+def _unit(name: str, units: Mapping[str, str]) -> str:
+    return PARAMETERS[name].unit if name in PARAMETERS else units.get(name, "")

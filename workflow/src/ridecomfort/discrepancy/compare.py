@@ -1,0 +1,106 @@
+"""Where model and measurement differ: residuals and errors of every signal of every drive.
+
+NRMSE is RMSE over the range (max - min) of the measured signal; the paper does not
+state its normalisation, and this is the reading that fits its figures (errata.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+
+from ..drive.record import unstack
+from ..drive.replay import CLOCK_LEFT, Replay, replay
+from ..vocabulary import SIGNALS
+
+CLOCK_STEPS = 2
+"""Gauss-Newton steps; the second changes a clock within CLOCK_LEFT by less than 0.01 ms."""
+
+
+def rmse(residual: np.ndarray) -> np.ndarray:
+    """Root mean square over the last axis, in the unit of the residual; NaN samples do not count."""
+    return np.sqrt(np.nanmean(np.square(residual), axis=-1))
+
+
+def nrmse(residual: np.ndarray, measured: np.ndarray) -> np.ndarray:
+    """RMSE over the range of the measured signal, along the last axis; NaN residuals do not count in either."""
+    measured = np.where(np.isfinite(residual), measured, np.nan)
+    return rmse(residual) / (np.nanmax(measured, axis=-1) - np.nanmin(measured, axis=-1))
+
+
+def compare(
+    drives: xr.Dataset | Sequence[xr.Dataset],
+    road,
+    states: Mapping[str, tuple],
+    *,
+    simulate: Callable[..., xr.Dataset],
+    options: Mapping | None = None,
+) -> xr.Dataset:
+    """The model driven over every measured path, state by state, beside what was measured there.
+
+    ``drives`` are aligned, fitted and checked ones alike; ``states`` maps a name ("reference",
+    "calibrated") to (vehicle, effects). Each state is compared at its own best clock within
+    what alignment may be off by (CLOCK_LEFT), kept as ``clock_correction``: a state that turns phases
+    right would else be judged with the clock that suits the wrong one.
+
+    Returns over drive, time, signal, state: ``measured`` and ``simulated`` (unit by signal in
+    ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
+    recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``.
+    """
+    drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
+    length = max(drive.sizes["time"] for drive in drives)
+    shape = len(drives), len(SIGNALS), length
+    measured = np.full(shape, np.nan)
+    simulated = np.full((len(states), *shape), np.nan)
+    residual = np.full((len(states), *shape), np.nan)
+    clock = np.zeros((len(states), len(drives)))
+    series = {name: np.full((len(drives), length), np.nan) for name in ("v_x", "s", "e")}
+    for i, drive in enumerate(drives):
+        count = drive.sizes["time"]
+        again = replay(drive, road, simulate, options=options)
+        measured[i, :, :count] = again.measured()
+        for name, values in series.items():
+            values[i, :count] = drive[name].values
+        for j, (vehicle, effects) in enumerate(states.values()):
+            clock[j, i], difference = _at_best_clock(again, vehicle, effects)
+            residual[j, i, :, :count] = difference
+            simulated[j, i, :, :count] = again.measured() + difference
+    longest = max(drives, key=lambda drive: drive.sizes["time"])
+    result = xr.Dataset(
+        {
+            "measured": (("drive", "signal", "time"), measured),
+            "simulated": (("state", "drive", "signal", "time"), simulated),
+            "residual": (("state", "drive", "signal", "time"), residual),
+            "rmse": (("state", "drive", "signal"), rmse(residual)),
+            "nrmse": (("state", "drive", "signal"), nrmse(residual, measured), {"units": "1"}),
+            "clock_correction": (("state", "drive"), clock, {"units": "s"}),
+            "role": ("drive", np.array([drive.attrs.get("role", "fit") for drive in drives])),
+            "signal_unit": ("signal", np.array(["m/s2"] * 3 + ["rad/s"] * 3)),
+            **{name: (("drive", "time"), values) for name, values in series.items()},
+        },
+        {
+            "state": list(states),
+            "drive": [drive.attrs["name"] for drive in drives],
+            "signal": list(SIGNALS),
+            "time": longest["time"].values,
+        },
+    )
+    return result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal")
+
+
+def _at_best_clock(again: Replay, vehicle, effects) -> tuple[float, np.ndarray]:
+    """Clock offset (s) that is left in this state, by Gauss-Newton, and the residual with it taken out."""
+    again = again.tuned(vehicle, effects)
+    run = again.run(vehicle, effects)
+    kept = again.compared
+    scale = np.ptp(again.measured()[:, kept], axis=1, keepdims=True)
+    scale = np.where(scale > 0, scale, np.inf)
+    clock = 0.0
+    for _ in range(CLOCK_STEPS):
+        simulated = again.sample(run, clock)
+        slope = simulated.slopes[:, kept] / scale
+        clock += np.sum(slope * again.residual(simulated)[:, kept] / scale) / np.sum(slope**2)
+        clock = np.clip(clock, -CLOCK_LEFT, CLOCK_LEFT)
+    return float(clock), again.residual(again.sample(run, clock))

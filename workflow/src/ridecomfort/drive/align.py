@@ -1,0 +1,127 @@
+"""What stands between a record and the road: clock, speed scale, path, mounting, gain and bias.
+
+Each is found against a simulation, from what a wrong vehicle cannot imitate: gain and
+tilt from gravity, the speed scale from distance, the path from the roughness that it
+meets. The clock it can (a wrong damping turns phases, too), so a provisional vehicle is
+fitted along with it, drive by drive, and thrown away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from ..vocabulary import SIGNALS
+from . import mounting, path, place
+from .record import acceleration
+from .replay import Replay, Simulated, replay
+
+PASSES = 3
+"""Rounds of vehicle, mounting, clock and path; three more change the clock by 0.2 ms on the stand-in drives."""
+
+
+def align(
+    drive: xr.Dataset,
+    road,
+    vehicle,
+    *,
+    simulate: Callable[..., xr.Dataset],
+    search: float = 0.5,
+    options: Mapping | None = None,
+) -> xr.Dataset:
+    """The drive brought into line with the road, gravity removed, and what was found as attributes.
+
+    ``drive`` is a record (``drive.record``), ``road`` a road or a prepared one (``simulate.prepare``),
+    ``vehicle`` the nominal one (it need not fit); ``simulate`` has the signature of ``simulate.run``
+    and ``search`` (s) bounds the clock offset. Place and speed are moved onto the clock of the
+    inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
+    gain, mounting and bias; ``e`` becomes the path that was found.
+
+    New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
+    lateral_correction (m), distance_wander and lateral_wander (m, rms of what was found of both
+    along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, roll/pitch/yaw_rate_bias
+    (rad/s). New variables ``roll`` and ``pitch`` (rad): the simulated attitude that gravity was
+    taken out with; zero where the record held none. Raises InputError when the model cannot
+    drive where the record says it went.
+    """
+    options = options or {}
+    work = mounting.level(drive)
+    if drive.attrs["place_measured"]:
+        scale, offset = place.speed_scale(work, road), 0.0
+        work = place.moved(work, scale=scale)
+    else:
+        scale, offset = place.odometer(work, road, vehicle, simulate, options)
+        work = place.moved(work, scale=scale, offset=offset)
+    clock, error, lateral, fitted = 0.0, np.nan, 0.0, mounting.Mounting()
+    again = replay(work, road, simulate, options=options)
+    if drive.attrs["place_measured"]:
+        clock = place.coarse_clock(again, again(vehicle), search)
+        work = place.moved(work, clock=clock)
+    lateral = path.find_offset(work, road, vehicle, simulate, options)
+    work = _on_path(work, lateral)
+    expected = path.EXPECTED_ASIDE_MEASURED if path.has_offset(drive) else path.EXPECTED_ASIDE
+    moved_along, moved_aside = np.zeros(work.sizes["time"]), np.zeros(work.sizes["time"])
+    for _ in range(PASSES):
+        again = replay(work, road, simulate, options=options).tuned(vehicle)
+        simulated = again(vehicle)
+        if drive.attrs["gravity"]:
+            step = mounting.fit(again, simulated)
+            work, fitted = mounting.corrected(work, step), fitted.then(step)
+            again = replace(again, drive=work)
+        step, error, better = place.clock(again, simulated, vehicle)
+        if drive.attrs["place_measured"]:
+            clock += step
+            work = place.moved(work, clock=step)
+        else:
+            step_scale, step_offset = place.refine(again, simulated)
+            scale, offset = scale * step_scale, offset * step_scale + step_offset
+            work = place.moved(work, scale=step_scale, offset=step_offset)
+        again = replay(work, road, simulate, options=options).tuned(vehicle)
+        vehicle = _better(vehicle, better, again)
+        along, aside = path.wander(again, again(vehicle), vehicle, expected)
+        work = work.assign(s=work["s"] + along, e=work["e"] + aside)
+        moved_along, moved_aside = moved_along + along, moved_aside + aside
+    aligned = _without_gravity(work, replay(work, road, simulate, options=options).tuned(vehicle)(vehicle))
+    aligned.attrs.update(
+        lateral_position=float(work["e"].mean()),
+        clock_offset=float(clock),
+        clock_offset_error=float(error),
+        speed_scale=float(scale),
+        distance_offset=float(offset),
+        lateral_correction=float(lateral),
+        distance_wander=float(moved_along.std()),
+        lateral_wander=float(moved_aside.std()),
+        **fitted.attributes(),
+    )
+    return aligned
+
+
+def _better(vehicle, values: Mapping[str, float], again: Replay):
+    """The vehicle with these values if it brings the model closer to the drive, else as it was."""
+    try:
+        changed = vehicle.replace(**values)
+        return changed if place.misfit(again, again(changed)) < place.misfit(again, again(vehicle)) else vehicle
+    except ValueError:  # beyond what is plausible, or the drive cannot be driven
+        return vehicle
+
+
+def _on_path(work: xr.Dataset, lateral: float) -> xr.Dataset:
+    """The drive with e on its recorded or known path, moved to the left by ``lateral`` (m)."""
+    if path.has_offset(work):
+        return work.assign(e=work["e"] + lateral)
+    constant = np.nan_to_num(work.attrs["lateral_position"]) + lateral
+    return work.assign(e=xr.full_like(work["e"], constant))
+
+
+def _without_gravity(work: xr.Dataset, simulated: Simulated) -> xr.Dataset:
+    aligned = work.copy()
+    if work.attrs["gravity"]:
+        force = mounting.specific_force(work)
+        for name, values in zip(SIGNALS[:3], acceleration(force, simulated.roll, simulated.pitch)):
+            aligned[name] = work[name].copy(data=values)
+        aligned["roll"] = "time", simulated.roll
+        aligned["pitch"] = "time", simulated.pitch
+    return aligned

@@ -1,0 +1,46 @@
+"""A measured drive as a site file describes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import xarray as xr
+
+from ..errors import InputError
+from ..vocabulary import STANDARD_GRAVITY
+from . import readers
+
+PASSED_ON = ("name", "role", "gravity", "lateral_position", "road_friction", "distance_start")
+"""Keys of a drive's entry that ``record.from_arrays`` knows by the same name."""
+
+
+def read(path, entry: Mapping, vehicle, *, rate: float = 100.0) -> xr.Dataset:
+    """The drive in the file, by the entry of a site file (workflow/schemas/site.yaml, ``drive``).
+
+    ``vehicle`` turns places that are measured at the car (behind the front axle, above the
+    wheel centres) into places relative to the centre of gravity. A sensor without a place
+    is taken to sit there. ``rate`` in Hz. Raises InputError naming the file.
+    """
+    attributes = {key: entry[key] for key in PASSED_ON if key in entry}
+    place = entry.get("sensor") or {}
+    if place:
+        missing = [key for key in ("behind_front_axle", "above_wheel_centres") if key not in place]
+        if missing:
+            raise InputError(f"no {missing[0]} (expected with a sensor's place)", file=path, place="sensor")
+        attributes["sensor"] = sensor_place(vehicle, **place)
+    drive = readers.read(path, entry.get("columns"), rate=rate, **attributes)
+    if entry.get("distance_of", "body") == "front_axle":
+        drive["s"] = drive["s"].copy(data=drive["s"].values - vehicle["cg_to_front_axle"])
+    return drive
+
+
+def sensor_place(vehicle, *, behind_front_axle: float, above_wheel_centres: float, left: float = 0.0):
+    """Place of a sensor in m relative to the centre of gravity of the sprung mass at rest: (x, y, z)."""
+    mass = vehicle["sprung_mass"] + 2 * (vehicle["unsprung_mass_front"] + vehicle["unsprung_mass_rear"])
+    deflection = STANDARD_GRAVITY * mass / 4 / vehicle["tyre_radial_stiffness"]
+    wheel_centre = vehicle["tyre_radius"] - deflection
+    return (
+        vehicle["cg_to_front_axle"] - behind_front_axle,
+        float(left),
+        wheel_centre + above_wheel_centres - vehicle["cg_height"],
+    )

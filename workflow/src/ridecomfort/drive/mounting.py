@@ -1,0 +1,99 @@
+"""How an inertial unit sits in the vehicle: tilt, gain of its accelerometers, bias of its gyroscopes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from ..vocabulary import SIGNALS, STANDARD_GRAVITY
+from . import record
+from .replay import Replay, Simulated
+
+EXPECTED = np.array([0.01, 0.03, 0.03, 0.03, 0.02, 0.02, 0.02])
+"""Usual size of gain error, tilt (rad) and bias (rad/s): what the data do not show stays near zero."""
+
+INDEPENDENT = 0.5
+"""s; residuals closer than this count as one observation against EXPECTED."""
+
+
+@dataclass(frozen=True)
+class Mounting:
+    """Gain of the accelerometers, rotation (rad, small) of the instrument against the body, bias of its rates (rad/s).
+
+    What it reads of a vector w of the body is gain (w - rotation x w), for rates without gain, plus bias.
+    """
+
+    gain: float = 1.0
+    rotation: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    bias: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def then(self, step: Mounting) -> Mounting:
+        """This mounting and a further small one found behind it."""
+        return Mounting(
+            self.gain * step.gain,
+            tuple(np.add(self.rotation, step.rotation)),
+            tuple(np.add(self.bias, step.bias)),
+        )
+
+    def attributes(self) -> dict[str, float]:
+        """Names of the vocabulary for a drive's attributes."""
+        axes = ("roll", "pitch", "yaw")
+        return {
+            "acceleration_gain": float(self.gain),
+            **{f"mounting_{axis}": float(angle) for axis, angle in zip(axes, self.rotation)},
+            **{f"{axis}_rate_bias": float(value) for axis, value in zip(axes, self.bias)},
+        }
+
+
+def level(drive: xr.Dataset) -> xr.Dataset:
+    """The drive with gravity, where it holds any, taken out as if it were level (roll = pitch = 0)."""
+    result = drive.assign(a_z=drive["a_z"] - STANDARD_GRAVITY * int(drive.attrs["gravity"]))
+    zero = xr.zeros_like(drive["a_z"])
+    return result.assign(roll=zero, pitch=zero).assign_attrs(drive.attrs)
+
+
+def specific_force(drive: xr.Dataset) -> np.ndarray:
+    """What the accelerometers read, (3, time), from accelerations and the attitude that gravity was taken out with."""
+    values = np.stack([drive[name].values for name in SIGNALS[:3]])
+    return record.specific_force(values, drive["roll"].values, drive["pitch"].values)
+
+
+def fit(again: Replay, simulated: Simulated) -> Mounting:
+    """Gain, rotation and bias that explain most of the difference between record and simulation.
+
+    Linear least squares, every signal weighted by the variance of its residual; gravity
+    dominates gain, roll and pitch, so that they hardly depend on the vehicle.
+    """
+    kept = again.compared
+    force = record.specific_force(simulated.signals[:3], simulated.roll, simulated.pitch)[:, kept]
+    rates = simulated.signals[3:][:, kept]
+    difference = -again.residual(simulated)[:, kept]
+    weights = 1 / (difference.var(axis=1) + 1e-8)
+    count = kept.sum()
+    columns = np.zeros((7, 6, count))
+    columns[0, :3] = force
+    for axis in range(3):
+        unit = np.zeros((3, 1))
+        unit[axis] = 1.0
+        columns[1 + axis, :3] = -np.cross(np.broadcast_to(unit, force.shape), force, axis=0)
+        columns[1 + axis, 3:] = -np.cross(np.broadcast_to(unit, rates.shape), rates, axis=0)
+        columns[4 + axis, 3 + axis] = 1.0
+    weighted = columns * weights[:, None]
+    normal = np.einsum("ist,jst->ij", weighted, columns)
+    interval = again.time[1] - again.time[0]
+    normal += np.diag(INDEPENDENT / interval / EXPECTED**2)
+    solution = np.linalg.solve(normal, np.einsum("ist,st->i", weighted, difference))
+    return Mounting(1 + solution[0], tuple(solution[1:4]), tuple(solution[4:]))
+
+
+def corrected(drive: xr.Dataset, mounting: Mounting) -> xr.Dataset:
+    """The drive as the same instrument would have recorded it without this mounting, gain and bias."""
+    force = specific_force(drive) / mounting.gain
+    rates = np.stack([drive[name].values for name in SIGNALS[3:]]) - np.array(mounting.bias)[:, None]
+    turn = np.array(mounting.rotation)[:, None]
+    force = force + np.cross(np.broadcast_to(turn, force.shape), force, axis=0)
+    rates = rates + np.cross(np.broadcast_to(turn, rates.shape), rates, axis=0)
+    values = np.concatenate([record.acceleration(force, drive["roll"].values, drive["pitch"].values), rates])
+    return drive.assign({name: drive[name].copy(data=row) for name, row in zip(SIGNALS, values)})

@@ -1,0 +1,62 @@
+"""Drives in comma-separated files with one row of column names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from ...errors import InputError
+from ...vocabulary import DRIVE
+from .. import units
+
+SUFFIXES = (".csv",)
+
+
+def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
+    """Quantities of a drive in SI units, each with the time of its row, and no attributes.
+
+    ``columns`` maps quantities (and ``time``) to column, unit and, for axes that
+    point the other way, ``factor: -1``. Without it the columns are named as in the
+    vocabulary and hold SI units. Raises InputError naming row and column.
+    """
+    table = _table(path)
+    if columns is None:
+        columns = {name: {"column": name} for name in ("time", *DRIVE) if name in table.columns}
+    if "time" not in columns:
+        raise InputError("no column stands for time", file=path, place="columns")
+    values = {}
+    for quantity, entry in columns.items():
+        if quantity not in ("time", *DRIVE):
+            expected = ", ".join(("time", *DRIVE))
+            raise InputError(f"unknown quantity {quantity!r} (expected {expected})", file=path, place="columns")
+        column = entry["column"]
+        if column not in table.columns:
+            found = ", ".join(map(str, table.columns))
+            raise InputError(f"no column {column!r} for {quantity} (found {found})", file=path)
+        scale = entry.get("factor", 1.0)
+        if "unit" in entry:
+            scale *= units.factor(quantity, entry["unit"], file=path, place=f"column {column!r}")
+        values[quantity] = scale * _numbers(table[column], path, column)
+    time = values.pop("time")
+    return {quantity: (time, series) for quantity, series in values.items()}, {}
+
+
+def _table(path) -> pd.DataFrame:
+    try:
+        return pd.read_csv(path, skipinitialspace=True)
+    except (ValueError, UnicodeDecodeError) as problem:
+        raise InputError(f"not a readable CSV file ({str(problem).splitlines()[0]})", file=path) from None
+
+
+def _numbers(series: pd.Series, path, column: str) -> np.ndarray:
+    numbers = pd.to_numeric(series, errors="coerce").to_numpy(dtype=float)
+    bad = np.flatnonzero(~np.isfinite(numbers))
+    if bad.size:
+        i = bad[0]
+        value = "nothing" if pd.isna(series.iloc[i]) else repr(series.iloc[i])
+        raise InputError(
+            f"line {i + 2}, column {column!r} holds {value} (expected a number)", file=path
+        )
+    return numbers

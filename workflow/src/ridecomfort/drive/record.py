@@ -1,0 +1,275 @@
+"""What a drive is: uniform time, the quantities of tab:quantities, and the place on the road.
+
+Axes follow ISO 8855 (x forward, y left, z up). Angular rates are those about the
+body's axes. A drive whose attribute ``gravity`` is 1 holds specific force, what
+an accelerometer reads (+9.8 m/s2 along z at rest); 0 stands for acceleration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from ..errors import InputError
+from ..vocabulary import DRIVE, SIGNALS, STANDARD_GRAVITY, VARIABLES, describe
+from . import sampling
+
+REASONABLE = {
+    "v_x": (-5.0, 90.0),
+    "a_x": (-200.0, 200.0),
+    "a_y": (-200.0, 200.0),
+    "a_z": (-200.0, 200.0),
+    "roll_rate": (-10.0, 10.0),
+    "pitch_rate": (-10.0, 10.0),
+    "yaw_rate": (-10.0, 10.0),
+    "s": (-1e6, 1e6),
+    "e": (-20.0, 20.0),
+}
+"""SI; values outside are a wrong unit or a broken sensor, not a road vehicle."""
+
+ROLES = ("fit", "check")
+"""A drive is fitted, or kept for checking and never fitted."""
+
+
+def from_arrays(
+    quantities: Mapping[str, tuple[np.ndarray, np.ndarray]],
+    *,
+    name: str = "drive",
+    role: str = "fit",
+    rate: float = 100.0,
+    gravity: bool = True,
+    sensor: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    lateral_position: float | None = None,
+    road_friction: float = 1.0,
+    distance_start: float = 0.0,
+    file=None,
+) -> xr.Dataset:
+    """A drive from arrays in SI units, each quantity with its own clock.
+
+    ``quantities`` maps a name of ``vocabulary.DRIVE`` to (time in s, values); all six
+    ``SIGNALS`` and at least one of ``v_x`` and ``s`` are needed. The stretch that all
+    of them cover is brought to ``rate`` (Hz): inertial signals through an anti-alias
+    filter, speed and place linearly. ``s`` that is missing is integrated from ``v_x``
+    beginning at ``distance_start`` (m), ``v_x`` that is missing is the derivative of ``s``.
+    ``sensor`` is the place of the accelerometer in m from the centre of gravity.
+
+    Returns a Dataset over ``time`` (s, from 0); attributes name, role, gravity,
+    sensor_x/y/z, lateral_position (nan: unknown), road_friction, place_measured, cut_off (Hz, of the anti-alias
+    filter; half the rate where nothing was resampled), start_time and ``treatment`` (what was
+    done to the data). Raises InputError.
+    """
+    missing = [signal for signal in SIGNALS if signal not in quantities]
+    if missing:
+        raise InputError(f"no {missing[0]} (expected all of {', '.join(SIGNALS)})", file=file, place=name)
+    if "v_x" not in quantities and "s" not in quantities:
+        raise InputError("neither v_x nor s (expected at least one)", file=file, place=name)
+    unknown = [quantity for quantity in quantities if quantity not in DRIVE]
+    if unknown:
+        raise InputError(f"unknown quantity {unknown[0]!r} (expected {', '.join(DRIVE)})", file=file, place=name)
+    arrays = {}
+    for quantity, (time, values) in quantities.items():
+        time, values = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+        if values.shape != time.shape:
+            raise InputError(
+                f"{quantity} has shape {values.shape} where its time has {time.shape}", file=file, place=name
+            )
+        sampling.check_clock(time, file=file, place=f"time of {quantity}")
+        _check_values(quantity, time, values, file=file)
+        arrays[quantity] = time, values
+    first = max(time[0] for time, _ in arrays.values())
+    last = min(time[-1] for time, _ in arrays.values())
+    start, interval, _ = sampling.uniform_clock(arrays["a_z"][0])
+    if abs(interval * rate - 1) < 1e-5:  # the clock of the instrument is kept, so that nothing need be filtered
+        first = start + np.ceil((first - start) / interval - sampling.LARGEST_SHIFT) * interval
+    count = int(np.floor((last - first) * rate + sampling.LARGEST_SHIFT)) + 1
+    if count < 2:
+        raise InputError(f"the clocks of its quantities overlap by {max(last - first, 0):.3g} s", file=file, place=name)
+    time = first + np.arange(count) / rate
+    columns, treatment, cut_offs = {}, [], []
+    for quantity, (clock, values) in arrays.items():
+        if quantity in SIGNALS:
+            columns[quantity], jitter, cut_off = sampling.resample_inertial(
+                clock, values, time, rate, file=file, place=f"time of {quantity}"
+            )
+            cut_offs.append(cut_off)
+            own_rate = (len(clock) - 1) / (clock[-1] - clock[0])
+            if cut_off < 0.5 * rate:
+                how = f"jitter {jitter:.2g} intervals, low-pass {cut_off:.3g} Hz"
+                treatment.append(f"{quantity} brought from {own_rate:.4g} Hz ({how})")
+        else:
+            columns[quantity] = sampling.resample_slow(clock, values, time, file=file, place=f"time of {quantity}")
+    place_measured = "s" in columns
+    if not place_measured:
+        travelled = np.concatenate([[0.0], np.cumsum(0.5 * (columns["v_x"][1:] + columns["v_x"][:-1]) / rate)])
+        columns["s"] = distance_start + travelled
+        treatment.append("s integrated from v_x")
+    if "v_x" not in columns:
+        columns["v_x"] = np.gradient(columns["s"], 1 / rate)
+        treatment.append("v_x differentiated from s")
+    if "e" not in columns:
+        columns["e"] = np.full(count, np.nan)
+    drive = xr.Dataset({key: ("time", columns[key]) for key in DRIVE}, {"time": np.arange(count) / rate})
+    drive.attrs.update(
+        name=name,
+        role=role,
+        gravity=int(gravity),
+        sensor_x=float(sensor[0]),
+        sensor_y=float(sensor[1]),
+        sensor_z=float(sensor[2]),
+        lateral_position=np.nan if lateral_position is None else float(lateral_position),
+        road_friction=float(road_friction),
+        place_measured=int(place_measured),
+        cut_off=float(np.min(cut_offs)),
+        start_time=float(first),
+        treatment="; ".join(treatment) or "none",
+    )
+    return check(describe(drive), file=file)
+
+
+def check(drive: xr.Dataset, *, file=None) -> xr.Dataset:
+    """The drive, if it is one; else InputError naming the variable, the time and the value.
+
+    ``e`` may be wholly absent (all NaN); nothing else may hold NaN.
+    """
+    label = drive.attrs.get("name", "drive")
+    for name in DRIVE:
+        if name not in drive:
+            raise InputError(f"no variable {name!r} (expected {', '.join(DRIVE)})", file=file, place=label)
+        if drive[name].dims != ("time",):
+            raise InputError(f"{name} has dims {drive[name].dims} (expected time)", file=file, place=label)
+        unit = drive[name].attrs.get("units", VARIABLES[name].unit)
+        if unit != VARIABLES[name].unit:
+            raise InputError(f"{name} is in {unit!r} (expected {VARIABLES[name].unit})", file=file, place=label)
+    if drive.attrs.get("role", "fit") not in ROLES:
+        raise InputError(f"role {drive.attrs['role']!r} (expected {' or '.join(ROLES)})", file=file, place=label)
+    time = drive["time"].values
+    sampling.check_clock(time, file=file, place="time")
+    sampling.require_uniform(time, file=file)
+    for name in DRIVE:
+        values = drive[name].values
+        if name == "e" and np.isnan(values).all():
+            continue
+        _check_values(name, time, values, file=file)
+    _check_gravity(drive, file=file)
+    return drive
+
+
+def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> None:
+    bad = np.flatnonzero(~np.isfinite(values))
+    if bad.size:
+        i = bad[0]
+        raise InputError(
+            f"row {i + 1} ({time[i]:.6g} s) holds {values[i]} (expected a number)", file=file, place=name
+        )
+    lower, upper = REASONABLE[name]
+    bad = np.flatnonzero((values < lower) | (values > upper))
+    if bad.size:
+        i = bad[0]
+        raise InputError(
+            f"row {i + 1} ({time[i]:.6g} s) holds {values[i]:.6g} {VARIABLES[name].unit} "
+            f"(expected {lower:g} to {upper:g}; is its unit right?)",
+            file=file,
+            place=name,
+        )
+
+
+def _check_gravity(drive: xr.Dataset, *, file) -> None:
+    """A mean a_z near 0 or near g tells whether gravity is in the record, and whether z points up."""
+    expected = STANDARD_GRAVITY * int(drive.attrs.get("gravity", 0))
+    mean = float(drive["a_z"].mean())
+    if abs(mean - expected) > 0.4 * STANDARD_GRAVITY:
+        raise InputError(
+            f"mean {mean:.3g} m/s2 where about {expected:.3g} is expected with gravity: {bool(expected)} "
+            "(is gravity in the record, does z point up, is the unit right?)",
+            file=file,
+            place="a_z",
+        )
+
+
+def upward(roll, pitch) -> np.ndarray:
+    """Unit vector that points up, along the body's axes (shape (3, ...)), from roll and pitch in rad.
+
+    Third row of the rotation from body to earth axes in the sequence yaw, pitch, roll (ISO 8855).
+    """
+    roll, pitch = np.asarray(roll), np.asarray(pitch)
+    return np.stack([-np.sin(pitch), np.cos(pitch) * np.sin(roll), np.cos(pitch) * np.cos(roll)])
+
+
+def specific_force(acceleration, roll, pitch) -> np.ndarray:
+    """What an accelerometer reads in m/s2, shape (3, time), from acceleration in body axes and attitude."""
+    return np.asarray(acceleration) + STANDARD_GRAVITY * upward(roll, pitch)
+
+
+def acceleration(specific_force, roll, pitch) -> np.ndarray:
+    """Acceleration in body axes in m/s2, shape (3, time), from what an accelerometer reads and attitude."""
+    return np.asarray(specific_force) - STANDARD_GRAVITY * upward(roll, pitch)
+
+
+def transfer(drive: xr.Dataset, to: tuple[float, float, float]) -> xr.Dataset:
+    """The drive as an accelerometer elsewhere on the rigid body would have recorded it.
+
+    ``to`` is in m from the centre of gravity, in body axes: a + alpha x r + omega x (omega x r)
+    with r from the present sensor to the new one. The angular acceleration is the
+    difference of fourth order of the measured rates, so noise of the rates enters
+    the result with r times the sampling rate; compare at the sensor where that matters.
+    """
+    place = np.array([drive.attrs[f"sensor_{axis}"] for axis in "xyz"])
+    arm = np.asarray(to, dtype=float) - place
+    rates = np.stack([drive[name].values for name in ("roll_rate", "pitch_rate", "yaw_rate")])
+    interval = float(drive["time"][1] - drive["time"][0])
+    angular = _derivative(rates, interval)
+    moved = _cross(angular, arm) + _cross(rates, _cross(rates, arm))
+    result = drive.copy()
+    for name, change in zip(("a_x", "a_y", "a_z"), moved):
+        result[name] = drive[name].copy(data=drive[name].values + change)
+    result.attrs.update(sensor_x=float(to[0]), sensor_y=float(to[1]), sensor_z=float(to[2]))
+    return result
+
+
+def _cross(vectors: np.ndarray, other: np.ndarray) -> np.ndarray:
+    other = other if other.ndim == 2 else other[:, None]
+    return np.cross(vectors, np.broadcast_to(other, vectors.shape), axis=0)
+
+
+def _derivative(values: np.ndarray, interval: float) -> np.ndarray:
+    derivative = np.gradient(values, interval, axis=-1)
+    if values.shape[-1] >= 5:
+        derivative[..., 2:-2] = (
+            8 * (values[..., 3:-1] - values[..., 1:-3]) - (values[..., 4:] - values[..., :-4])
+        ) / (12 * interval)
+    return derivative
+
+
+def stack(drives: list[xr.Dataset]) -> xr.Dataset:
+    """Drives on one dataset of dims drive, time, padded with NaN at the end.
+
+    Their numeric and text attributes become variables over ``drive``.
+    """
+    length = max(drive.sizes["time"] for drive in drives)
+    longest = max(drives, key=lambda drive: drive.sizes["time"])
+    rows = {}
+    for name in longest.data_vars:
+        rows[name] = np.full((len(drives), length), np.nan)
+        for i, drive in enumerate(drives):
+            rows[name][i, : drive.sizes["time"]] = drive[name].values
+    data = {name: (("drive", "time"), values) for name, values in rows.items()}
+    for name in drives[0].attrs:
+        data[name] = ("drive", np.array([drive.attrs[name] for drive in drives]))
+    names = data.pop("name")[1].astype(str)
+    stacked = xr.Dataset(data, {"time": longest["time"].values, "drive": names})
+    return describe(stacked)
+
+
+def unstack(measured: xr.Dataset) -> list[xr.Dataset]:
+    """The drives of a stacked dataset, each without its padding and with its attributes back."""
+    drives = []
+    for i in range(measured.sizes["drive"]):
+        row = measured.isel(drive=i)
+        series = row[[name for name in row.data_vars if row[name].dims == ("time",)]]
+        drive = series.isel(time=np.isfinite(series["a_z"].values)).drop_vars("drive")
+        drive.attrs = {name: row[name].item() for name in row.data_vars if row[name].ndim == 0}
+        drive.attrs["name"] = str(row["drive"].item())
+        drives.append(drive)
+    return drives

@@ -1,0 +1,242 @@
+"""A model driven along the measured path at the measured speed, brought to the measured time base.
+
+The simulator is a door: any callable with the signature of ``simulate.run``. Its record
+passes through the same low-pass as the measured one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+from scipy.signal import butter, sosfiltfilt
+
+from ..errors import InputError
+from ..vocabulary import SIGNALS, STANDARD_GRAVITY
+from .record import upward
+from .sampling import interpolate, low_pass
+
+RUN_IN = 50.0
+"""m that the model drives before it is compared: 2 s at 25 m/s, when a bounce of 1.3 Hz, damped by a third, is down to
+0.5 %."""
+
+SLOWEST = 1.0
+"""m/s; equal place means nothing for a vehicle that stands."""
+
+RATE = 250.0
+"""Hz that the model is recorded at; a stiff tyre's damper passes roughness up to 100 Hz on to the body."""
+
+DRIVER_BANDWIDTH = 1.0
+"""Hz; a driver changes speed and lane more slowly, road and wheels show in the record above it."""
+
+CLOCK_LEFT, PATH_LEFT = 1e-3, 0.01
+"""s and m that alignment may be off by. A model is compared at its best clock within them and not beyond: a delay of
+3 ms looks like a damping of the tyre, and a wrong damping like a delay."""
+
+TUNING_STEPS, SPEED_BANDWIDTH, PATH_BANDWIDTH = 2, 0.4, 0.15
+"""Rounds, and Hz up to which a driver model's delay is made up for; faster corrections come at the wrong time and,
+of the path, shake the vehicle."""
+
+OVERHANG = 4.0
+"""m at the ends of the road where one of the axles, or its contact, would leave it."""
+
+SPACING = 0.5
+"""m between the points of the path that the simulator is given."""
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """What the model does at the measured instants: ``signals`` (6, time) in the order of SIGNALS, their time
+    derivatives ``slopes``, and the attitude ``roll`` and ``pitch`` in rad."""
+
+    signals: np.ndarray
+    slopes: np.ndarray
+    roll: np.ndarray
+    pitch: np.ndarray
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A measured drive, and the road and simulator that it is driven again with.
+
+    ``compared`` marks the samples behind the run-in of the model. ``clock`` (s) shifts the
+    inertial signals against place and speed by what alignment has not taken out.
+    """
+
+    drive: xr.Dataset
+    road: object
+    simulate: Callable[..., xr.Dataset]
+    options: Mapping
+    demand: Mapping
+    time: np.ndarray
+    place: np.ndarray
+    compared: np.ndarray
+
+    def __call__(self, vehicle, effects=(), clock: float = 0.0) -> Simulated:
+        """Simulate and sample at equal place. Raises InputError when the model does not arrive."""
+        return self.sample(self.run(vehicle, effects), clock)
+
+    def run(self, vehicle, effects=()) -> xr.Dataset:
+        """The simulated drive on its own clock."""
+        return self.simulate(self.road, vehicle, effects=effects, **self.demand, **self.options)
+
+    def sample(self, run: xr.Dataset, clock: float = 0.0) -> Simulated:
+        """A simulated drive at the places where the vehicle was at the measured instants minus ``clock``."""
+        place = np.interp(self.time - clock, self.time, self.place)
+        travelled = np.maximum.accumulate(run["s"].values)
+        goal = place[self.compared][-1]
+        if not travelled[-1] >= goal - SPACING:
+            raise InputError(
+                f"the model stops at s = {travelled[-1]:.1f} m (expected to reach {goal:.1f} m)",
+                place=f"drive {self.drive.attrs['name']}",
+            )
+        moment = np.interp(place, travelled, run["time"].values)
+        names = (*SIGNALS, "roll", "pitch")
+        values = np.stack([run[name].values for name in names], axis=1)
+        interval = float(run["time"][1] - run["time"][0])
+        values = low_pass(values, interval, float(self.drive.attrs["cut_off"]))
+        values, slopes = interpolate(values, (moment - float(run["time"][0])) / interval)
+        count = len(SIGNALS)
+        return Simulated(values[:, :count].T, slopes[:, :count].T / interval, values[:, count], values[:, count + 1])
+
+    def tuned(self, vehicle, effects=()) -> Replay:
+        """The same, asking the model's driver for as much more or less as brings it to the measured speed and path.
+
+        A driver model follows what it is asked for with a delay of its own; half a percent of speed is
+        half a percent of every frequency.
+        """
+        tuned = self
+        rate = (len(self.time) - 1) / (self.time[-1] - self.time[0])
+        for _ in range(TUNING_STEPS):
+            run = tuned.run(vehicle, effects)
+            missing = {}
+            for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
+                wanted = self.drive[name].values
+                if np.isfinite(wanted).all():
+                    driven = np.interp(self.place, np.maximum.accumulate(run["s"].values), run[name].values)
+                    missing[quantity] = smooth(wanted - driven, rate, bandwidth)
+            demand = dict(tuned.demand)
+            for quantity, values in missing.items():
+                u = demand["speed"]["u"].values
+                demand[quantity] = demand[quantity] + xr.DataArray(np.interp(u, self.place, values), {"u": u}, "u")
+            tuned = replace(tuned, demand=demand)
+        return tuned
+
+    def aside(self, vehicle, effects=(), step: float = 0.02) -> np.ndarray:
+        """Change of the signals per metre that the path lies farther left, (6, time): a secant over ``step`` (m)."""
+        left, right = (
+            replace(self, demand={**self.demand, "lateral": self.demand["lateral"] + shift})(vehicle, effects).signals
+            for shift in (0.5 * step, -0.5 * step)
+        )
+        return (left - right) / step
+
+    def measured(self) -> np.ndarray:
+        """The measured signals, (6, time), in the order of SIGNALS."""
+        return np.stack([self.drive[name].values for name in SIGNALS])
+
+    def residual(self, simulated: Simulated) -> np.ndarray:
+        """Simulated minus measured signals, (6, time); NaN before the run-in (eq:nonlinlsq).
+
+        An accelerometer holds gravity, which alignment has taken out with an attitude of its
+        own (``roll``, ``pitch`` of the drive). Specific force is compared with specific force:
+        the attitude of this simulation replaces that one.
+        """
+        difference = simulated.signals - self.measured()
+        if self.drive.attrs.get("gravity", 0):
+            used = upward(self.drive["roll"].values, self.drive["pitch"].values)
+            difference[:3] += STANDARD_GRAVITY * (upward(simulated.roll, simulated.pitch) - used)
+        difference[:, ~self.compared] = np.nan
+        return difference
+
+
+def replay(
+    drive: xr.Dataset,
+    road,
+    simulate: Callable[..., xr.Dataset],
+    *,
+    lateral_correction: float = 0.0,
+    margin: float = 2.0,
+    options: Mapping | None = None,
+) -> Replay:
+    """Prepare to drive ``drive`` again: the path and speed that the simulator is asked for.
+
+    Speed over ``u`` is the measured v_x, low-passed; the lateral position is ``e`` where measured,
+    else the drive's ``lateral_position`` (0 if unknown), plus ``lateral_correction`` (m). The model starts
+    a run-in and ``margin`` (m) before the drive and ends as far behind it, road permitting. ``options``
+    go to the simulator as they are (step, effects_folder, ...), but for the rate. ``road`` may be what
+    ``simulate.prepare`` makes of one, which saves doing so in every run. Raises InputError when the drive leaves
+    the road or stands.
+    """
+    time = drive["time"].values
+    rate = (len(time) - 1) / (time[-1] - time[0])
+    speed = smooth(drive["v_x"].values, rate)
+    place = fused_place(drive, rate)
+    label = f"drive {drive.attrs['name']}"
+    if len(time) < 3 * rate:
+        raise InputError(f"lasts {len(time) / rate:.2f} s (expected at least 3 s)", place=label)
+    slow = np.flatnonzero((speed < SLOWEST) | (np.gradient(place, time) < 0.3 * SLOWEST))
+    if slow.size:
+        i = slow[0]
+        raise InputError(
+            f"{speed[i]:.2f} m/s at {time[i]:.2f} s (expected above {SLOWEST:g} m/s throughout: cut the record)",
+            place=label,
+        )
+    surface = getattr(road, "road", road)
+    first, last = float(surface["u"][0]), float(surface["u"][-1])
+    if place[0] < first - SPACING or place[-1] > last + SPACING:
+        raise InputError(
+            f"runs from s = {place[0]:.1f} to {place[-1]:.1f} m "
+            f"(expected within the road, {first:.1f} to {last:.1f} m)",
+            place=label,
+        )
+    start, end = max(first, place[0] - RUN_IN - margin), min(last, place[-1] + margin)
+    u = np.linspace(start, end, max(2, int(np.ceil((end - start) / SPACING)) + 1))
+    lateral = np.nan_to_num(float(drive.attrs.get("lateral_position", 0.0))) + lateral_correction
+    if np.isfinite(drive["e"].values).all():
+        offset = smooth(drive["e"].values, rate) + lateral_correction
+        lateral = xr.DataArray(np.interp(u, place, offset), {"u": u}, "u")
+    demand = {
+        "speed": xr.DataArray(_continued(u, place, speed, rate), {"u": u}, "u"),
+        "lateral": lateral,
+        "friction": float(drive.attrs.get("road_friction", 1.0)),
+        "start": start,
+        "end": end,
+        "sensor": tuple(float(drive.attrs[f"sensor_{axis}"]) for axis in "xyz"),
+    }
+    compared = (place >= max(start, first + OVERHANG) + RUN_IN) & (place <= last - OVERHANG)
+    if not compared.any():
+        raise InputError(
+            f"nothing is left of s = {place[0]:.1f} to {place[-1]:.1f} m after a run-in of {RUN_IN:g} m", place=label
+        )
+    return Replay(drive, road, simulate, {**(options or {}), "rate": RATE}, demand, time, place, compared)
+
+
+def _continued(u: np.ndarray, place: np.ndarray, speed: np.ndarray, rate: float) -> np.ndarray:
+    """Speed over u; before and behind the drive it goes on changing as in the first and last second.
+
+    A driver model that starts at the speed but without the acceleration needs seconds to find it.
+    """
+    second = max(1, int(rate))
+    before = (speed[second] - speed[0]) / (place[second] - place[0])
+    behind = (speed[-1] - speed[-1 - second]) / (place[-1] - place[-1 - second])
+    target = np.interp(u, place, speed)
+    target += np.minimum(u - place[0], 0.0) * before + np.maximum(u - place[-1], 0.0) * behind
+    return np.clip(target, 0.8 * speed.min(), 1.2 * speed.max())
+
+
+def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH) -> np.ndarray:
+    """Low-passed without delay (Butterworth of second order, forwards and backwards)."""
+    sos = butter(2, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
+    return sosfiltfilt(sos, values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
+
+
+def fused_place(drive: xr.Dataset, rate: float) -> np.ndarray:
+    """Distance along the reference line in m: slow changes as measured, fast ones from the speed.
+
+    A jitter of s by 5 mm would be a jitter of the comparison by 0.2 ms at 25 m/s.
+    """
+    speed = drive["v_x"].values
+    travelled = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) / rate)])
+    return travelled + smooth(drive["s"].values - travelled, rate, bandwidth=0.2)

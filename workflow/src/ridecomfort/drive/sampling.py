@@ -1,0 +1,164 @@
+"""From the clock of an instrument to the uniform time of a drive."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from ..errors import InputError
+
+LARGEST_JITTER = 0.2
+"""Largest distance of a time stamp from a uniform clock, in sampling intervals, for inertial signals."""
+
+LARGEST_SHIFT = 0.02
+"""Distance in intervals within which samples stand on a clock: at 20 Hz and 100 Hz sampling a phase of 0.2 degrees."""
+
+LARGEST_GAP = 0.25
+"""s; longest pause in a slow quantity (speed, place): over it, 0.5 m/s2 bends a line by less than 4 mm/s."""
+
+HALF_WIDTH, KAISER = 5, 4.0
+"""Half width of the anti-alias filter in periods of twice its cut-off, and shape of its window: flat to 0.8 of the
+cut-off, closed (-45 dB) from 1.2 of it, as simulated drives are recorded."""
+
+
+def check_clock(time: np.ndarray, *, file=None, place: str = "time") -> None:
+    """Raise InputError unless the time stamps are finite and strictly increasing (rows count from 1)."""
+    if time.ndim != 1 or len(time) < 2:
+        raise InputError(f"{time.size} time stamps (expected a column of at least 2)", file=file, place=place)
+    bad = np.flatnonzero(~np.isfinite(time))
+    if bad.size:
+        raise InputError(f"row {bad[0] + 1} holds {time[bad[0]]} (expected a number)", file=file, place=place)
+    back = np.flatnonzero(np.diff(time) <= 0)
+    if back.size:
+        i = back[0]
+        raise InputError(
+            f"the clock does not advance at row {i + 2}: {time[i + 1]:.6g} s after {time[i]:.6g} s "
+            "(expected strictly increasing time)",
+            file=file,
+            place=place,
+        )
+
+
+def uniform_clock(time: np.ndarray) -> tuple[float, float, float]:
+    """Start in s, interval in s and jitter (largest distance from them in intervals) of nearly uniform time stamps."""
+    index = np.arange(len(time))
+    interval, start = np.polyfit(index, time - time[0], 1)
+    jitter = np.abs(time - time[0] - start - interval * index).max() / interval
+    return time[0] + start, interval, jitter
+
+
+def require_uniform(time: np.ndarray, *, file=None, place: str = "time") -> tuple[float, float, float]:
+    """``uniform_clock``, or InputError where the jitter is beyond LARGEST_JITTER."""
+    start, interval, jitter = uniform_clock(time)
+    if jitter > LARGEST_JITTER:
+        gaps = np.diff(time)
+        i = int(np.argmax(np.abs(gaps - np.median(gaps))))
+        raise InputError(
+            f"irregular sampling: a step of {gaps[i]:.4g} s at {time[i]:.6g} s where {np.median(gaps):.4g} s is usual "
+            f"(expected time stamps within {LARGEST_JITTER:g} intervals of a uniform clock)",
+            file=file,
+            place=place,
+        )
+    return start, interval, jitter
+
+
+def _kernel(distance: np.ndarray, interval: float, cut_off: float, half: int) -> np.ndarray:
+    """Windowed sinc (Kaiser) at distances in intervals; rows sum to one."""
+    window = np.i0(KAISER * np.sqrt(np.clip(1 - (distance / half) ** 2, 0, None))) / np.i0(KAISER)
+    kernel = np.sinc(2 * cut_off * interval * distance) * window
+    return kernel / kernel.sum(axis=-1, keepdims=True)
+
+
+def _half_width(interval: float, cut_off: float) -> int:
+    return int(np.ceil(HALF_WIDTH / (2 * cut_off * interval)))
+
+
+def band_limited(start: float, interval: float, values: np.ndarray, time: np.ndarray, cut_off: float) -> np.ndarray:
+    """Uniform samples low-passed at ``cut_off`` (Hz) and evaluated at any times, without delay.
+
+    Windowed-sinc interpolation: conversion of the sampling rate by any ratio, with the anti-alias
+    filter in the same step. At the ends the record is continued by its first and last value.
+    """
+    half = _half_width(interval, cut_off)
+    padded = np.pad(values, half, mode="edge")
+    taps = np.arange(-half + 1, half + 1)
+    result = np.empty(len(time))
+    for first in range(0, len(time), 8192):  # bounds the memory of the tap matrix
+        part = slice(first, first + 8192)
+        place = (time[part] - start) / interval
+        whole = np.clip(np.floor(place).astype(int), 0, len(values) - 1)
+        kernel = _kernel((place - whole)[:, None] - taps, interval, cut_off, half)
+        result[part] = np.einsum("ij,ij->i", kernel, padded[whole[:, None] + taps + half])
+    return result
+
+
+def low_pass(values: np.ndarray, interval: float, cut_off: float) -> np.ndarray:
+    """Uniform samples (time, channel) through the same filter as ``band_limited``, on their own clock."""
+    half = _half_width(interval, cut_off)
+    return _convolve(np.ascontiguousarray(values), _kernel(np.arange(-half, half + 1.0), interval, cut_off, half))
+
+
+@njit(cache=True, fastmath=True)
+def _convolve(values, taps):
+    """Symmetric taps on (time, channel); the ends are held."""
+    count, channels = values.shape
+    half = len(taps) // 2
+    result = np.zeros((count, channels))
+    for n in range(count):
+        for j in range(len(taps)):
+            m = min(max(n + j - half, 0), count - 1)
+            for c in range(channels):
+                result[n, c] += taps[j] * values[m, c]
+    return result
+
+
+@njit(cache=True)
+def interpolate(values, places):
+    """Rows of (time, channel) at fractional indices, and their derivatives by the index (Lagrange, six points)."""
+    count, channels = values.shape
+    result = np.zeros((len(places), channels))
+    slopes = np.zeros((len(places), channels))
+    for i in range(len(places)):
+        first = min(max(int(np.floor(places[i])), 2), count - 4) - 2
+        p = places[i] - first
+        for j in range(6):
+            scale, weight, slope = 1.0, 1.0, 0.0
+            for k in range(6):
+                if k != j:
+                    scale *= j - k
+                    slope = slope * (p - k) + weight
+                    weight *= p - k
+            weight, slope = weight / scale, slope / scale
+            for c in range(channels):
+                result[i, c] += weight * values[first + j, c]
+                slopes[i, c] += slope * values[first + j, c]
+    return result, slopes
+
+
+def resample_inertial(time, values, new_time, rate: float, *, file=None, place=None) -> tuple[np.ndarray, float, float]:
+    """Inertial signal on ``new_time`` (uniform, ``rate`` Hz), the jitter of its own clock in intervals,
+    and the cut-off in Hz that it was low-passed at.
+
+    Values that already stand on the new clock pass unchanged; half their rate is then
+    taken for the cut-off of the instrument.
+    """
+    start, interval, jitter = require_uniform(time, file=file, place=place)
+    first = int(round((new_time[0] - start) / interval))
+    taken = slice(first, first + len(new_time))
+    if len(time[taken]) == len(new_time) and np.abs(time[taken] - new_time).max() < LARGEST_SHIFT * interval:
+        return values[taken].copy(), jitter, 0.5 * rate
+    cut_off = 0.45 * min(rate, 1 / interval)
+    return band_limited(start, interval, values, new_time, cut_off), jitter, cut_off
+
+
+def resample_slow(time, values, new_time, *, file=None, place=None) -> np.ndarray:
+    """Speed or place on ``new_time``, linear between time stamps that may jitter but not pause."""
+    gaps = np.diff(time)
+    i = int(gaps.argmax())
+    if gaps[i] > LARGEST_GAP:
+        raise InputError(
+            f"a pause of {gaps[i]:.3g} s at {time[i]:.6g} s (expected none beyond {LARGEST_GAP:g} s)",
+            file=file,
+            place=place,
+        )
+    return np.interp(new_time, time, values)

@@ -1,0 +1,103 @@
+"""What a fit by least squares does and does not know: covariance, intervals, collinear parameters.
+
+Parameters are in units of their bounds (0 at the lower, 1 at the upper), so that
+sizes can be compared and "the data do not see it" has a meaning.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import t as student
+
+CONFIDENCE = 0.90
+
+AT_BOUND = 2e-3
+"""Share of the bounds' width within which a parameter counts as at its bound."""
+
+UNIDENTIFIED = 0.5
+"""A 90 % interval of half this width to either side covers the bounds: the data say nothing."""
+
+COLLINEAR = 0.9
+"""Correlation of two estimates beyond which they are named as a pair."""
+
+
+@dataclass(frozen=True)
+class Knowledge:
+    """``covariance`` and ``half_width`` of the 90 % intervals (units of the bounds), ``singular_values`` of the
+    Jacobian, ``information`` (parameter, signal): share of each signal in what drives a parameter."""
+
+    covariance: np.ndarray
+    half_width: np.ndarray
+    singular_values: np.ndarray
+    information: np.ndarray
+    blocks: int
+
+
+def assess(jacobian: np.ndarray, residual: np.ndarray, block: np.ndarray) -> Knowledge:
+    """From Jacobian (signal, sample, parameter), residual (signal, sample) and the block each sample belongs to.
+
+    Sandwich estimator: residuals may be correlated in any way among signals and within a
+    block, and have any variance; blocks are independent (Cameron and Miller 2015,
+    J. Human Resources 50:317, eq. 11 with their finite-sample factor). Intervals take
+    Student's t with blocks - parameters degrees of freedom. A direction that the data do
+    not see at all gets an infinite variance, not an error.
+    """
+    count = jacobian.shape[-1]
+    normal = np.einsum("stp,stq->pq", jacobian, jacobian)
+    size = np.sqrt(np.diag(normal))
+    seen = size > 1e-9 * size.max()
+    size = np.where(seen, size, 1.0)
+    bread = np.linalg.pinv(normal / np.outer(size, size), rcond=1e-10, hermitian=True) / np.outer(size, size)
+    score = np.einsum("stp,st->tp", jacobian, residual)
+    labels, index = np.unique(block, return_inverse=True)
+    sums = np.zeros((labels.size, count))
+    np.add.at(sums, index, score)
+    factor = labels.size / max(labels.size - count, 1)
+    covariance = factor * bread @ (sums.T @ sums) @ bread
+    covariance[~seen, :] = covariance[:, ~seen] = 0.0
+    covariance[np.diag(~seen)] = np.inf
+    quantile = student.ppf(0.5 + CONFIDENCE / 2, max(labels.size - count, 1))
+    information = np.einsum("stp,stp->ps", jacobian, jacobian)
+    return Knowledge(
+        covariance,
+        quantile * np.sqrt(np.diag(covariance)),
+        np.linalg.svd(jacobian.reshape(-1, count), compute_uv=False),
+        information / (information.sum(axis=1, keepdims=True) + 1e-300),
+        labels.size,
+    )
+
+
+def verdict(place: float, half_width: float) -> str:
+    """In words what is known of a parameter at ``place`` (0 to 1 between its bounds)."""
+    words = [] if half_width < UNIDENTIFIED else ["not identified"]
+    if place < AT_BOUND:
+        words.append("at its lower bound")
+    elif place > 1 - AT_BOUND:
+        words.append("at its upper bound")
+    return ", ".join(words) or "identified"
+
+
+def remarks(names: list[str], places: np.ndarray, knowledge: Knowledge) -> list[str]:
+    """Sentences on every parameter at a bound or not identified, and on every pair that is hard to tell apart."""
+    sentences = []
+    for name, place, width in zip(names, places, knowledge.half_width):
+        words = verdict(place, width)
+        if words.startswith("not identified"):
+            sentences.append(
+                f"{name} is {words}: its 90 % interval reaches {width:.2g} of the bounds' width to either side"
+            )
+        elif words != "identified":
+            sentences.append(f"{name} is {words}: the data ask for more than the bounds allow")
+    deviation = np.sqrt(np.diag(knowledge.covariance))
+    for i in range(len(names)):
+        for j in range(i):
+            if not (0 < deviation[i] < np.inf and 0 < deviation[j] < np.inf):
+                continue
+            correlation = knowledge.covariance[i, j] / (deviation[i] * deviation[j])
+            if abs(correlation) > COLLINEAR:
+                sentences.append(
+                    f"{names[j]} and {names[i]} are hard to tell apart (correlation {correlation:+.2f})"
+                )
+    return sentences
