@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort import calibrate, identifiability, simulate
+from ridecomfort import calibrate, calibrated, identifiability, simulate
 from ridecomfort.discrepancy import compare
 from ridecomfort.drive import record
 from ridecomfort.effects import library
@@ -196,7 +196,7 @@ def test_an_effect_is_calibrated_along_with_the_vehicle(nominal):
         assert value(found, name) == pytest.approx(150.0, rel=0.15)
         assert found["unit"].sel(parameter=name).item() == "N"
     assert value(found, "spring_stiffness_front") == pytest.approx(24000.0, rel=0.03)
-    vehicle, effects = calibrate.apply(found, nominal, {})
+    vehicle, effects = calibrated.apply(found, nominal, {})
     assert effects["suspension_friction"]["front"] == value(found, "suspension_friction.front")
     assert vehicle["spring_stiffness_front"] == value(found, "spring_stiffness_front")
     result = compare.compare([drive], course, {"reference": (nominal, {}), "calibrated": (vehicle, effects)}, simulate=simulate.run)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort import calibrate
+from ridecomfort import calibrated
 from ridecomfort.discrepancy import compare
 from ridecomfort.drive import readers, record
 from ridecomfort.vocabulary import SIGNALS
@@ -91,4 +91,4 @@ def test_no_state_is_forgiven_more_than_alignment_may_be_off_by(road, nominal, t
 
 
 def test_without_a_calibration_nothing_is_changed(nominal):
-    assert calibrate.apply(None, nominal, {"payload": {"mass": 100.0}}) == (nominal, {"payload": {"mass": 100.0}})
+    assert calibrated.apply(None, nominal, {"payload": {"mass": 100.0}}) == (nominal, {"payload": {"mass": 100.0}})

@@ -10,7 +10,7 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from ridecomfort import calibrate, simulate
+from ridecomfort import calibrate, calibrated, simulate
 from ridecomfort.discrepancy import compare
 from ridecomfort.drive import align, configured
 from ridecomfort.road import crg
@@ -76,7 +76,7 @@ def calibration(drives, road, car):
 
 @pytest.fixture(scope="module")
 def nrmse(drives, road, car, calibration):
-    states = {"reference": (car, {}), "calibrated": calibrate.apply(calibration, car)}
+    states = {"reference": (car, {}), "calibrated": calibrated.apply(calibration, car)}
     return compare.compare(drives, road, states, simulate=simulate.run)["nrmse"]
 
 

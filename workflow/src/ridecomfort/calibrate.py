@@ -23,10 +23,11 @@ from scipy.stats import qmc
 
 from . import identifiability
 from . import simulate as simulator
+from .calibrated import with_values
 from .drive.record import unstack
 from .drive.replay import CLOCK_LEFT, replay
 from .errors import InputError
-from .problem import Problem, with_values
+from .problem import Problem
 from .vehicle.parameters import PARAMETERS
 from .vocabulary import SIGNALS
 
@@ -163,15 +164,6 @@ def calibrate(
         remarks="; ".join(remarks) or "none",
     )
     return result
-
-
-def apply(calibration: xr.Dataset | None, vehicle, effects: Mapping[str, Mapping[str, float]] | None = None):
-    """The vehicle and the effects with calibrated values: (vehicle, effects). None changes nothing."""
-    if calibration is None:
-        return vehicle, dict(effects or {})
-    found = calibration["value"]
-    values = {str(name): float(value) for name, value in zip(found["parameter"].values, found.values)}
-    return with_values(vehicle, effects or {}, values)
 
 
 def effect_parameters(chosen, held: Mapping[str, Mapping[str, float]]) -> tuple[dict, dict]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .calibrated import with_values
 from .drive.replay import CLOCK_LEFT, PATH_LEFT, Replay
 from .vocabulary import SIGNALS
 
@@ -95,16 +96,3 @@ class Problem:
         """RMSE over the measured range, (drive, signal)."""
         count = len(self.replays)
         return np.stack([np.sqrt(count * np.sum(residual**2, axis=1)) for residual in self.residuals(point)])
-
-
-def with_values(vehicle, effects: Mapping[str, Mapping[str, float]], values: Mapping[str, float]):
-    """Vehicle and effects with values replaced; ``effect.parameter`` goes to the effect."""
-    changed = {name: dict(parameters) for name, parameters in effects.items()}
-    own = {}
-    for name, value in values.items():
-        effect, dot, parameter = name.partition(".")
-        if dot:
-            changed.setdefault(effect, {})[parameter] = float(value)
-        else:
-            own[name] = float(value)
-    return vehicle.replace(**own), changed

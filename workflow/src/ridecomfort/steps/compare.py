@@ -1,6 +1,6 @@
 """Drive the model along the measured paths at the measured speeds and compare, before and after calibration."""
 
-from ridecomfort import calibrate, simulate, store
+from ridecomfort import calibrated, simulate, store
 from ridecomfort.discrepancy import compare
 from ridecomfort.steps.command import Command
 from ridecomfort.vehicle import parameters
@@ -10,7 +10,7 @@ def main(road, measured, vehicle, calibration, config, output):
     car = parameters.read(vehicle)
     states = {"reference": (car, {})}
     if calibration is not None:
-        states["calibrated"] = calibrate.apply(store.read(calibration), car, config["effects"])
+        states["calibrated"] = calibrated.apply(store.read(calibration), car, config["effects"])
     result = compare.compare(
         store.read(measured),
         simulate.prepare(store.read(road)),

@@ -1,6 +1,6 @@
 """Simulate some of a site's runs: each its own speed, lateral position and road friction."""
 
-from ridecomfort import calibrate, simulate, store
+from ridecomfort import calibrated, simulate, store
 from ridecomfort.steps.command import Command, countdown
 from ridecomfort.vehicle import driver, parameters
 
@@ -8,7 +8,7 @@ from ridecomfort.vehicle import driver, parameters
 def main(road, samples, vehicle, calibration, runs, config, output):
     course = simulate.prepare(store.read(road))
     found = None if calibration is None else store.read(calibration)
-    car, effects = calibrate.apply(found, parameters.read(vehicle), config["effects"])
+    car, effects = calibrated.apply(found, parameters.read(vehicle), config["effects"])
     first, last = (int(number) for number in runs.split("-"))
     drawn = store.read(samples).sel(run=slice(first, last))
     aim = config["speed"]
