@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
+from ridecomfort.steps import modules
+
 REPOSITORY = Path(__file__).resolve().parent.parent
+
+os.environ.setdefault("NUMBA_CACHE_DIR", str(REPOSITORY / ".cache" / "numba" / modules.compiled()))
+os.environ.setdefault("RIDECOMFORT_CACHE", str(REPOSITORY / ".cache"))
 
 
 @pytest.fixture(scope="session")

@@ -29,7 +29,7 @@ JOIN = "+"
 """Between the names of effects in the name of a model."""
 
 TAKEN = frozenset(
-    "all compare diagnose report blind road measured calibrate sample simulate space thresholds iso2631 iri "
+    "all compare diagnose report blind survey road inspect measured calibrate sample simulate space thresholds iso2631 iri "
     "comparison agreement maps comfort tables figures diagnosis logs benchmarks bench none".split()
 )
 """Names of targets and of folders in results/, which no site may have."""
@@ -97,8 +97,20 @@ class Study:
         return None if named == NO_CALIBRATION else named
 
     def road(self, site: str) -> str:
-        """File of a site's road."""
-        return self.sites[site]["road"]["file"]
+        """File of a site's road; of a scanned one the file that the scan becomes."""
+        return self.sites[site]["road"].get("file", f"results/{site}/road.crg")
+
+    def scan(self, site: str) -> Mapping | None:
+        """The scan that a site's road is made from, None where it has a file."""
+        return self.sites[site]["road"].get("scan")
+
+    def gridded(self, site: str) -> list[str]:
+        """File of a scanned road before it was cleaned, none where the road has a file."""
+        return [f"results/{site}/scan.nc"] if self.scan(site) else []
+
+    def true_road(self, site: str) -> str:
+        """File of a stand-in road as it is made; what is made of it by a scan, the study must find out."""
+        return f"{DATA.as_posix()}/{site}/truth/road.crg" if self.scan(site) else self.road(site)
 
     def drives(self, site: str) -> list[str]:
         """Files of the drives measured on a site."""
@@ -114,6 +126,20 @@ class Study:
         """The sites on whose drives some configured site is calibrated."""
         found = (self.calibrated_on(site) for site in self.names)
         return list(dict.fromkeys(site for site in found if site))
+
+    @property
+    def diagnosed(self) -> list[str]:
+        """The sites whose drives are searched for missing effects: those of the vehicle that is calibrated first.
+
+        The site that it is calibrated on comes first; without any calibration, all sites with drives.
+        """
+        first = self.calibrations[:1]
+        same = [site for site in self.measured if [self.calibrated_on(site)] == first and site not in first]
+        return [*first, *same] or self.measured
+
+    def library_files(self) -> list[str]:
+        """The file of every effect that may be missing."""
+        return [os.path.relpath(path, self.folder) for path in effect_files(self._effects_folder).values()]
 
     @property
     def made(self) -> list[str]:
@@ -144,21 +170,38 @@ class Study:
         sections = {**at, **{key: comfort[key] for key in ("critical_length", "sections")}}
         match step:
             case "standin_road":
-                surface = {key: value for key, value in self.standin.items() if key != "measurement"}
+                surface = {key: value for key, value in self.standin.items() if key not in ("measurement", "scanner")}
                 return {**surface, **at, "sites": {site: self.standin["sites"][site]}}
             case "standin_drives":
                 speed = {site: {"speed": self.standin["sites"][site]["speed"]}}
                 keys = ("file", "columns", "sensor", "role")
                 drives = [{key: drive[key] for key in keys if key in drive} for drive in own["drives"]]
                 return {**at, **{key: self.standin[key] for key in ("seed", "measurement")}, "sites": speed, "drives": drives}
+            case "standin_scan":
+                return {**at, "seed": self.standin["seed"], "scanner": self.standin["scanner"]}
+            case "survey":
+                grid = {key: own["road"]["scan"][key] for key in ("spacing", "width")}
+                return {**at, "title": own["title"], **grid}
             case "road":
                 return {**at, "title": own["title"], "standin": own["standin"], "options": own["road"]["options"]}
+            case "inspect":
+                road = {"title": own["title"], "options": own["road"]["options"]}
+                return {**at, **road, "speed": own["speed"], "simulation": simulation}
             case "measured":
                 return {**at, "drives": own["drives"], "alignment": study["alignment"], "simulation": simulation}
             case "calibrate":
                 return {**simulated, "calibration": study["calibration"]}
             case "compare":
                 return simulated
+            case "diagnose":
+                return {
+                    **simulated,
+                    "sites": self.diagnosed,
+                    "fitted_on": self.diagnosed[:1],
+                    "bounds": study["calibration"]["bounds"],
+                    "seed": study["seed"],
+                    "workers": None,
+                }
             case "sample":
                 return {
                     **at,
@@ -182,7 +225,8 @@ class Study:
             case "agreement":
                 return {"sites": self.names, "seed": study["seed"], "label": comfort["iso2631"]["label"]}
             case "maps":
-                return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"]}
+                place = {"geo_reference": own["road"]["geo_reference"]}
+                return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"], **place}
             case "tables" | "figures" | "report":
                 keys = ("runs", "seed", "sampling_method", "space", "calibration", "comfort")
                 return {
@@ -310,6 +354,8 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
     site = {"title": name, **validate(read_yaml(folder / file), "site", file)}
     if site["standin"] and name not in standin.get("sites", {}):
         raise InputError(f"{STANDIN} has no site {name!r}", file=file, place="standin")
+    if ("file" in site["road"]) == ("scan" in site["road"]):
+        raise InputError("expected either a file or a scan", file=file, place="road")
     for place, needed in _files(site):
         if site["standin"]:
             if DATA / name not in Path(needed).parents:
@@ -324,7 +370,11 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
 
 def _files(site: Mapping) -> list[tuple[str, str]]:
     drives = [(f"drives: entry {i + 1}: file", drive["file"]) for i, drive in enumerate(site["drives"])]
-    return [("road: file", site["road"]["file"]), *drives]
+    scan = site["road"].get("scan")
+    road = {"road: file": site["road"].get("file")} if scan is None else {
+        f"road: scan: {key}": scan[key] for key in ("profiles", "trajectory")
+    }
+    return [*road.items(), *drives]
 
 
 def _has_fit(site: Mapping) -> bool:

@@ -14,10 +14,10 @@ effect = Effect(
     source="Timoshenko, Young and Weaver (1974), Vibration Problems in Engineering: beam with free ends; Mitschke and Wallentowitz (2014), Dynamik der Kraftfahrzeuge",
     port="flexing",
     parameters=(
-        Parameter("mass_ratio", "1", 0.0, 1.5, (0.0, 4.0), "sprung mass over modal mass, the middle moving by 1"),
+        Parameter("mass_ratio", "1", 0.0, 1.0, (0.0, 4.0), "sprung mass over modal mass, the middle moving by 1"),
         Parameter("frequency", "Hz", 24.0, 24.0, (12.0, 40.0), "natural frequency of the mode"),
-        Parameter("damping_ratio", "1", 0.04, 0.04, (0.01, 0.15), "damping ratio of the mode"),
-        Parameter("node", "m", 1.15, 1.15, (0.6, 2.0), "distance of the nodes from the centre of gravity"),
+        Parameter("damping_ratio", "1", 0.05, 0.05, (0.01, 0.15), "damping ratio of the mode"),
+        Parameter("node", "m", 1.3, 1.3, (0.6, 2.0), "distance of the nodes from the centre of gravity"),
     ),
     states=("bend", "rate"),
 )

@@ -30,10 +30,10 @@ PORTS: Mapping[str, Port] = MappingProxyType(
     {
         "road": Port(
             ("wheel", "u", "v", "height", "rotation", "surface", "elevation"),
-            ("height",),
+            ("rise",),
             True,
-            "height in m that a tyre feels; `vehicle.ground.height(surface, elevation, u, v)` looks around it; "
-            "turn of the wheel in rad",
+            "extra height in m that a tyre feels; height of the road at (u, v), which "
+            "`vehicle.ground.height(surface, elevation, u, v)` gives elsewhere; turn of the wheel in rad",
         ),
         "suspension": Port(
             ("wheel", "deflection", "velocity", "stiffness", "damping", "force_x", "force_y"),

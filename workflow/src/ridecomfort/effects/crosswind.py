@@ -16,8 +16,8 @@ effect = Effect(
     source="Hucho (1998), Aerodynamics of Road Vehicles; ISO 12021:2010 for the response to crosswind",
     port="body",
     parameters=(
-        Parameter("wind", "m/s", 0.0, 5.0, (-20.0, 20.0), "speed of the steady wind, positive blowing to the left"),
-        Parameter("gust", "m/s", 0.0, 4.0, (-15.0, 15.0), "amplitude of the gusts"),
+        Parameter("wind", "m/s", 0.0, 5.0, (-15.0, 15.0), "speed of the steady wind, positive blowing to the left"),
+        Parameter("gust", "m/s", 0.0, 4.0, (-8.0, 8.0), "amplitude of the gusts"),
         Parameter("length", "m", 60.0, 60.0, (15.0, 500.0), "distance from gust to gust"),
         Parameter("area", "m2", 5.0, 5.0, (2.0, 20.0), "growth of side-force coefficient with angle, times frontal area"),
         Parameter("lever", "m", 0.5, 0.5, (-0.5, 1.5), "distance of the force ahead of the centre of gravity"),

@@ -5,13 +5,14 @@ from __future__ import annotations
 import importlib.util
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from ..errors import InputError
 from .contract import PORTS, Effect
 
 FOLDER = Path(__file__).parent
-HOUSE = {"__init__", "compose", "contract", "lag", "library", "neutral", "table"}
+HOUSE = {"__init__", "compose", "contract", "lag", "library", "neutral", "table", "wave"}
 """Files of this folder that are not effects."""
 
 
@@ -66,10 +67,12 @@ def choose(effects: Iterable[str] | Mapping[str, Mapping[str, float]], folder=No
 
 
 def _scan(paths: Iterable[Path]) -> dict[str, Entry]:
-    return {path.stem: _load(path) for path in paths}
+    return {path.stem: _load(path, path.stat().st_mtime_ns) for path in paths}
 
 
-def _load(path: Path) -> Entry:
+@lru_cache(maxsize=512)
+def _load(path: Path, changed: int) -> Entry:
+    """The effect of a file; read again only once it has ``changed``."""
     spec = importlib.util.spec_from_file_location(f"ridecomfort_effect_{path.stem}", path)
     module = importlib.util.module_from_spec(spec)
     try:

@@ -18,4 +18,4 @@ effect = Effect(
 
 
 def act(wheel, u, v, height, rotation, surface, elevation, bank):
-    return height + bank * v
+    return bank * v

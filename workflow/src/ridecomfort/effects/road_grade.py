@@ -15,4 +15,4 @@ effect = Effect(
 
 
 def act(wheel, u, v, height, rotation, surface, elevation, grade):
-    return height + grade * u
+    return grade * u

@@ -3,8 +3,8 @@
 from ridecomfort.effects.contract import Effect, Parameter
 from ridecomfort.vehicle.ground import height as height_at
 
-PLACE = 0.5 / 3.0**0.5
-"""Of the two points, in lengths from the middle: by Gauss and Legendre the mean of any cubic profile."""
+PLACE, WEIGHT = 0.5 * 0.6**0.5, 5 / 18
+"""Of the outer of three points, in lengths: by Gauss and Legendre the mean of any profile of fifth degree."""
 
 effect = Effect(
     name="tyre_enveloping",
@@ -21,4 +21,5 @@ effect = Effect(
 def act(wheel, u, v, height, rotation, surface, elevation, length):
     aside = PLACE * length
     behind = height_at(surface, elevation, u - aside, v)
-    return 0.5 * (behind + height_at(surface, elevation, u + aside, v))
+    ahead = height_at(surface, elevation, u + aside, v)
+    return WEIGHT * (behind + ahead - 2.0 * height)

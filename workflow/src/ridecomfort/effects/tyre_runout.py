@@ -1,8 +1,7 @@
 """Tyres that are not round."""
 
-from math import sin
-
 from ridecomfort.effects.contract import Effect, Parameter
+from ridecomfort.effects.wave import wave
 
 PHASE = 2.4
 """rad from wheel to wheel; the golden angle, by which no two wheels ever turn in step."""
@@ -22,4 +21,4 @@ effect = Effect(
 
 def act(wheel, u, v, height, rotation, surface, elevation, front, rear):
     amplitude = front if wheel < 2 else rear
-    return height + amplitude * sin(rotation + PHASE * wheel)
+    return amplitude * wave(rotation + PHASE * wheel)

@@ -1,8 +1,7 @@
 """Wheels whose centre of mass lies off their axle."""
 
-from math import sin
-
 from ridecomfort.effects.contract import Effect, Parameter
+from ridecomfort.effects.wave import wave
 
 PHASE = 2.4
 """rad from wheel to wheel; the golden angle, by which no two wheels ever turn in step."""
@@ -25,4 +24,4 @@ effect = Effect(
 
 def act(wheel, deflection, velocity, stiffness, rest, rotation, spin, front, rear):
     imbalance = front if wheel < 2 else rear
-    return imbalance * spin * spin * sin(rotation + PHASE * wheel)
+    return imbalance * spin * spin * wave(rotation + PHASE * wheel)

@@ -109,13 +109,13 @@ def drive(
     body = np.zeros((5, 6))
     wheel = np.zeros((13, 4))
     ground = np.zeros((4, 4))
-    states = np.zeros((3, state_count))
+    states = np.zeros((4, state_count))
     return _drive(
         car, wheels, surface, elevation, targets, friction * car.tyre_friction, start, end, step, every,
         sensor, parameters, record, accelerations,
         body[0], body[1], body[2], body[3], body[4],
         wheel[0], wheel[1], wheel[2], wheel[3], wheel[4], wheel[5], wheel[6], wheel[7], wheel[8], wheel[9],
-        wheel[10], wheel[11], wheel[12], ground, states[0], states[1], states[2],
+        wheel[10], wheel[11], wheel[12], ground, states[0], states[1], states[2], states[3],
     )  # fmt: skip
 
 
@@ -126,7 +126,7 @@ def _drive(
     sensor, parameters, record, accelerations,
     pose, pose_rate, speeds, change, now,
     wheel_z, wheel_v, wheel_change, spin, spin_change, rotation, force_x, force_y, load, torque,
-    suspension, travel_rate, side_push, ground, states, slopes, slopes_before,
+    suspension, travel_rate, side_push, ground, states, slopes, slopes_before, slopes_earlier,
 ):  # fmt: skip
     half = 0.5 * step
     _settle(
@@ -185,7 +185,8 @@ def _drive(
             wheel_z[i] += step * wheel_v[i]
         _advance(step, curvature, pose, pose_rate, speeds, change)
         for k in range(len(states)):
-            states[k] += step * (1.5 * slopes[k] - 0.5 * slopes_before[k])
+            states[k] += step * (23.0 * slopes[k] - 16.0 * slopes_before[k] + 5.0 * slopes_earlier[k]) / 12.0
+            slopes_earlier[k] = slopes_before[k]
             slopes_before[k] = slopes[k]
     return records, steps
 
@@ -284,7 +285,7 @@ def _feel(
         ground[2, i] = ground[1, i]
         ground[1, i] = ground[0, i]
         turn = rotation[i] + step * spin[i]
-        ground[0, i] = road_port(i, u, v, raw, turn, surface, elevation, parameters, states, slopes)
+        ground[0, i] = raw + road_port(i, u, v, raw, turn, surface, elevation, parameters, states, slopes)
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)

@@ -1,0 +1,91 @@
+"""Finding effects, choosing them and printing them."""
+
+from __future__ import annotations
+
+import io
+
+import pandas as pd
+import pytest
+
+from ridecomfort.__main__ import main
+from ridecomfort.effects import library, table
+from ridecomfort.errors import InputError
+
+EFFECT = (
+    "from ridecomfort.effects.contract import Effect, Parameter\n"
+    "effect = Effect('{name}', 'A sentence.', 'a source', '{port}',\n"
+    "    (Parameter('share', '1', 0.0, 0.5, (0.0, 1.0), 'a share'),))\n"
+    "def act(vehicle, share):\n    return vehicle\n"
+)
+
+
+def put(folder, file, name=None, port="vehicle"):
+    (folder / f"{file}.py").write_text(EFFECT.format(name=name or file, port=port))
+
+
+def test_finds_those_of_a_folder_besides_its_own(tmp_path):
+    put(tmp_path, "mine")
+    found = library.find(tmp_path)
+    assert set(found) == set(library.find()) | {"mine"}
+    assert found["mine"].path == tmp_path / "mine.py"
+
+
+def test_a_changed_file_is_read_again(tmp_path):
+    put(tmp_path, "mine")
+    assert library.find(tmp_path)["mine"].effect.port == "vehicle"
+    put(tmp_path, "mine", port="sensor")
+    assert library.find(tmp_path)["mine"].effect.port == "sensor"
+
+
+@pytest.mark.parametrize(("file", "change", "problem"), [
+    ("mine", {"name": "other"}, "'other'"),
+    ("mine", {"port": "engine"}, "'engine'"),
+    ("payload", {}, "already in the library"),
+])  # fmt: skip
+def test_refuses_what_is_not_an_effect_of_its_own(tmp_path, file, change, problem):
+    put(tmp_path, file, **change)
+    with pytest.raises(InputError, match=problem) as raised:
+        library.find(tmp_path)
+    assert f"{file}.py" in str(raised.value)
+
+
+@pytest.mark.parametrize("text", ["effect = 1\n", "import nothing_of_that_name\n", "def act(:\n"])
+def test_refuses_files_that_hold_no_effect(tmp_path, text):
+    (tmp_path / "mine.py").write_text(text)
+    with pytest.raises(InputError, match="mine.py"):
+        library.find(tmp_path)
+
+
+def test_refuses_unknown_names_and_sizes():
+    with pytest.raises(InputError, match="'nosuch'"):
+        library.choose(["nosuch"])
+    with pytest.raises(InputError, match="'weight'"):
+        library.choose({"payload": {"weight": 1.0}})
+
+
+def test_sizes_that_are_not_given_are_typical():
+    ((_, sizes),) = library.choose({"payload": {"mass": 80.0}})
+    assert sizes == {"mass": 80.0, "ahead": -0.8, "height": 0.6, "radius": 0.3}
+
+
+def test_command_prints_every_effect_with_unit_port_and_source(capsys, tmp_path):
+    put(tmp_path, "mine")
+    main(["effects", "--folder", str(tmp_path)])
+    printed = " ".join(capsys.readouterr().out.split())
+    for entry in library.find(tmp_path).values():
+        effect = entry.effect
+        for part in (effect.name, effect.sentence, effect.source, f"Port {effect.port}", effect.parameters[0].meaning):
+            assert part in printed
+        assert f"[{effect.parameters[0].unit}]" in printed
+
+
+def test_command_prints_a_table(capsys):
+    main(["effects", "--csv"])
+    printed = pd.read_csv(io.StringIO(capsys.readouterr().out))
+    assert tuple(printed.columns) == table.COLUMNS
+    assert len(printed) == sum(len(entry.effect.parameters) for entry in library.find().values())
+
+
+def test_command_prints_those_that_are_asked_for(capsys):
+    main(["effects", "payload"])
+    assert "bump_stop" not in capsys.readouterr().out

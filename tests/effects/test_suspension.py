@@ -1,0 +1,118 @@
+"""Effects between body and wheel, against closed forms. Cycles x = X sin(omega t) unless said otherwise."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.effects.whole import act
+
+STIFFNESS, DAMPING = 30000.0, 2000.0
+
+
+def force(name, deflection, velocity, *sizes, wheel=0, force_x=0.0):
+    return act(name)(wheel, deflection, velocity, STIFFNESS, DAMPING, force_x, 0.0, *sizes)
+
+
+def cycle(amplitude, frequency, count=20000):
+    """Deflection, velocity and step in s of one cycle."""
+    time = np.arange(count) / count / frequency
+    turns = 2 * np.pi * frequency
+    return amplitude * np.sin(turns * time), amplitude * turns * np.cos(turns * time), 1.0 / count / frequency
+
+
+def lost(name, amplitude, frequency, *sizes):
+    """Energy in J that a cycle takes."""
+    x, v, step = cycle(amplitude, frequency)
+    return sum(force(name, a, b, *sizes) * b * step for a, b in zip(x, v, strict=True))
+
+
+def test_coulomb_friction_loses_four_times_force_times_amplitude():
+    assert lost("suspension_friction", 0.02, 2.0, 120.0, 100.0) == pytest.approx(4 * 120.0 * 0.02, rel=2e-3)
+
+
+def test_coulomb_friction_does_not_depend_on_speed_once_it_slides():
+    assert force("suspension_friction", 0.0, 0.05, 120.0, 100.0) == 120.0
+    assert force("suspension_friction", 0.0, -0.5, 120.0, 100.0, wheel=3) == -100.0
+
+
+def test_asymmetric_dampers_keep_their_mean_and_split_it():
+    share = 0.4
+    bump = DAMPING * 0.1 + force("damper_asymmetry", 0.0, 0.1, share, 0.0)
+    rebound = -DAMPING * 0.1 + force("damper_asymmetry", 0.0, -0.1, share, 0.0)
+    assert -rebound / bump == pytest.approx((1 + share) / (1 - share))
+    assert lost("damper_asymmetry", 0.02, 2.0, share, 0.0) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_asymmetric_dampers_draw_the_body_down_by_the_mean_of_speed():
+    x, v, _ = cycle(0.02, 2.0)
+    mean = np.mean([force("damper_asymmetry", a, b, 0.4, 0.0) for a, b in zip(x, v, strict=True)])
+    assert mean == pytest.approx(-0.4 * DAMPING * 0.02 * 2 * np.pi * 2.0 * 2 / np.pi, rel=1e-6)
+
+
+def test_degressive_dampers_have_two_slopes():
+    speeds = np.array([-0.5, -0.3, -0.05, 0.05, 0.3, 0.5])
+    total = np.array([DAMPING * v + force("damper_knee", 0.0, v, 0.6, 0.0, 0.1) for v in speeds])
+    expected = DAMPING * np.sign(speeds) * np.where(np.abs(speeds) < 0.1, np.abs(speeds), 0.1 + 0.4 * (np.abs(speeds) - 0.1))
+    assert total == pytest.approx(expected)
+
+
+def test_degressive_dampers_lose_what_their_curve_says():
+    """Against the integral over the angle of the cycle of the speed beyond the knee."""
+    peak, knee = 0.02 * 2 * np.pi * 4.0, 0.1
+    angle = np.arccos(knee / peak)
+    beyond = peak * (angle + np.sin(2 * angle) / 2) - 2 * knee * np.sin(angle)
+    expected = -0.6 * DAMPING * 2 * 0.02 * beyond
+    assert lost("damper_knee", 0.02, 4.0, 0.6, 0.0, knee) == pytest.approx(expected, rel=1e-4)
+
+
+def test_progressive_spring_has_the_rate_that_grows_with_compression():
+    growth, step = 5.0, 1e-5
+    for place in (-0.1, 0.0, 0.06):
+        ends = [force("spring_progression", place + side * step, 0.0, growth, 0.0) for side in (-1, 1)]
+        rate = STIFFNESS + (ends[1] - ends[0]) / (2 * step)
+        assert rate == pytest.approx(STIFFNESS * (1 + growth * place))
+
+
+def test_progressive_spring_never_pulls_itself_apart():
+    deflections = np.linspace(-0.5, 0.2, 1000)
+    total = [STIFFNESS * x + force("spring_progression", x, 0.0, 5.0, 0.0) for x in deflections]
+    assert np.diff(total).min() > -1e-9
+    assert lost("spring_progression", 0.3, 1.0, 5.0, 0.0) == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(("name", "sign"), [("bump_stop", 1.0), ("rebound_stop", -1.0)])
+def test_stops_store_the_energy_of_a_spring_beyond_the_clearance(name, sign):
+    stiffness, clearance, end = 80000.0, 0.04, 0.07
+    x = np.linspace(0.0, end, 20001)
+    energy = np.trapezoid([sign * force(name, sign * a, 0.0, 0.0, stiffness, 0.0, clearance, wheel=2) for a in x], x)
+    assert energy == pytest.approx(0.5 * stiffness * (end - clearance) ** 2, rel=1e-5)
+    assert force(name, -sign * end, 0.0, 0.0, stiffness, 0.0, clearance, wheel=2) == 0.0
+
+
+@pytest.mark.parametrize("frequency", [1.0, 12.0, 40.0])
+def test_damper_on_a_mount_is_a_maxwell_element(frequency):
+    """Complex stiffness i omega c k / (k + i omega c) of damper and mount in series."""
+    compliance, step = 4e-6, 2e-5
+    turns = 2 * np.pi * frequency
+    cycles = int(np.ceil(0.1 * frequency)) + 1
+    time = np.arange(0.0, cycles / frequency, step)
+    deflection, state, total = np.exp(1j * turns * time), 0.0, np.empty(time.size, complex)
+    for k, velocity in enumerate(1j * turns * deflection):
+        extra, slope = force("top_mount", 0.0, velocity.real, state, compliance, 0.0)
+        total[k] = DAMPING * velocity.real + extra
+        state += step * slope
+    last = slice(-round(1 / frequency / step), None)
+    measured = 2 * np.mean(total[last] * np.exp(-1j * turns * time[last]))
+    expected = 1j * turns * DAMPING / (1 + 1j * turns * DAMPING * compliance)
+    assert abs(measured - expected) < 0.01 * abs(expected)
+
+
+def test_links_take_part_of_the_braking_and_driving_force():
+    """The share of the load transfer h F that links at the tangent t take over the wheelbase."""
+    assert force("anti_dive", 0.0, 0.0, 0.08, 0.15, force_x=-3000.0) == pytest.approx(240.0)
+    assert force("anti_dive", 0.0, 0.0, 0.08, 0.15, force_x=-2000.0, wheel=3) == pytest.approx(-300.0)
+    assert force("anti_dive", 0.0, 0.0, 0.08, 0.15, force_x=500.0) == 0.0
+    assert force("anti_squat", 0.0, 0.0, 0.05, 0.1, force_x=2000.0, wheel=2) == pytest.approx(200.0)
+    assert force("anti_squat", 0.0, 0.0, 0.05, 0.1, force_x=2000.0) == pytest.approx(-100.0)
+    assert force("anti_squat", 0.0, 0.0, 0.05, 0.1, force_x=-2000.0, wheel=2) == 0.0
