@@ -3,7 +3,7 @@ PYTHON ?= python3
 CORES ?= $(shell getconf _NPROCESSORS_ONLN)
 BIN = .venv/bin
 
-.PHONY: env study test bench
+.PHONY: env study test bench blind
 
 env: .venv/installed
 
@@ -22,3 +22,6 @@ test: env
 
 bench: env
 	$(BIN)/python tests/bench
+
+blind: env
+	$(BIN)/python -m tests.blind

@@ -45,6 +45,11 @@ wildcard_constraints:
 rule all:
     input:
         "results/report.html",
+        expand(
+            "results/maps/{site}_{method}.geojson",
+            site=study.names,
+            method=["thresholds", "iso2631", "iri"],
+        ),
 
 
 for site in study.names:
@@ -59,6 +64,7 @@ for site in study.names:
                 model=study.model,
                 method=["thresholds", "iso2631", "iri"],
             ),
+            expand("results/maps/{site}_{method}.geojson", site=site, method=["thresholds", "iso2631", "iri"]),
             expand(
                 "results/{site}/{model}/comparison.nc",
                 site=[site] if study.drives(site) else [],
@@ -69,6 +75,11 @@ for site in study.names:
 rule compare:
     input:
         expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
+
+
+rule diagnose:
+    input:
+        expand("results/diagnosis/{model}/{file}", model=study.model, file=["ranking.nc", "verdict.json"]) if study.diagnosed else [],
 
 
 report: "workflow/report/study.rst"
@@ -83,4 +94,5 @@ include: "workflow/rules/simulate.smk"
 include: "workflow/rules/space.smk"
 include: "workflow/rules/comfort.smk"
 include: "workflow/rules/compare.smk"
+include: "workflow/rules/diagnose.smk"
 include: "workflow/rules/report.smk"

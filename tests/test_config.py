@@ -1,5 +1,6 @@
 """The configuration: the paper's defaults, and each mistake answered by name in one line."""
 
+import json
 import shutil
 
 import pytest
@@ -120,6 +121,14 @@ def test_mistake_in_an_effect(project, own_effects, effects, said):
     assert_said(project, {**own_effects, "effects": effects}, f"effects: {said}", config.STUDY)
 
 
+def test_thresholds_may_name_their_source(project):
+    stated = {"a_x": {"PT": [-1.0, 1.0, "our own"], "ND": [-2, 2], "AG": [-5, 3]}}
+    jerk = {"lying": [-0.3, 0.3, "a guess"]}
+    study = config.load({"sites": ["own"], "comfort": {"thresholds": stated, "jerk": jerk}}, project)
+    told = json.loads(study.config("thresholds", "own"))
+    assert told["thresholds"]["a_x"]["PT"] == [-1.0, 1.0, "our own"] and told["jerk"] == jerk
+
+
 @pytest.mark.parametrize("step", ["simulate", "thresholds", "road", "sample"])
 def test_a_step_is_told_only_what_it_uses(project, step):
     plain = config.load({"sites": ["own"]}, project)
@@ -161,6 +170,19 @@ STUDY_MISTAKES = [
     ({"calibration": {"bounds": {"tyre_friction": [1.4, 0.7]}}}, "tyre_friction: [1.4, 0.7], expected the lower value first"),
     ({"calibration": {"signals": ["a_w"]}}, "'a_w', expected one of a_x"),
     ({"comfort": {"iri": {"speed_km_h": [50, 60]}}}, "one for each of the 2 speeds"),
+    ({"comfort": {"sections": "gliding"}}, "comfort: sections: 'gliding', expected one of sequential, sliding"),
+    ({"comfort": {"jerk": {"seated": [2.9, -2.9]}}}, "jerk: seated: [2.9, -2.9], expected the lower value first"),
+    ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2"),
+    ({"comfort": {"thresholds": {"a_x": {"PT": [-1, 1, 2], "ND": [-2, 2], "AG": [-5, 3]}}}}, "2, expected text"),
+    ({"comfort": {"iri": {"wheel_tracks": [0.75, -0.75]}}}, "wheel_tracks: [0.75, -0.75], expected the lower value first"),
+    ({"comfort": {"iri": {"wheel_tracks": []}}}, "wheel_tracks: [], expected at least 1"),
+    ({"comfort": {"iri": {"moving_average": 0}}}, "moving_average: 0, expected more than 0"),
+    ({"comfort": {"iso2631": {"seat": {"natural_frequency": 4}}}}, "seat: key 'damping_ratio' is missing"),
+    ({"comfort": {"iso2631": {"seat": {"natural_frequency": -4, "damping_ratio": 0.3}}}}, "-4, expected at least 0.5"),
+    ({"comfort": {"iso2631": {"label": "worst"}}}, "label: 'worst', expected one of severe, mild, middle"),
+    ({"comfort": {"iso2631": {"bands": {"LU": [0.4, 0.63]}}}}, "nothing between NU and LU"),
+    ({"comfort": {"exposure": {"trip": 0}}}, "trip: 0, expected at least 1"),
+    ({"comfort": {"maps": {"probability": 1.5}}}, "probability: 1.5, expected at most 1"),
     ({"sites": []}, "sites: [], expected at least 1"),
     ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: own, ts1"),
     ({"vehicle": "tank"}, "vehicle: unknown vehicle 'tank'; known vehicles: "),
@@ -186,6 +208,11 @@ DRIVE = {"file": "drive.csv"}
 SITE_MISTAKES = [
     ({"road": {"file": "gone.crg"}}, "road: file: no such file 'gone.crg'"),
     ({"rode": {"file": "road.crg"}}, "'rode'"),
+    ({"road": {"options": {}}}, "road: expected either a file or a scan"),
+    (
+        {"road": {"scan": {"profiles": "road.crg", "trajectory": "t.csv"}}},
+        "road: scan: trajectory: no such file 't.csv'",
+    ),
     ({}, "key 'road' is missing"),
     ({"road": {"file": "road.crg"}, "speed": {"limit_km_h": -50}}, "speed: limit_km_h: -50, expected at least 5"),
     ({"road": {"file": "road.crg"}, "drives": [DRIVE]}, "drives: entry 1: file: no such file 'drive.csv'"),

@@ -3,7 +3,8 @@
     python tests/bench [name ...]
 
 Each file has a function ``bench`` that returns figures by name; a figure is a number, or a
-mapping of names to figures. The table goes to the terminal, the JSON to results/bench.json.
+mapping of names to figures. The table goes to the terminal, the JSON to results/bench.json, in
+which benchmarks that are not run this time keep their figures.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ OUTPUT = FOLDER.parents[1] / "results" / "bench.json"
 
 
 def main(names: list[str]) -> None:
-    sys.path.insert(0, str(FOLDER))
+    sys.path[:0] = [str(FOLDER), str(FOLDER.parents[1])]
     found = sorted(path.stem.removeprefix("bench_") for path in FOLDER.glob("bench_*.py"))
     unknown = [name for name in names if name not in found]
     if unknown:
@@ -33,7 +34,17 @@ def main(names: list[str]) -> None:
             print(f"{name:12} {label:52} {text(value):>14}", flush=True)
     machine = {"processor": platform.processor() or platform.machine(), "cores": os.cpu_count()}
     OUTPUT.parent.mkdir(exist_ok=True)
+    figures = kept(machine, found) | figures
     OUTPUT.write_text(json.dumps({"machine": machine, "figures": figures}, indent=1) + "\n", encoding="utf-8")
+
+
+def kept(machine: Mapping, found: list[str]) -> dict:
+    """The figures of benchmarks that still exist, as the last run on the same machine left them."""
+    try:
+        last = json.loads(OUTPUT.read_text(encoding="utf-8"))
+        return {name: last["figures"][name] for name in last["figures"] if name in found and last["machine"] == machine}
+    except (OSError, ValueError, KeyError):
+        return {}
 
 
 def rows(figures: Mapping, above: str = "") -> Iterator[tuple[str, object]]:

@@ -50,6 +50,17 @@ def test_thresholds_take_gravity_off_and_say_so(recording, capsys):
     assert table.loc["AG", "time outside [%]"] == pytest.approx(share, abs=1.0)
 
 
+def test_local_roughness_names_the_place_of_a_step(tmp_path, capsys):
+    """A smooth profile with one step of 20 mm at 60 m."""
+    s = 0.1 * np.arange(1200)
+    profile = write(tmp_path / "profile.csv", s=s, left=np.where(s < 60.0, 0.0, 0.02))
+    main(["comfort", "--iri", str(profile), "--local", "3"])
+    printed = capsys.readouterr().out
+    _, _, told = printed.partition("left: 1 stretch with more than 3 m/km over 7.62 m (25 ft)\n")
+    start, stop = (float(part) for part in told.split(" m,")[0].split(" to "))
+    assert 55.0 < start < 60.0 < stop < 70.0
+
+
 def test_iri_of_two_tracks(tmp_path, capsys):
     s = np.arange(0, 400.01, 0.1)
     left = 0.002 * np.sin(2 * np.pi * s / 12)

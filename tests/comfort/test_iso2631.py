@@ -147,3 +147,25 @@ def test_total_value_behind_a_seat_is_that_of_the_signal_on_the_seat():
     direct = iso2631.running_total_value(still, still, floor, RATE, seat=chair)
     in_two = iso2631.running_total_value(still, still, seat.on_seat(floor, RATE, chair), RATE)
     assert direct == pytest.approx(in_two, abs=1e-6)
+
+
+def test_trip_that_repeats_a_site():
+    """Two hours of a pass of 100 s: 72 times; 1.4 on y makes it the worst axis; doses grow with roots of the passes."""
+    runs = xr.Dataset(
+        {
+            "weighted_rms": (("run", "axis"), [[0.1, 0.4, 0.5]]),
+            "vdv": (("run", "axis"), [[0.5, 2.0, 2.1]]),
+            "msdv_z": ("run", [1.5]),
+            "duration": ("run", [100.0]),
+        },
+        {"run": [0], "axis": ["a_x", "a_y", "a_z"]},
+    )
+    found = exposure.of_runs(runs, 7200.0)
+    assert str(found["worst_axis"].values) == "a_y"
+    assert found["rms"].item() == pytest.approx(0.56) and found["a8"].item() == pytest.approx(0.28)
+    assert found["vdv"].item() == pytest.approx(2.8 * 72**0.25)
+    assert found["msdv_z"].item() == pytest.approx(1.5 * 72**0.5)
+    assert found["vomiting_share"].item() == pytest.approx(1.5 * 72**0.5 / 3)
+    assert found["illness_rating"].item() == pytest.approx(1.5 * 72**0.5 / 50)
+    # The dose over the trip is that of the same motion for as long: rms times the root of the time.
+    assert found["msdv_z"].item() == pytest.approx(1.5 / 100**0.5 * 7200**0.5)

@@ -105,3 +105,10 @@ def test_nothing_to_estimate_is_said():
         enough.interval_width(np.ones((400, 3)), samples)
     with pytest.raises(InputError, match="do not fall into"):
         enough.interval_width(np.eye(100), samples.isel(run=slice(100)))
+
+
+def test_widths_by_the_root_of_the_runs():
+    sizes = np.array([25, 100, 400])
+    assert enough.by_root(sizes, 1.5 / np.sqrt(sizes)) == pytest.approx(1.5)
+    assert enough.by_root(sizes, np.where(sizes == 100, np.nan, 1.5 / np.sqrt(sizes))) == pytest.approx(1.5)
+    assert np.isnan(enough.by_root([25], [0.0]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -9,7 +11,7 @@ import xarray as xr
 from ridecomfort import store
 from ridecomfort.comfort import bands, iriclass, jerk, thresholds
 from ridecomfort.errors import InputError
-from ridecomfort.steps import iri, iso2631
+from ridecomfort.steps import agreement, iri, iso2631, maps
 from ridecomfort.steps import thresholds as thresholds_step
 
 CONFIG = {
@@ -43,6 +45,8 @@ def files(tmp_path):
         shard["v_x"] = ("run", "s"), np.full(size, 20.0, np.float32)
         shard["a_v"] = ("run", "s"), rng.uniform(0.2, 0.5, size).astype(np.float32)
         shard["weighted_rms"] = ("run", "axis"), rng.uniform(0.1, 0.4, (5, 3))
+        shard["mtvv"] = ("run", "axis"), rng.uniform(0.4, 0.6, (5, 3))
+        shard["crest_factor"] = ("run", "axis"), rng.uniform(3, 5, (5, 3))
         shard["vdv"] = ("run", "axis"), rng.uniform(1, 2, (5, 3))
         shard["msdv_z"], shard["duration"] = ("run", rng.uniform(0.1, 1.0, 5)), ("run", np.full(5, 6.25))
         shard = shard.assign_coords(axis=list(names), run=first + np.arange(5), s=s)
@@ -59,7 +63,7 @@ def files(tmp_path):
     "step, dims, variables",
     [
         (thresholds_step, ("axis", "style"), {"a_x", "a_y", "a_z", "lower", "upper", "jerk_critical"}),
-        (iso2631, ("band",), {"a_v", "band_lower", "band_upper", "window_mean"}),
+        (iso2631, ("band",), {"a_v", "band_lower", "band_upper", "window_mean", "vdv", "msdv_z", "duration"}),
         (iri, ("quality",), {"iri", "iri_full", "v_x", "threshold"}),
     ],
 )
@@ -84,3 +88,54 @@ def test_a_truncated_shard_is_named_and_nothing_written(files):
     with pytest.raises(InputError, match="5.nc"):
         iso2631.main(shards=shards, config=CONFIG, output=folder / "out.nc")
     assert not (folder / "out.nc").exists()
+
+
+def test_sliding_sections_begin_at_every_place(files):
+    folder, shards = files
+    iso2631.main(shards=shards, config={**CONFIG, "sections": "sliding"}, output=folder / "out.nc")
+    assert store.read(folder / "out.nc")["window_start"].values == pytest.approx(50.0 + 0.25 * np.arange(481))
+
+
+def evaluated(folder, shards):
+    """Files of the three methods, by name."""
+    found = {}
+    for name, step in (("thresholds", thresholds_step), ("iso2631", iso2631), ("iri", iri)):
+        found[name] = folder / f"{name}.nc"
+        road = {"road": folder / "road.nc"} if step is iri else {}
+        step.main(shards=shards, config=CONFIG, output=found[name], **road)
+    return found
+
+
+def test_agreement_of_the_sites_from_their_files(files):
+    folder, shards = files
+    found = {name: [file, file] for name, file in evaluated(folder, shards).items()}
+    samples = xr.Dataset({"lateral_position": ("run", np.arange(10.0))})
+    store.write(samples, folder / "samples.nc", title="samples")
+    config = {"sites": ["one", "two"], "seed": 1, "label": "severe"}
+    agreement.main(**found, samples=[folder / "samples.nc"] * 2, config=config, output=folder / "agreement.nc")
+    told = store.read(folder / "agreement.nc")
+    assert told["site"].values.tolist() == ["one", "two", "pooled"] and told.attrs["rule"] == "severe"
+    assert np.array_equal(told["confusion"].sel(site="one"), told["confusion"].sel(site="two"))
+    assert int(told["confusion"].sel(site="pooled", pair="iso2631 - iri").sum()) == 50
+
+
+def test_maps_of_a_site_one_a_method(files):
+    folder, shards = files
+    found = evaluated(folder, shards)
+    road = store.read(folder / "road.nc")
+    line = road.assign(x=("u", 1000.0 + road["u"].values), y=("u", 0.0 * road["u"].values))
+    store.write(line, folder / "line.nc", title="road")
+    targets = [folder / f"ts1_{name}.geojson" for name in found]
+    config = {"site": "ts1", "probability": 0.1, "label": "middle", "geo_reference": None}
+    maps.main(road=folder / "line.nc", **found, config=config, output=targets)
+    for target, method in zip(targets, found):
+        told = json.loads(target.read_text())
+        assert told["name"] == f"ts1 {method}" and "no geo-reference" in told["coordinates_in"]
+        for each in told["features"]:
+            assert each["properties"]["speed_m_per_s"] == 20.0
+            assert each["geometry"]["coordinates"][0][0] == pytest.approx(1000.0 + each["properties"]["start_m"])
+    assert any(json.loads(target.read_text())["features"] for target in targets)
+    config["geo_reference"] = {"longitude": 15.4, "latitude": 47.1, "rotation_deg": 0}
+    maps.main(road=folder / "line.nc", **found, config=config, output=targets)
+    told = json.loads(targets[0].read_text())
+    assert "coordinates_in" not in told and 15.4 < told["features"][0]["geometry"]["coordinates"][0][0] < 15.5

@@ -51,7 +51,7 @@ def road(shared):
     folder = shared / "data" / "realcar"
     if not folder.is_dir():
         pytest.skip("the drives of realcar are not in ../shared")
-    return simulate.prepare(crg.read(folder / "road.crg"))
+    return simulate.prepare(crg.read(folder / "road.crg", interpolation="cubic"))
 
 
 @pytest.fixture(scope="module")

@@ -14,8 +14,8 @@ def paper_like():
 
 @pytest.fixture(scope="session")
 def own_site():
-    """One site of a user's own: no drives, no published figures, no stand-in."""
-    return synthetic.study(("home",), drives=False, standin=False)
+    """One site of a user's own: no drives, no published figures, no stand-in, eight runs."""
+    return synthetic.study(("home",), drives=False, standin=False, runs=8)
 
 
 @pytest.fixture(scope="session")

@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from ridecomfort.comfort import assessment, jerk
 from ridecomfort.report import published
 from ridecomfort.report.study import Site, Study
+from ridecomfort.road import clean, defects, roughness, smoothing
+from ridecomfort.sample import latin_hypercube
 from ridecomfort.vocabulary import CALIBRATED, SIGNALS
 
 STYLES = ("PT", "ND", "AG")
@@ -17,19 +20,29 @@ LENGTH = 600.0
 SPACING = 0.25
 
 
-def study(names=("ts1", "ts2", "ts3"), *, drives=True, standin=True) -> Study:
+def study(names=("ts1", "ts2", "ts3"), *, drives=True, standin=True, runs=200) -> Study:
     """A study of the named sites; without ``drives`` nothing is compared or calibrated."""
     rng = np.random.default_rng(7)
     calibrated_on = names[0] if drives else None
-    sites = tuple(site(name, rng, drives, standin, calibrated_on) for name in names)
+    sites = tuple(site(name, rng, drives, standin, calibrated_on, runs) for name in names)
     calibrations = {names[0]: calibration()} if drives else {}
     return Study(
         sites,
         calibrations,
         {names[0]: f"{names[0]}/base/calibration.nc"} if drives else {},
+        assessment=assessed(sites),
+        assessment_file="comfort/base/agreement.nc",
         settings=settings(sites),
         software={"ridecomfort": "0.1.0", "numpy": np.__version__},
     )
+
+
+def assessed(sites) -> xr.Dataset:
+    """What the step agreement makes of the sites."""
+    results = {
+        each.name: assessment.SiteResults(each.thresholds, each.iso2631, each.iri, each.samples) for each in sites
+    }
+    return assessment.gather(results, repetitions=50)
 
 
 def settings(sites) -> dict:
@@ -51,26 +64,28 @@ def settings(sites) -> dict:
         },
         "model": "base",
         "effects": {},
-        "runs": 40,
+        "runs": sites[0].samples.sizes["run"],
         "seed": 2021,
-        "comfort": {"critical_length": 5, "iri": iri_settings},
+        "comfort": {"critical_length": 5, "iri": iri_settings, "exposure": {"trip": 3600}},
         "calibration": {},
     }
 
 
-def site(name, rng, drives=True, standin=True, calibrated_on=None) -> Site:
+def site(name, rng, drives=True, standin=True, calibrated_on=None, runs=200) -> Site:
     """One site with every dataset that the report reads."""
-    files = {key: f"{name}/{key}.nc" for key in ("road", "samples")}
+    files = {key: f"{name}/{key}.nc" for key in ("road", "samples", "inspection")}
     files |= {key: f"{name}/base/comfort/{key}.nc" for key in ("thresholds", "iso2631", "iri")}
     if drives:
         files["comparison"] = f"{name}/base/comparison.nc"
+    surface = road(rng)
     return Site(
         name,
-        road=road(rng),
-        samples=samples(rng),
-        thresholds=thresholds(rng),
-        iso2631=iso2631(rng),
-        iri=iri(rng),
+        road=surface,
+        inspection=inspection(surface),
+        samples=samples(rng, runs),
+        thresholds=thresholds(rng, runs),
+        iso2631=iso2631(rng, runs),
+        iri=iri(rng, runs),
         comparison=comparison(rng) if drives else None,
         standin=standin,
         title="minor road",
@@ -108,23 +123,52 @@ def road(rng) -> xr.Dataset:
     )
 
 
-def samples(rng, runs=40) -> xr.Dataset:
+def inspection(surface) -> xr.Dataset:
+    """What the step inspect makes of a road, with a made-up drive; the road gets a pothole and an outlier for it."""
+    rng = np.random.default_rng(8)
+    measured = surface.copy(deep=True)
+    measured["elevation"][2000:2004, 1:3] -= 0.03
+    measured["elevation"][4000, 6] += 0.04
+    repaired, _ = clean.clean(measured, outliers="repair")
+    smoothed, choices = smoothing.smooth_surface(repaired)
+    stages = [roughness.analyse(each).rename(v="track") for each in (measured, repaired, smoothed)]
+    found = xr.concat(stages, xr.Variable("stage", ["measured", "repaired", "smoothed"]))
+    frequency = np.arange(0.0, 50.1, 0.5)
+    density = rng.uniform(0.5, 1.0, (3, frequency.size)) * 1e-2 / (1 + frequency)
+    density[0] = np.nan
+    found["iri_track"] = (("stage", "track"), rng.uniform(1.0, 2.0, (3, 2)))
+    found["acceleration_psd"] = (("stage", "frequency"), density)
+    found["a_z_rms"] = ("stage", [np.nan, 0.31, 0.30])
+    found["a_z_peak"] = ("stage", [np.nan, 1.9, 1.8])
+    for name in ("wavelength", "penalty"):
+        values = [getattr(choice, name) for choice in choices.values()]
+        found["cutoff" if name == "wavelength" else name] = ("direction", values)
+    found["trial_cutoff"] = (("direction", "trial"), [choice.wavelengths for choice in choices.values()])
+    found["held_out_error"] = (("direction", "trial"), [choice.errors for choice in choices.values()])
+    found = found.assign_coords(direction=list(choices), frequency=frequency).merge(defects.find(repaired))
+    found.attrs = {"used": "repaired", "cells": 60_000, "cells_repaired": 1, "cells_filled": 0, "cells_kept": 0}
+    found.attrs |= {"share_changed": 1 / 60_000, "largest_change": 0.04}
+    return found.assign_attrs(largest_change_u=400.0, largest_change_v=1.0)
+
+
+def samples(rng, runs) -> xr.Dataset:
+    unit = latin_hypercube(runs, 3, rng).T
     return xr.Dataset(
         {
-            "speed_deviation": ("run", rng.normal(0, 0.2, runs)),
-            "lateral_position": ("run", rng.normal(0, 0.2, runs)),
-            "road_friction": ("run", rng.uniform(0.6, 1.0, runs)),
+            "speed_deviation": ("run", 0.4 * unit[0] - 0.2),
+            "lateral_position": ("run", 0.4 * unit[1] - 0.2),
+            "road_friction": ("run", 0.6 + 0.4 * unit[2]),
         }
     )
 
 
-def _grid(**coords) -> xr.Dataset:
+def _grid(runs, **coords) -> xr.Dataset:
     s = 50.0 + np.arange(0.0, LENGTH, SPACING)
     start = np.arange(50.0, 50.0 + LENGTH, 5.0)
     return xr.Dataset(
         {"window_start": ("window", start)},
-        {"s": s, "window": np.arange(start.size), **coords},
-        {"critical_length": 5.0, "runs": 40},
+        {"s": s, "window": np.arange(start.size), "run": np.arange(runs), **coords},
+        {"critical_length": 5.0, "runs": runs},
     )
 
 
@@ -145,11 +189,13 @@ def _finish(dataset, dims, critical, rng) -> xr.Dataset:
     dataset["exceedance_probability"] = ((*dims, "window"), np.where(chance < 0.05, 0.0, chance))
     dataset["critical_count"] = (dims, critical.sum(-1))
     dataset["critical_share"] = (dims, 100.0 * critical.mean(-1))
+    share = dataset["critical_share"].values[..., None] + rng.uniform(0, 2, (*critical.shape[:-1], dataset.sizes["run"]))
+    dataset["run_share"] = ((*dims, "run"), share)
     return dataset
 
 
-def thresholds(rng) -> xr.Dataset:
-    dataset = _grid(axis=list(AXES), style=list(STYLES))
+def thresholds(rng, runs) -> xr.Dataset:
+    dataset = _grid(runs, axis=list(AXES), style=list(STYLES))
     limits = published.figures()["acceleration_thresholds"]
     bands = np.array([[limits[axis][style] for style in STYLES] for axis in AXES], float)
     critical = []
@@ -159,32 +205,56 @@ def thresholds(rng) -> xr.Dataset:
         critical.append([_windows((values < low) | (values > high)) for low, high in bands[AXES.index(axis)]])
     dataset["lower"] = (("axis", "style"), bands[..., 0])
     dataset["upper"] = (("axis", "style"), bands[..., 1])
+    dataset["source"] = (("axis", "style"), np.full((3, 3), "tab:thresholds_manual"))
+    dims = ("jerk", "jerk_style")
+    dataset = dataset.assign_coords(jerk=["jerk_x", "jerk_y"], jerk_style=list(jerk.BANDS))
+    for name in ("lower", "upper", "source"):
+        dataset[f"jerk_{name}"] = dims, [[getattr(band, name) for band in jerk.BANDS.values()]] * 2
+    dataset["jerk_critical_count"] = dims, np.array([[12, 7, 0], [9, 4, 1]])
+    dataset["jerk_critical_share"] = dims, dataset["jerk_critical_count"].values / 1.2
+    dataset["jerk_run_share"] = (*dims, "run"), rng.uniform(0, 8, (2, 3, runs))
     return _finish(dataset, ("axis", "style"), critical, rng)
 
 
-def iso2631(rng) -> xr.Dataset:
-    dataset = _grid(band=list(BANDS))
+def iso2631(rng, runs) -> xr.Dataset:
+    dataset = _grid(runs, band=list(BANDS))
     limits = np.array([published.figures()["iso2631_bands"][band] for band in BANDS], float)
     dataset["a_v"] = ("s", 0.1 + np.abs(_smooth(rng, dataset.sizes["s"], 0.35, 120)))
     values = dataset["a_v"].values
     critical = [_windows((values >= low) & (values < high)) for low, high in limits]
     dataset["band_lower"] = ("band", limits[:, 0])
     dataset["band_upper"] = ("band", limits[:, 1])
+    mean = values.reshape(-1, int(5.0 / SPACING)).mean(axis=1)
+    dataset["window_mean"] = ("run", "window"), mean * (1 + 0.1 * rng.standard_normal((runs, 1)))
+    dataset = dataset.assign_coords(axis=list(AXES))
+    dataset["weighted_rms"] = ("run", "axis"), rng.uniform(0.2, 0.5, (runs, 3))
+    dataset["mtvv"] = ("run", "axis"), 2.0 * dataset["weighted_rms"].values
+    dataset["crest_factor"] = ("run", "axis"), rng.uniform(4.0, 11.0, (runs, 3))
+    dataset["vdv"] = ("run", "axis"), rng.uniform(1.0, 3.0, (runs, 3))
+    dataset["msdv_z"] = "run", rng.uniform(0.5, 1.5, runs)
+    dataset["duration"] = "run", rng.uniform(24.0, 26.0, runs)
     return _finish(dataset, ("band",), critical, rng)
 
 
-def iri(rng) -> xr.Dataset:
-    dataset = _grid(quality=list(QUALITIES))
+def iri(rng, runs) -> xr.Dataset:
+    dataset = _grid(runs, quality=list(QUALITIES))
     s = dataset["s"].values
     nodes = np.arange(50.0, 50.0 + LENGTH + 50.0, 50.0)
     dataset["iri"] = ("s", np.interp(s, nodes, rng.uniform(0.6, 3.0, nodes.size)))
     dataset["iri_full"] = ("s", dataset["iri"].values + 0.3 * _smooth(rng, s.size, 1.0, 60))
+    dataset = dataset.assign_coords(track=[-0.75, 0.75])
+    dataset["iri_track"] = ("track", "s"), dataset["iri"].values * np.array([[1.1], [0.9]])
+    dataset["hri"] = "s", 0.9 * dataset["iri"].values
     dataset["v_x"] = ("s", 22.0 + 3.0 * np.sin(2 * np.pi * s / 500))
     edges = np.array([1.14, 1.79, 2.27, 3.24])[:, None] * (100 / 3.6) / dataset["v_x"].values
     dataset["threshold"] = (("quality", "s"), np.vstack([edges, np.full(s.size, np.inf)]))
     values, lower = dataset["iri"].values, np.vstack([np.zeros(s.size), edges])
     upper = dataset["threshold"].values
-    critical = [_windows((values >= lower[k]) & (values < upper[k])) for k in range(5)]
+    full = dataset["iri_full"].values
+    critical, in_full = (
+        [_windows((each >= lower[k]) & (each < upper[k])) for k in range(5)] for each in (values, full)
+    )
+    dataset["critical_count_full"] = "quality", np.sum(in_full, axis=1)
     return _finish(dataset, ("quality",), critical, rng)
 
 

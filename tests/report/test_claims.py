@@ -4,7 +4,7 @@ import copy
 
 import pytest
 
-from ridecomfort.report import claims, published
+from ridecomfort.report import claims, published, tables
 from ridecomfort.report.claims import FAILS, HOLDS, UNKNOWN, Answer, Evidence
 
 
@@ -128,3 +128,23 @@ def test_evidence_of_this_study_is_read_from_its_tables(made, paper_like):
     assert found.sections["a_y", "PT"]["ts3"] == (int(chosen["critical_count"]), float(chosen["critical_share"]))
     assert found.lowest["ts1"] == pytest.approx(float(paper_like.sites[0].iso2631["a_v"].min()))
     assert set(found.improvement["ts2"]) == {"a_x", "a_y", "a_z", "roll_rate", "pitch_rate", "yaw_rate"}
+
+
+@pytest.mark.parametrize("interval, said", [((0.1, 0.3), HOLDS), ((-0.3, -0.1), FAILS), ((-0.1, 0.3), UNKNOWN)])
+def test_what_is_closer_to_the_iri_is_decided_by_kappas_where_there_are_some(paper, interval, said):
+    closer = {"ISO 2631": (0.6, 0.5, 0.7), "thresholding": (0.4, 0.3, 0.5), "difference": (sum(interval) / 2, *interval)}
+    found = Evidence(paper.sections, paper.improvement, paper.lowest, paper.calibrated_on, closer)
+    answer = claims.combine(claims.agreement(found))
+    assert answer.verdict == said and "weighted kappa with the IRI 0.60" in answer.reason
+
+
+def test_kappas_are_those_of_the_table_of_agreement(made, paper_like):
+    told = claims.from_tables(made, {}).closer
+    found = paper_like.assessment.sel(site="pooled")
+    assert told["ISO 2631"] == tuple(found["kappa"].sel(pair="iso2631 - iri").values)
+    assert told["thresholding"] == tuple(found["kappa"].sel(pair="thresholds - iri").values)
+    assert told["difference"] == tuple(found["kappa_difference"].values)
+
+
+def test_kappas_of_other_sites_answer_nothing(own_site):
+    assert claims.from_tables(tables.make(own_site), {}).closer == {}

@@ -156,3 +156,30 @@ def test_long_holes_are_not_made_up(road):
 def test_unknown_choices_are_named(road):
     with pytest.raises(InputError, match="road.outliers.*report, refuse, repair"):
         clean.clean(road, outliers="drop")
+
+
+def test_a_dip_of_one_cell_is_kept_where_many_points_of_a_scan_saw_it(road):
+    torn = road.copy(deep=True)
+    torn["elevation"].values[[500, 900], [10, 30]] -= 0.03
+    support = np.full(torn.elevation.shape, 90)
+    support[900, 30] = 3
+    cleaned, report = clean.clean(torn.assign(support=(("u", "v"), support)), outliers="repair")
+    assert report.outliers == 1 and int(cleaned.treated[900, 30]) == clean.OUTLIER
+    assert float(cleaned.elevation[500, 10]) == float(torn.elevation[500, 10])
+
+
+def test_a_leaf_that_many_points_saw_is_no_road(road):
+    leaf = road.copy(deep=True)
+    leaf["elevation"][1000, 20] += 0.2
+    cleaned, report = clean.clean(leaf.assign(support=(("u", "v"), np.full(leaf.elevation.shape, 90))), outliers="repair")
+    assert report.outliers == 1
+
+
+def test_a_cross_section_that_a_scan_lost_but_for_its_edge_is_filled(road):
+    """And the edge of the swath, which wanders inwards over tens of metres, is left as it is."""
+    torn = road.copy(deep=True)
+    torn["elevation"][700, 1:] = np.nan
+    torn["elevation"][1500:1900, 38:] = np.nan
+    cleaned, report = clean.clean(torn.assign(support=(("u", "v"), np.full(torn.elevation.shape, 90))), holes="fill")
+    assert report.filled == 40 and np.isfinite(cleaned.elevation[700]).all()
+    assert np.isnan(cleaned.elevation[1500:1900, 38:]).all()

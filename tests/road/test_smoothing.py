@@ -71,3 +71,21 @@ def test_zero_leaves_a_direction_alone():
     same, choices = smoothing.smooth_surface(road, along=0, across=0)
     np.testing.assert_array_equal(same.elevation, road.elevation)
     assert choices == {}
+
+
+def test_frayed_edges_with_hardly_a_value_are_smoothed_and_stay_frayed():
+    """Of the last column one value is left, of the one before two, and one cross section is empty."""
+    rng = np.random.default_rng(5)
+    heights = rng.normal(0, 1e-3, (300, 12))
+    heights[:, 11], heights[:, 10] = np.nan, np.nan
+    heights[40, 10:] = 0.002
+    heights[41, 10] = 0.001
+    heights[200] = np.nan
+    road = xr.Dataset(
+        {"elevation": (("u", "v"), heights), "bank": ("u", np.zeros(300))}, coords={"u": U[:300], "v": 0.1 * np.arange(12)}
+    )
+    found, _ = smoothing.smooth_surface(road)
+    np.testing.assert_array_equal(np.isnan(found.elevation), np.isnan(heights))
+    assert float(np.abs(found.elevation).max()) < 0.006
+    long = smoothing.smooth(heights, 0.1, 100.0)
+    assert np.isfinite(long[40, 10:]).all() and np.isnan(long[200, 11])

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort.errors import InputError
-from ridecomfort.road import clean, crg, smoothing, survey
+from ridecomfort.road import clean, crg, smoothing, surface, survey
 from ridecomfort.standin.scan import Scanner, profiles, trajectory
 
 SCANNER = Scanner(points=200, noise=1e-4, leaves=1, gaps_per_km=0.0)
@@ -68,6 +68,48 @@ def test_the_pothole_keeps_its_depth(road, scanned):
     near = heights.sel(u=slice(25, 31), v=slice(0.3, 1.2))
     rim = heights.sel(u=slice(25, 31), v=slice(-1.2, -0.3))
     assert float(rim.median() - near.min()) == pytest.approx(0.03, abs=0.004)
+
+
+def potholes(length=24.0):
+    """A flat road on a grid of 0.02 m with sharp-edged holes of 0.2 m and bowls of 0.3 to 0.5 m, 10 to 30 mm deep.
+
+    Returns the road and middle (u, v) and depth of every hole, whose places within the 0.1 m cells are random.
+    """
+    rng = np.random.default_rng(11)
+    u, v = np.arange(round(length / 0.02) + 1) * 0.02, np.arange(-125, 126) * 0.02
+    relief, holes = np.zeros((u.size, v.size)), []
+    for k, middle in enumerate(np.arange(4.0, length - 4.0, 1.0)):
+        at = middle + rng.uniform(-0.05, 0.05), rng.uniform(-1.2, 1.2)
+        diameter, depth = (0.2, 0.3, 0.2, 0.5)[k % 4], (0.01, 0.03)[k // 2 % 2]
+        r = np.hypot(u[:, None] - at[0], v - at[1]) / (diameter / 2)
+        relief -= depth * (r < 1) if k % 2 == 0 else depth * np.cos(np.minimum(r, 1) * np.pi / 2) ** 2
+        holes.append((*at, depth, k % 2 == 0))
+    line = {"x": u, "y": 0 * u, "heading": 0 * u, "curvature": 0 * u, "slope": 0 * u, "bank": 0 * u}
+    elevation = relief + rng.normal(0, 1e-4, relief.shape)
+    line = {name: ("u", values) for name, values in line.items()}
+    return xr.Dataset({"elevation": (("u", "v"), elevation)} | line, coords={"u": u, "v": v}), holes
+
+
+def test_small_potholes_of_a_scan_keep_their_depth_and_are_no_outliers():
+    fine, holes = potholes()
+    scanner = Scanner(points=500, leaves=0, gaps_per_km=0.0, position_drift=0.0)
+    true, measured = trajectory(fine, 12, scanner)
+    found, _ = survey.grid(profiles(fine, true, 12, scanner), measured)
+    cleaned, _ = clean.clean(found, outliers="repair", holes="fill")
+    x = cleaned.x.values[:, None] - cleaned.v.values * np.sin(cleaned.heading.values)[:, None]
+    y = cleaned.y.values[:, None] + cleaned.v.values * np.cos(cleaned.heading.values)[:, None]
+    heights = cleaned.elevation.values - float(cleaned.elevation.median())
+    known = surface.height(fine, x, y)
+    kept, edged = [], []
+    for u, v, depth, sharp in holes:
+        near = np.hypot(x - u, y - v) < 0.15
+        if sharp:
+            edged.append(-heights[near].min() / depth)
+        else:
+            deepest = np.where(near, known, 0).argmin()
+            kept.append(heights.flat[deepest] / known.flat[deepest])
+    assert np.min(edged) > 0.9 and np.median(edged) > 0.98
+    assert np.min(kept) > 0.9 and np.median(kept) > 0.98
 
 
 def test_the_reference_line_is_the_path_in_equal_steps(road, scanned):

@@ -43,7 +43,7 @@ def test_leaves_out_what_a_step_does_not_use(found):
 
 def test_only_its_own_steps_use_the_stand_ins(found):
     users = {step for step, paths in found.items() if any("standin" in path.parts for path in paths)}
-    assert users <= {"standin_road", "standin_drives"}
+    assert users and all(step.startswith("standin_") for step in users)
 
 
 def test_paths_do_not_depend_on_where_the_project_lies():

@@ -37,7 +37,10 @@ class Answer:
         return [line.split("error: ", 1)[1] for line in self.text.splitlines() if "error: " in line]
 
 
-RULES = "road measured calibrate sample simulate space thresholds iso2631 iri comparison tables figures report".split()
+RULES = (
+    "road measured calibrate sample simulate space thresholds iso2631 iri agreement maps comparison "
+    "tables figures report"
+).split()
 
 
 @dataclass(frozen=True)

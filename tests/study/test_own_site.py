@@ -22,9 +22,10 @@ def test_a_road_of_others_needs_only_its_file(project, shared):
     assert answer.status == 0, answer.text
     road = store.read(project.folder / "results/course/road.nc")
     comfort = store.read(project.folder / "results/course/base/comfort/iso2631.nc")
-    assert comfort.sizes["window"] == int((float(road["u"][-1] - road["u"][0]) - 75) // 5)
-    # An inch rms of unevenness at 30 km/h is very uncomfortable by any reading of ISO 2631-1, annex C.
-    assert float(comfort["a_v"].mean()) > 1.25
+    evaluated = float(road["u"][-1] - road["u"][0]) - 75
+    assert abs(comfort.sizes["window"] - evaluated / 5) < 1
+    # An inch rms of unevenness is at least "uncomfortable" (ISO 2631-1, annex C: from 0.8 m/s2).
+    assert float(comfort["a_v"].mean()) > 0.8
 
 
 COLUMNS = {

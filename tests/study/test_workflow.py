@@ -27,7 +27,7 @@ def test_a_dry_run_of_the_papers_study_plans_every_step(repository, project):
     answer = project.snakemake("--dry-run")
     assert answer.status == 0, answer.text
     assert sum(job.startswith("simulate ") for job in answer.jobs) == 3 * 16
-    for once in ("calibrate ts1 base", "comparison ts3 base", "iri ts2 base", "tables", "figures", "report"):
+    for once in ("calibrate ts1 base", "comparison ts3 base", "iri ts2 base", "agreement base", "maps ts3", "report"):
         assert once in answer.jobs
     assert "calibrate ts2 base" not in answer.jobs
 
@@ -65,12 +65,12 @@ def test_changing_a_site_reruns_that_site_alone(finished):
     finally:
         finished.site("two")
     assert jobs and all(" two" in job for job in jobs)
-    assert {job.split()[0] for job in jobs} == {"simulate", "space", *METHODS}
+    assert {job.split()[0] for job in jobs} == {"simulate", "space", *METHODS, "maps"}
 
 
 def test_a_setting_reruns_the_step_that_uses_it(finished):
     jobs = finished.snakemake("--dry-run", "one", "--config", "comfort={iri: {segment: 25}}").jobs
-    assert jobs == ["iri one base"]
+    assert jobs == ["iri one base", "maps one"]
 
 
 def test_results_depend_neither_on_shards_nor_on_where_the_folder_lies(finished):

@@ -55,3 +55,58 @@ rule iri:
     shell:
         "python -m ridecomfort.steps.iri --road {input.road:q} --shards {input.shards:q}"
         " --config {params.config:q} --output {output:q} 2> {log:q}"
+
+
+# How far the methods agree over all sites, what the runs' inputs do, how many runs are enough.
+rule agreement:
+    input:
+        code=modules.of_step("agreement"),
+        thresholds=expand(
+            "results/{site}/{model}/comfort/thresholds.nc", site=study.names, allow_missing=True
+        ),
+        iso2631=expand(
+            "results/{site}/{model}/comfort/iso2631.nc", site=study.names, allow_missing=True
+        ),
+        iri=expand("results/{site}/{model}/comfort/iri.nc", site=study.names, allow_missing=True),
+        samples=expand("results/{site}/samples.nc", site=study.names),
+    output:
+        "results/comfort/{model}/agreement.nc",
+    params:
+        config=study.config("agreement"),
+    log:
+        "results/logs/agreement/{model}.log",
+    benchmark:
+        "results/benchmarks/agreement/{model}.tsv"
+    shell:
+        "python -m ridecomfort.steps.agreement --thresholds {input.thresholds:q}"
+        " --iso2631 {input.iso2631:q} --iri {input.iri:q} --samples {input.samples:q}"
+        " --config {params.config:q} --output {output:q} 2> {log:q}"
+
+
+# Critical sections on the reference line, for planners and digital maps.
+rule maps:
+    input:
+        code=modules.of_step("maps"),
+        road="results/{site}/road.nc",
+        comfort=expand(
+            "results/{site}/{model}/comfort/{method}.nc",
+            model=study.model,
+            method=["thresholds", "iso2631", "iri"],
+            allow_missing=True,
+        ),
+    output:
+        expand(
+            "results/maps/{site}_{method}.geojson",
+            method=["thresholds", "iso2631", "iri"],
+            allow_missing=True,
+        ),
+    params:
+        config=lambda wildcards: study.config("maps", wildcards.site),
+    log:
+        "results/logs/maps/{site}.log",
+    benchmark:
+        "results/benchmarks/maps/{site}.tsv"
+    shell:
+        "python -m ridecomfort.steps.maps --road {input.road:q} --thresholds {input.comfort[0]:q}"
+        " --iso2631 {input.comfort[1]:q} --iri {input.comfort[2]:q}"
+        " --config {params.config:q} --output {output:q} 2> {log:q}"

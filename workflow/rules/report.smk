@@ -1,12 +1,13 @@
 # Tables, figures and the page, from the results of all sites.
 results = [
-    *expand("results/{site}/{file}.nc", site=study.names, file=["road", "samples"]),
+    *expand("results/{site}/{file}.nc", site=study.names, file=["road", "samples", "inspection"]),
     *expand(
         "results/{site}/{model}/comfort/{method}.nc",
         site=study.names,
         model=study.model,
         method=["thresholds", "iso2631", "iri"],
     ),
+    *expand("results/comfort/{model}/agreement.nc", model=study.model),
     *expand("results/{site}/{model}/calibration.nc", site=study.calibrations, model=study.model),
     *expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
 ]

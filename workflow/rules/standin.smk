@@ -8,7 +8,7 @@ for site in study.made:
         input:
             code=modules.of_step("standin_road"),
         output:
-            crg=study.road(site),
+            crg=study.true_road(site),
             truth=f"data/{site}/truth/road.json",
         params:
             config=study.config("standin_road", site),
@@ -20,6 +20,27 @@ for site in study.made:
             "python -m ridecomfort.steps.standin_road --config {params.config:q}"
             " --output {output.crg:q} --truth {output.truth:q} 2> {log:q}"
 
+    if study.scan(site):
+
+        rule:
+            name:
+                f"standin_scan_{site}"
+            input:
+                code=modules.of_step("standin_scan"),
+                road=study.true_road(site),
+            output:
+                profiles=study.scan(site)["profiles"],
+                trajectory=study.scan(site)["trajectory"],
+            params:
+                config=study.config("standin_scan", site),
+            log:
+                f"results/logs/standin_scan/{site}.log",
+            benchmark:
+                f"results/benchmarks/standin_scan/{site}.tsv"
+            shell:
+                "python -m ridecomfort.steps.standin_scan --road {input.road:q} --config {params.config:q}"
+                " --output {output.profiles:q} --trajectory {output.trajectory:q} 2> {log:q}"
+
     if study.drives(site):
 
         rule:
@@ -27,7 +48,7 @@ for site in study.made:
                 f"standin_drives_{site}"
             input:
                 code=modules.of_step("standin_drives"),
-                road=study.road(site),
+                road=study.true_road(site),
                 vehicle=study.vehicle(site),
             output:
                 drives=study.drives(site),

@@ -193,8 +193,11 @@ def _outside(quantity: str, style: str, signal: np.ndarray, band: thresholds.Ban
     }
 
 
-def roughness(file, segment: float, *, smoothed: bool = False) -> Result:
-    """IRI per segment of a profile in a CSV file: columns ``s`` and any of HEIGHTS in m; of two tracks MRI and HRI."""
+def roughness(file, segment: float, *, smoothed: bool = False, local: float | None = None) -> Result:
+    """IRI per segment of a profile in a CSV file: columns ``s`` and any of HEIGHTS in m; of two tracks MRI and HRI.
+
+    ``local``: m/km; the stretches whose continuous IRI lies above are named (``iri.local_roughness``).
+    """
     table = _table(file)
     names = [name for name in HEIGHTS if name in table.columns]
     if "s" not in table.columns or not names:
@@ -211,12 +214,21 @@ def roughness(file, segment: float, *, smoothed: bool = False) -> Result:
         if {"left", "right"} <= set(names):
             found["MRI"] = iri.mean_of_tracks(profiles["left"], profiles["right"], s, segment, **settings)
             found["HRI"] = iri.half_car(profiles["left"], profiles["right"], s, segment, **settings)
+        spots = {
+            name: iri.local_roughness(profile, s, local, **settings) for name, profile in profiles.items() if local is not None
+        }
     except InputError as problem:
         raise InputError(str(problem), file=file) from None
     columns = {f"{name} [m/km]": each for name, each in found.items()}
     rows = pd.DataFrame({"from [m]": start, "to [m]": stop, **columns})
     signals = xr.Dataset({name: ("segment", each) for name, each in found.items()}, {"s": s})
     remarks = ["profile taken as averaged over 250 mm already" if smoothed else "moving average of 250 mm applied"]
+    for name, stretches in spots.items():
+        remarks.append(f"{name}: {len(stretches)} stretch{'' if len(stretches) == 1 else 'es'} with more than {local:g} m/km over 7.62 m (25 ft)")
+        remarks += [
+            f"  {each['start']:.1f} to {each['stop']:.1f} m, {each['peak']:.2f} m/km at {each['place']:.1f} m"
+            for each in stretches
+        ]
     return Result("iri", f"IRI at 80 km/h, segments of {segment:g} m", rows, remarks, describe(signals), "m/km")
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from . import enough, influence, methods
+from . import agreement, enough, influence, methods
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,13 @@ class SiteResults:
         return {"thresholds": self.thresholds, "iso2631": self.iso2631, "iri": self.iri}
 
 
-def gather(sites: Mapping[str, SiteResults], *, rule: str = "middle", seed: int = 0) -> xr.Dataset:
+def gather(
+    sites: Mapping[str, SiteResults],
+    *,
+    rule: str = "middle",
+    repetitions: int = agreement.REPETITIONS,
+    seed: int = 0,
+) -> xr.Dataset:
     """Assessment of the comfort methods over all sites, in one dataset.
 
     ``methods.agree`` of the sites (dim site ends with "pooled"), bands labelled by ``rule``; ``rank_correlation`` and
@@ -35,7 +41,8 @@ def gather(sites: Mapping[str, SiteResults], *, rule: str = "middle", seed: int 
     (place) of ``enough.interval_width`` for sections whose mean a_v reaches the lower edge of a band. NaN
     where a site has too few runs or no section whose outcome is open.
     """
-    found = methods.agree({name: methods.site(**each.methods, rule=rule) for name, each in sites.items()}, seed=seed)
+    graded = {name: methods.site(**each.methods, rule=rule) for name, each in sites.items()}
+    found = methods.agree(graded, repetitions=repetitions, seed=seed)
     found = found.merge(_influences(list(sites.values()))).merge(_widths(list(sites.values()), seed))
     found.attrs["rule"] = rule
     return found.assign_coords(place=list(sites))
@@ -53,8 +60,9 @@ def _influences(sites: list[SiteResults]) -> xr.Dataset:
                 rank[i, j], share[i, j] = told["spearman"].values, told["first_order"].values
     dims = ("place", "measure", "factor", "bound")
     answer = xr.Dataset(coords={"measure": measures, "factor": factors})
-    answer["rank_correlation"] = dims, rank, {"units": "1", "long_name": "rank correlation of a run's comfort with a factor"}
-    answer["first_order"] = dims, share, {"units": "1", "long_name": "share of the variance explained by the factor alone"}
+    one = {"units": "1"}
+    answer["rank_correlation"] = dims, rank, one | {"long_name": "rank correlation of a run's comfort with a factor"}
+    answer["first_order"] = dims, share, one | {"long_name": "share of the variance explained by the factor alone"}
     return answer
 
 
@@ -78,16 +86,20 @@ def _widths(sites: list[SiteResults], seed: int) -> xr.Dataset:
             answer["designs"][i, at] = each["designs"].values
             answer["open_sections"][i] = each.attrs["windows"]
     one = {"units": "1"}
-    answer["width"].attrs = one | {"long_name": "width of the 95 % interval of a probability, counted over smaller designs"}
-    answer["wilson"].attrs = one | {"long_name": "width of the Wilson interval of a probability"}
-    answer["designs"].attrs = one | {"long_name": "number of designs that the scatter is told from"}
-    answer["open_sections"].attrs = one | {"long_name": "pairs of a section and a band's edge that some runs reach, not all"}
+    meanings = {
+        "width": "width of the 95 % interval of a probability, counted over smaller designs",
+        "wilson": "width of the Wilson interval of a probability",
+        "designs": "number of designs that the scatter is told from",
+        "open_sections": "pairs of a section and the edge of a band that some runs reach and some do not",
+    }
+    for name, meaning in meanings.items():
+        answer[name].attrs = {"units": "1", "long_name": meaning}
     return answer
 
 
 def _interval_width(site: SiteResults, seed: int) -> xr.Dataset | None:
     """``enough.interval_width`` for whether the mean a_v of a section reaches an edge, None where it cannot be told."""
-    level = site.iso2631["window_mean"].transpose("run", "window").values
+    level = site.iso2631["window_mean"].transpose("run", ...).values
     critical = np.concatenate([level >= edge for edge in site.iso2631["band_lower"].values[1:]], axis=1)
     critical = critical[:, critical.any(axis=0) & ~critical.all(axis=0)]
     if not critical.shape[1] or not enough.slice_sizes(site.samples):

@@ -1,4 +1,4 @@
-"""What a run amounts to over a stretch of road: weighted rms, vibration dose and motion sickness dose."""
+"""What a run amounts to over a stretch of road: the quantities of ISO 2631-1, dose of motion sickness included."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import xarray as xr
 from numba import njit
 
 from ..vocabulary import describe
-from . import signals, weighting
+from . import quantities, signals, weighting
 
 AXES = ("a_x", "a_y", "a_z")
 
-NAMES = ("weighted_rms", "vdv", "msdv_z", "duration")
+NAMES = ("weighted_rms", "mtvv", "crest_factor", "vdv", "msdv_z", "duration")
 """What ``Doses.dataset`` holds."""
 
 
@@ -19,22 +19,30 @@ class Doses:
     """Doses of runs (run, time) from the samples at which they are within a stretch of road.
 
     ``distance`` (run, time) in m, NaN behind the end of a run; the stretch is from
-    ``start`` to ``end`` m. ``rate`` in Hz.
+    ``start`` to ``end`` m. ``rate`` in Hz; ``time_constant`` in s and ``method`` of the running rms, as in
+    ``quantities.running_rms``.
     """
 
-    def __init__(self, distance, rate: float, start: float, end: float) -> None:
+    def __init__(
+        self, distance, rate: float, start: float, end: float, time_constant: float = 1.0, method: str = "linear"
+    ) -> None:
         inside = (np.asarray(distance) >= start) & (np.asarray(distance) <= end)
         self.rate = signals.check_rate(rate)
         self._first = np.argmax(inside, axis=1)
         self._behind = inside.shape[1] - np.argmax(inside[:, ::-1], axis=1)
         self._behind[~inside.any(axis=1)] = 0
-        self._second, self._fourth = np.zeros((2, len(AXES), len(inside)))
+        self._averaging = time_constant, method
+        self._second, self._fourth, self._peak, self._mtvv = np.zeros((4, len(AXES), len(inside)))
         self._sickness = np.zeros(len(inside))
 
     def weighted(self, axis: int, rows: np.ndarray, acceleration: np.ndarray) -> None:
         """Take in the weighted acceleration (row, time) in m/s2 of some runs along one of AXES."""
-        sums = _sums(acceleration, self._first[rows], self._behind[rows])
-        self._second[axis, rows], self._fourth[axis, rows] = sums
+        first, behind = self._first[rows], self._behind[rows]
+        running = np.square(acceleration, dtype=float)
+        quantities.running_root(running, behind, self.rate, *self._averaging)
+        found = _sums(acceleration, first, behind)
+        self._second[axis, rows], self._fourth[axis, rows], self._peak[axis, rows] = found
+        self._mtvv[axis, rows] = _sums(running, first, behind)[2]
 
     def vertical(self, a_z, *, before: str = "rest") -> None:
         """Take in the vertical acceleration (run, time) in m/s2 of all runs, which is weighted by Wf here."""
@@ -44,15 +52,18 @@ class Doses:
             self._sickness[rows] = _sums(sick, self._first[rows], self._behind[rows])[0]
 
     def dataset(self, run) -> xr.Dataset:
-        """``weighted_rms`` and ``vdv`` (run, axis), without k factors; ``msdv_z`` and ``duration`` (run).
+        """``weighted_rms``, ``mtvv``, ``crest_factor``, ``vdv`` (run, axis), ``msdv_z``, ``duration`` (run).
 
-        Source: ISO 2631-1:1997 eq. 1, 5 and 9.2.1.
+        Without k factors. Source: ISO 2631-1:1997 eq. 1, 4, 5, 6.2.1 and 9.2.1.
         """
         duration = (self._behind - self._first) / self.rate
         with np.errstate(divide="ignore", invalid="ignore"):
             rms = np.sqrt(self._second / self.rate / duration)
+            crest = self._peak / rms
         variables = {
             "weighted_rms": (("run", "axis"), rms.T),
+            "mtvv": (("run", "axis"), self._mtvv.T.copy()),
+            "crest_factor": (("run", "axis"), crest.T),
             "vdv": (("run", "axis"), (self._fourth.T / self.rate) ** 0.25),
             "msdv_z": ("run", np.sqrt(self._sickness / self.rate)),
             "duration": ("run", duration),
@@ -62,11 +73,12 @@ class Doses:
 
 @njit(cache=True)
 def _sums(table, first, behind):
-    """Sums of the second and of the fourth powers of rows between two samples of each."""
-    second, fourth = np.zeros(len(table)), np.zeros(len(table))
+    """Sums of the second and of the fourth powers and the largest size of rows between two samples of each."""
+    second, fourth, peak = np.zeros(len(table)), np.zeros(len(table)), np.zeros(len(table))
     for row in range(len(table)):
         for sample in range(first[row], behind[row]):
             square = float(table[row, sample]) ** 2
             second[row] += square
             fourth[row] += square * square
-    return second, fourth
+            peak[row] = max(peak[row], square)
+    return second, fourth, np.sqrt(peak)

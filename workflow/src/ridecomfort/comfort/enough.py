@@ -66,7 +66,8 @@ def interval_width(
         },
         coords={"scheme": list(SCHEMES), "size": sizes},
     )
-    answer["width"].attrs = {"units": "1", "long_name": f"width of the {100 * confidence:g} % interval of a probability"}
+    meaning = f"width of the {100 * confidence:g} % interval of a probability"
+    answer["width"].attrs = {"units": "1", "long_name": meaning}
     answer["wilson"].attrs = {"units": "1", "long_name": "width of the Wilson interval"}
     answer["designs"].attrs = {"units": "1", "long_name": "number of designs that the scatter is told from"}
     answer["size"].attrs = {"units": "1", "long_name": "number of runs"}
@@ -89,6 +90,18 @@ def slice_sizes(samples: xr.Dataset) -> list[int]:
             if np.all(part == np.arange(size)):
                 answer.append(size)
     return answer
+
+
+def by_root(sizes, width) -> float:
+    """The w in w / sqrt(size), which widths (size,) of either scheme follow at last; NaN without any width.
+
+    Small designs count for more, there are more of them.
+    """
+    sizes, width = np.asarray(sizes, float), np.asarray(width, float)
+    known = np.isfinite(width) & (width > 0.0)
+    if not known.any():
+        return float("nan")
+    return float(np.exp(np.average(np.log(width[known] * np.sqrt(sizes[known])), weights=1.0 / sizes[known])))
 
 
 def runs_needed(width: float, share: float = 0.5, confidence: float = probability.CONFIDENCE) -> int:

@@ -11,8 +11,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 
 from ..errors import InputError
+from . import total
 
 WORKING_DAY = 8 * 3600.0
 """s; what daily exposure is referred to (A(8))."""
@@ -77,6 +79,32 @@ def repeated(vdv: float, msdv: float, duration: float, exposure: float) -> Dose:
     """
     times = _positive(exposure, "exposure") / _positive(duration, "duration")
     return Dose(float(vdv * times**0.25), float(msdv * times**0.5), float(exposure))
+
+
+def of_runs(runs: xr.Dataset, exposure: float) -> xr.Dataset:
+    """Health and sickness of a trip of ``exposure`` s that repeats a stretch, for each run over it (dim run).
+
+    ``runs``: ``doses.Doses.dataset``. Returns over run ``rms`` of the worst axis in m/s2 and ``a8``, ``vdv`` of the
+    worst axis in m/s1.75 (both with the k factors of health, 1.4 on x and y), ``msdv_z`` in m/s1.5,
+    ``vomiting_share`` in percent and ``illness_rating`` of 3; and ``worst_axis``, that of most runs.
+    """
+    factors = [total.HEALTH["seat", str(axis)[-1]][1] for axis in runs["axis"].values]
+    times = _positive(exposure, "exposure") / runs["duration"]
+    weighted = (runs["weighted_rms"] * factors).transpose("run", "axis")
+    rms, dose = weighted.max("axis"), times**0.5 * runs["msdv_z"]
+    worst = np.bincount(weighted.values.argmax(axis=1), minlength=len(factors)).argmax()
+    return xr.Dataset(
+        {
+            "rms": rms,
+            "a8": rms.copy(data=a8(rms.values, exposure)),
+            "vdv": (runs["vdv"] * factors).max("axis") * times**0.25,
+            "msdv_z": dose,
+            "vomiting_share": dose.copy(data=vomiting_share(dose.values)),
+            "illness_rating": dose.copy(data=illness_rating(dose.values)),
+            "worst_axis": runs["axis"].values[worst],
+        },
+        attrs={"exposure": float(exposure)},
+    )
 
 
 def vomiting_share(msdv_z, susceptibility: float = VOMITING):

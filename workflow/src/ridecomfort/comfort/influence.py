@@ -15,26 +15,59 @@ BINS = 60
 LEAST_RUNS = 16
 
 
-def first_order(factor, measure, bins: int = BINS) -> float:
-    """Share of the variance of a measure (run,) that is the mean at a given factor (run,): a first-order Sobol' index.
+BACKFITS = 8
+"""Rounds in which the additive model is fitted; independent factors need few."""
 
-    From given runs: the variance of the means over ``bins`` equal shares of the
-    runs by the factor, less what the scatter within them adds to it. Close to 0, and by chance a
-    little below, where the factor alone does not matter. NaN for a constant measure.
+MATTERS = 0.05
+"""Share of the variance from which an influence is said to matter."""
+
+
+def verdict(lower: float, upper: float) -> str:
+    """What an interval of ``first_order`` says of a factor: "matters", "does not matter" or "cannot be said"."""
+    if not (np.isfinite(lower) and np.isfinite(upper)):
+        return "cannot be said"
+    return "matters" if lower >= MATTERS else "does not matter" if upper < MATTERS else "cannot be said"
+
+
+def first_order(factors, measure, bins: int = BINS) -> np.ndarray:
+    """Shares of the variance of a measure (run,) owed to each of the ``factors`` (factor, run) alone.
+
+    First-order Sobol' indices from given runs with independent factors: an additive model, a
+    mean for each of ``bins`` equal shares of the runs by each factor, fitted to all factors
+    together, so that what one does does not blur the others; the variance of a factor's
+    means less what scatter adds to it. Close to 0, and by chance a little below, where a
+    factor alone does not matter. NaN for a constant measure.
     """
-    factor, measure = np.asarray(factor, float), np.asarray(measure, float)
-    bins = min(bins, len(factor) // 4)
-    if bins < 2:
-        raise InputError(f"{len(factor)} runs are too few to tell an influence; expected at least {LEAST_RUNS}")
-    total = measure.var(ddof=1)
+    factors, measure = np.atleast_2d(np.asarray(factors, float)), np.asarray(measure, float)
+    return _shares(_labels(factors, bins), measure)
+
+
+def _labels(factors: np.ndarray, bins: int) -> np.ndarray:
+    """Which of up to ``bins`` equal shares each run is in, by each factor."""
+    runs = factors.shape[1]
+    if runs < LEAST_RUNS:
+        raise InputError(f"{runs} runs are too few to tell an influence; expected at least {LEAST_RUNS}")
+    bins = min(bins, max(2, runs // 10))
+    return np.argsort(np.argsort(factors, axis=1, kind="stable"), axis=1) * bins // runs
+
+
+def _shares(labels: np.ndarray, measure: np.ndarray) -> np.ndarray:
+    """``first_order`` from the shares that the runs are in."""
+    rest = measure - measure.mean()
+    total = rest.var(ddof=1)
     if total == 0.0:
-        return float("nan")
-    parts = np.array_split(measure[np.argsort(factor, kind="stable")], bins)
-    sizes = np.array([len(part) for part in parts])
-    means = np.array([part.mean() for part in parts])
-    scatter = np.array([part.var(ddof=1) for part in parts])
-    between = np.sum(sizes * (means - measure.mean()) ** 2) / len(measure)
-    return float((between - np.mean(scatter) * (bins - 1) / len(measure)) / total)
+        return np.full(len(labels), np.nan)
+    counts = [np.bincount(label) for label in labels]
+    alone = [np.zeros(len(count)) for count in counts]
+    for _ in range(BACKFITS):
+        for i, (label, count) in enumerate(zip(labels, counts)):
+            step = np.bincount(label, rest) / np.maximum(count, 1)
+            alone[i] += step
+            rest = rest - step[label]
+    free = [np.count_nonzero(count) - 1 for count in counts]
+    scatter = rest @ rest / (len(rest) - sum(free) - 1)
+    between = [count @ means**2 - degrees * scatter for count, means, degrees in zip(counts, alone, free)]
+    return np.array(between) / len(rest) / total
 
 
 def influence(measure, samples: xr.Dataset, *, groups: int = 50, bins: int = BINS) -> xr.Dataset:
@@ -52,10 +85,10 @@ def influence(measure, samples: xr.Dataset, *, groups: int = 50, bins: int = BIN
     values = [np.asarray(samples[name], float) for name in factors]
     if any(len(each) != len(measure) for each in values):
         raise InputError(f"{len(measure)} values of the measure for {len(values[0])} samples", place="influence")
-    functions = {"spearman": spearman, "first_order": lambda x, y: first_order(x, y, bins)}
+    labels = _labels(np.array(values), bins)
     figures = {
-        name: np.array([_jackknife(function, factor, measure, groups) for factor in values])
-        for name, function in functions.items()
+        "spearman": np.array([_jackknife(lambda runs: spearman(x[runs], measure[runs]), len(x), groups) for x in values]),
+        "first_order": _jackknife(lambda runs: _shares(labels[:, runs], measure[runs]), len(measure), groups),
     }
     answer = xr.Dataset(
         {key: (("factor", "bound"), table) for key, table in figures.items()},
@@ -74,23 +107,24 @@ def measures(thresholds: xr.Dataset, iso2631: xr.Dataset, iri: xr.Dataset) -> di
     ``a_v``: mean of the total value over the site in m/s2; ``a_x``, ``a_y``, ``a_z``: percent of
     the sections outside the band of public transport; ``iri``: percent fair or worse at the run's speed.
     """
-    answer = {"a_v": iso2631["window_mean"].mean("window").values}
+    levels = iso2631["window_mean"]
+    answer = {"a_v": levels.mean([dim for dim in levels.dims if dim != "run"]).values}
     for axis in thresholds["axis"].values:
         answer[str(axis)] = thresholds["run_share"].sel(axis=axis, style="PT").values
     answer["iri"] = iri["run_share"].sel(quality=["F", "M", "P"]).sum("quality").values
     return answer
 
 
-def _jackknife(function, factor: np.ndarray, measure: np.ndarray, groups: int) -> tuple[float, float, float]:
-    """A figure of two series of independent runs with its 95 % interval.
+def _jackknife(function, runs: int, groups: int) -> np.ndarray:
+    """What a function of the indices of independent runs gives, (..., 3): for all runs, with its 95 % interval.
 
     A bootstrap repeats runs, which makes the scatter within a bin too small; leaving
     every ``groups``-th run out does not.
     """
-    estimate = function(factor, measure)
-    groups = min(groups, len(measure) // 2)
-    group = np.arange(len(measure)) % groups
-    left = np.array([function(factor[group != each], measure[group != each]) for each in range(groups)])
-    error = np.sqrt((groups - 1) / groups * np.sum((left - left.mean()) ** 2))
+    estimate = function(np.arange(runs))
+    groups = min(groups, runs // 2)
+    group = np.arange(runs) % groups
+    left = np.array([function(np.flatnonzero(group != each)) for each in range(groups)])
+    error = np.sqrt((groups - 1) / groups * np.sum((left - left.mean(axis=0)) ** 2, axis=0))
     half = stats.t.isf(0.025, groups - 1) * error
-    return estimate, estimate - half, estimate + half
+    return np.stack([estimate, estimate - half, estimate + half], axis=-1)

@@ -82,19 +82,21 @@ def evaluate(
     may be of two. Windows are sequential or ``sliding``.
 
     Returns the comfort dataset ``iso2631``: dims band, window, s, run. Beside what
-    all methods have, ``window_mean`` (run, window), the mean of a_v over each window of each run.
+    all methods have, ``window_mean`` (run, window), the mean of a_v over each window of each run;
+    of sliding windows only over every one that does not overlap the last (run, section).
     """
     table = bands.edges(limits)
     mean, counts, shares, numbers, levels, along = runs.Mean(), None, [], [], [], None
     for number, s, (signal,) in runs.checked(shards, ["a_v"]):
         if along is None:
             along = sections.windows(s, length, sliding=sliding)
+            apart = sections.windows(s, length)
             counts = np.zeros((len(table), len(along)), np.int64)
         mean.add(signal)
         found = np.array([along.whole(_within(signal, *edge)) for edge in table.values()])
         counts += found.sum(axis=1)
         shares.append(found.sum(axis=2))
-        levels.append(along.mean(signal).astype(np.float32))
+        levels.append(apart.mean(signal).astype(np.float32))
         numbers.append(number)
     number = np.concatenate(numbers)
     found = np.array([along.whole(_within(mean.value(), *edge)) for edge in table.values()])
@@ -103,7 +105,7 @@ def evaluate(
         "a_v": ("s", mean.value()),
         "band_lower": ("band", lower, {"units": "m/s2", "long_name": "lower edge of the band"}),
         "band_upper": ("band", upper, {"units": "m/s2", "long_name": "upper edge of the band"}),
-        "window_mean": (("run", "window"), np.concatenate(levels)),
+        "window_mean": (("run", "section" if sliding else "window"), np.concatenate(levels)),
     }
     variables |= runs.detections(found, counts, len(number), along, ("band",), np.concatenate(shares, axis=-1))
     return runs.dataset(

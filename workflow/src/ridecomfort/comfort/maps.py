@@ -42,8 +42,8 @@ def geojson(
     in m/s (``speed`` over s, or ``v_x`` of the dataset). The mildest class of a method is left out.
 
     A section in two overlapping bands of ISO 2631 is one feature: ``bands`` names both, ``class``
-    the one that ``rule`` of ``bands.label`` gives, of those that are likely if any is. Sliding sections that overlap in a
-    class are one feature, with the figures of the likeliest of them.
+    the one that ``rule`` of ``bands.label`` gives, of those that are likely if any is. Sliding
+    sections that overlap in a class are one feature, with the figures of the likeliest of them.
 
     ``project``: function of easting and northing in m that gives longitude and
     latitude in degrees. Without it coordinates are the road's own x and y in m,
@@ -130,8 +130,9 @@ def _label(comfort: xr.Dataset, shown: np.ndarray, rule: str) -> np.ndarray:
         str(name): (float(low), float(high))
         for name, low, high in zip(comfort["band"].values, comfort["band_lower"].values, comfort["band_upper"].values)
     }
+    end = start + float(comfort.attrs["critical_length"])
     total = np.concatenate([[0.0], np.cumsum(comfort["a_v"].values)])
-    first, behind = (np.searchsorted(s, edge - 1e-6) for edge in (start, start + float(comfort.attrs["critical_length"])))
+    first, behind = (np.searchsorted(s, edge - 1e-6) for edge in (start, end))
     return np.clip(bands.label((total[behind] - total[first]) / (behind - first), rule, limits), mildest, worst)
 
 

@@ -109,6 +109,9 @@ def agree(
         return float(np.mean(first == second))
 
     def kappa(first, second):
+        if np.ptp(first) == 0 or np.ptp(second) == 0:
+            # A method that knows one grade only neither agrees nor disagrees: kappa would be 0 by construction.
+            return float("nan")
         return agreement.kappa(agreement.confusion(first, second, (COMMON, COMMON)))
 
     figures = {name: np.full((len(PAIRS), len(groups), 3), np.nan) for name in ("kappa", "same", "spearman", "lag")}
@@ -159,7 +162,8 @@ def agree(
         for group in groups.values()
     ]
     answer["kappa_difference"] = (("site", "bound"), [(each.value, each.lower, each.upper) for each in closer])
-    answer["kappa_difference"].attrs = {"units": "1", "long_name": "kappa of ISO 2631 and IRI minus that of thresholding and IRI"}
+    meaning = "kappa of ISO 2631 and IRI minus that of thresholding and IRI"
+    answer["kappa_difference"].attrs = {"units": "1", "long_name": meaning}
     answer.attrs["verdict"], answer.attrs["reason"] = agreement.substantially_similar(similar)
     answer.attrs |= {"block": block, "repetitions": repetitions, "seed": seed}
     return answer

@@ -42,6 +42,10 @@ class Cascade:
         """Complex response at frequencies in Hz."""
         return signal.freqz_sos(self.sos, np.atleast_1d(frequency), fs=self.rate)[1].reshape(np.shape(frequency))
 
+    def filter(self, acceleration) -> np.ndarray:
+        """Weighted samples (..., time) in m/s2 of a whole signal in m/s2, from rest."""
+        return signal.sosfilt(self.sos, np.asarray(acceleration, float), axis=-1)
+
     def deviation(self, frequency) -> np.ndarray:
         """Magnitude against the analogue response at frequencies in Hz, in dB."""
         return 20.0 * np.log10(np.abs(self.response(frequency)) / self.weighting.factor(frequency))

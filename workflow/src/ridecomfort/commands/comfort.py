@@ -30,6 +30,7 @@ def arguments(parser) -> None:
         "--seat", type=float, nargs=2, metavar=("HZ", "DAMPING"), help="recorded on the floor: a_z through such a seat"
     )
     parser.add_argument("--segment", type=float, default=100.0, metavar="M", help="of the IRI (default 100)")
+    parser.add_argument("--local", type=float, metavar="M/KM", help="name the stretches of local roughness above this IRI")
     parser.add_argument("--smoothed", action="store_true", help="the profile is averaged over 250 mm already")
     parser.add_argument("--output", type=Path, metavar="FOLDER", help="for table and plot (default beside the CSV)")
 
@@ -38,7 +39,7 @@ def run(options) -> None:
     method = next(name for name in ("iso2631", "thresholds", "iri") if getattr(options, name))
     file = getattr(options, method)
     if method == "iri":
-        result = alone.roughness(file, options.segment, smoothed=options.smoothed)
+        result = alone.roughness(file, options.segment, smoothed=options.smoothed, local=options.local)
     else:
         recording = alone.recording(file, _columns(options))
         if method == "iso2631":

@@ -19,6 +19,15 @@ INPUT_TABLES = {
     "thresholds_manual": "Thresholds in m/s² for public transport (PT), normal (ND) and aggressive driving (AG).",
     "acc_thresholds": "Bands of the vibration total value in m/s² (ISO 2631-1, Annex C).",
     "IRI_thresholds": "Upper edges of the IRI classes in m/km as a function of speed.",
+    "weighting": "Largest deviation of the digital frequency weightings from the analogue ones, in dB.",
+}
+
+ROAD_TABLES = {
+    "roughness": "Roughness of the wheel tracks: ISO 8608 class, unevenness, waviness and IRI.",
+    "repair": "What was found on the roads and done to them: cells changed, the largest change, the spectrum before "
+    "and after.",
+    "smoothing": "Smoothing splines by cross-validation: cut-offs, and what they would take from roughness, IRI and "
+    "vertical acceleration.",
 }
 
 COMPARISON_TABLES = {
@@ -35,11 +44,25 @@ COMFORT_TABLES = {
     "rid_comf_res2": "Critical sections by the IRI with thresholds that depend on the speed driven.",
     "perception": "The vibration total value along the sites against the threshold of perception.",
     "exceedance": "Critical sections of the mean over the runs beside those of the single runs.",
+    "jerk": "Critical sections by thresholds of the jerk of the driver's manoeuvres.",
+    "vibration": "Quantities of ISO 2631-1 of one pass over the site, mean over the runs.",
+    "exposure": "Health and motion sickness of a trip that is made of nothing but the site.",
+    "iri_resolution": "Critical sections by the IRI of a survey and by the IRI in full resolution.",
+    "iri_tracks": "The IRI of the wheel tracks, and what a survey of the site hides.",
+    "agreement": "Agreement of the comfort methods, section by section, with 95 % intervals.",
+    "confusion": "Number of sections by the grade that one method and the other give.",
+    "influence": "What of the comfort of a run is owed to its speed, its lateral position and the road's friction.",
+    "number_of_runs": "Width of the 95 % interval of a section's probability of being critical, by number of runs.",
     "claims": "The paper's claims, answered from the tables of this study.",
 }
 
 ROAD_FIGURES = {
     "testsection_figs": "The sites: plan, height, slope and curvature of the reference line.",
+}
+
+SMOOTHING_FIGURES = {
+    "smoothing": "Smoothing splines by cross-validation: error against held-out heights by cut-off, spectrum of the "
+    "road and of the vertical acceleration of one drive, with and without.",
 }
 
 METHOD_FIGURES = {
@@ -70,6 +93,13 @@ COMFORT_FIGURES = {
     "IRI_thresholds": "IRI along the sites as a survey reports it and in full resolution, on the classes at the mean "
     f"speed of the runs; {STRIPS}",
     "critical_shares": "Share of critical sections by method and class, this study beside the paper.",
+    "iri_resolution": "Share of the road by the class of the IRI, of a survey and in full resolution.",
+    "agreement": "Agreement of the methods on each site and on all: weighted kappa, rank correlation along the road, "
+    "and by how much the first method lags behind the second; 95 % intervals by block bootstrap.",
+    "influence": "Share of the variance between runs that speed, lateral position and friction explain alone, "
+    "with 95 % intervals.",
+    "number_of_runs": "Width of the 95 % interval of a section's probability of being critical against the number "
+    "of runs, for Latin hypercubes and for plain Monte Carlo.",
 }
 
 
@@ -86,7 +116,7 @@ def calibrated_on(sites: Mapping[str, Mapping]) -> list[str]:
 
 def tables(sites: Mapping[str, Mapping]) -> dict[str, str]:
     """Name and caption of every table of a study of these sites, in the order of the page."""
-    found = dict(INPUT_TABLES)
+    found = INPUT_TABLES | ROAD_TABLES
     if with_drives(sites):
         found |= COMPARISON_TABLES
     if calibrated_on(sites):
@@ -98,11 +128,30 @@ def tables(sites: Mapping[str, Mapping]) -> dict[str, str]:
 def figures(sites: Mapping[str, Mapping]) -> dict[str, str]:
     """Name and caption of every figure of a study of these sites, in the order of the page."""
     found = METHOD_FIGURES | ROAD_FIGURES
+    found |= {f"views_{name}": views_caption(name) for name in sites}
+    found |= {f"spectrum_{name}": spectrum_caption(name) for name in sites}
+    found |= SMOOTHING_FIGURES
     if calibrated_on(sites):
         found |= CALIBRATION_FIGURES
     if with_drives(sites):
         found |= COMPARISON_FIGURES
     return found | COMFORT_FIGURES
+
+
+def views_caption(site: str) -> str:
+    """Caption of a site's views of its road."""
+    return (
+        f"{label(site)}: plan, height, slope, curvature and bank of the reference line, and the height of every cell "
+        "above the median of 5 m of its track, with the dips, bumps, outliers and holes that were found."
+    )
+
+
+def spectrum_caption(site: str) -> str:
+    """Caption of a site's displacement spectra."""
+    return (
+        f"{label(site)}: displacement spectra of the wheel tracks on the classes of ISO 8608, with waviness, and the "
+        "coherence of left and right track."
+    )
 
 
 def opti_res_caption(site: str) -> str:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from . import catalogue, published
 from .study import Study
 from .table import Column, Source, Table
+from .tables.agreement import DIFFERENCE, POOLED, pair_title, place_title
 from .tables.calibration import CHANGE
 from .tables.comfort import OURS, PAPER, PERCEPTION
 
@@ -30,13 +31,15 @@ class Evidence:
 
     ``sections`` maps (method, class) to site to (C, R_c in percent), ``improvement`` maps a site
     to the change of NRMSE in percent by signal, ``lowest`` a site to its lowest a_v in m/s2,
-    ``calibrated_on`` a site to the site that its parameters come from.
+    ``calibrated_on`` a site to the site that its parameters come from. ``closer``: kappa of ISO 2631
+    with the IRI, that of thresholding with it, and the difference with its 95 % interval, (estimate, lower, upper) each.
     """
 
     sections: Mapping[tuple[str, str], Mapping[str, tuple[int, float]]]
     improvement: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     lowest: Mapping[str, float] = field(default_factory=dict)
     calibrated_on: Mapping[str, str] = field(default_factory=dict)
+    closer: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
 
     def counts(self, method: str, name: str) -> dict[str, int]:
         """Critical sections of the paper's sites; sites that are missing are left out."""
@@ -74,7 +77,20 @@ def from_tables(tables: Mapping[str, Table], calibrated_on: Mapping[str, str]) -
                 improvement[site] = dict(list(zip(keys, row))[2:])
     rows = {row[0]: row[1] for row in tables["perception"].rows}
     lowest = {site: rows[catalogue.label(site)] for site in SITES if catalogue.label(site) in rows}
-    return Evidence(sections, improvement, lowest, calibrated_on)
+    return Evidence(sections, improvement, lowest, calibrated_on, _closer(tables.get("agreement")))
+
+
+def _closer(table: Table | None) -> dict[str, tuple[float, float, float]]:
+    """Kappas over the paper's three sites together; empty where the study is of others."""
+    if table is None:
+        return {}
+    rows = {row[:2]: tuple(row[2:5]) for row in table.rows}
+    sites = {site for _, site in rows} - {place_title(POOLED)}
+    keys = {"ISO 2631": pair_title("iso2631 - iri"), "thresholding": pair_title("thresholds - iri")}
+    keys["difference"] = DIFFERENCE
+    if sites != {catalogue.label(site) for site in SITES}:
+        return {}
+    return {name: rows[title, place_title(POOLED)] for name, title in keys.items()}
 
 
 def from_paper() -> Evidence:
@@ -117,7 +133,7 @@ def table(study: Study, tables: Mapping[str, Table]) -> Table:
         (number, claim, our.verdict, our.reason, its.verdict)
         for number, (claim, our, its) in enumerate(zip(published.figures()["claims"], ours, paper), start=1)
     )
-    names = ", ".join(name for name in tables if name in (*_CLASSES, "perception") or name.startswith("opti_res_"))
+    names = ", ".join(name for name in tables if name in (*_CLASSES, "perception", "agreement") or name.startswith("opti_res_"))
     sources = (
         Source("claim", "report/published.yaml", "claims", "the paper's conclusions"),
         Source("verdict, reason", f"tables {names}", f"rows of {OURS}", "report/claims.py, one rule a claim"),
@@ -182,7 +198,8 @@ def agreement(found: Evidence) -> list[Answer]:
 
     Each class of a method in which anything is critical names the site with the largest share.
     The IRI's site is the one that most of its classes name; a method agrees as often as its
-    classes name that site.
+    classes name that site. Where the methods were held against each other section by section, the difference
+    of their weighted kappas with the IRI says which is closer, and its interval whether that can be said.
     """
     leaders = {method: _leaders(found, keys) for method, keys in _METHODS.items()}
     if not all(leaders.values()) or any(set(found.shares(*key)) != set(SITES) for key in _METHODS["IRI"]):
@@ -194,16 +211,22 @@ def agreement(found: Evidence) -> list[Answer]:
     iso, thresholding = share["ISO 2631"], share["Thresholding"]
     closer = iso[0] * thresholding[1] > thresholding[0] * iso[1]
     site = catalogue.label(reference)
-    return [
-        Answer(
-            HOLDS if clear and reference == "ts2" else FAILS,
-            f"by the IRI {site} is the most critical site in {named.count(reference)} of {len(named)} classes",
-        ),
-        Answer(
-            HOLDS if closer else FAILS,
-            f"so it is in {iso[0]} of {iso[1]} bands of ISO 2631 and {thresholding[0]} of {thresholding[1]} thresholds",
-        ),
-    ]
+    leading = Answer(
+        HOLDS if clear and reference == "ts2" else FAILS,
+        f"by the IRI {site} is the most critical site in {named.count(reference)} of {len(named)} classes",
+    )
+    reason = f"so it is in {iso[0]} of {iso[1]} bands of ISO 2631 and {thresholding[0]} of {thresholding[1]} thresholds"
+    if found.closer:
+        return [leading, _closer_by_kappa(found.closer, reason)]
+    return [leading, Answer(HOLDS if closer else FAILS, reason)]
+
+
+def _closer_by_kappa(kappas: Mapping[str, tuple[float, float, float]], reason: str) -> Answer:
+    difference, lower, upper = kappas["difference"]
+    verdict = HOLDS if lower > 0 else FAILS if upper < 0 else UNKNOWN
+    figures = f"{kappas['ISO 2631'][0]:.2f} of ISO 2631, {kappas['thresholding'][0]:.2f} of thresholding"
+    interval = f"{difference:.2f} ({lower:.2f} to {upper:.2f})"
+    return Answer(verdict, f"{reason}; section by section weighted kappa with the IRI {figures}, difference {interval}")
 
 
 def perception(found: Evidence) -> list[Answer]:

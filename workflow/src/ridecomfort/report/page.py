@@ -16,6 +16,7 @@ from .table import Table, to_html
 
 SECTIONS = (
     ("sites", "Sites", ("sites", "testsection_figs")),
+    ("roads", "Road surfaces", ("views_*", "roughness", "spectrum_*", "repair", "smoothing", "smoothing.figure")),
     (
         "method",
         "Method",
@@ -27,6 +28,7 @@ SECTIONS = (
             "acc_thresholds",
             "IRI_thresholds",
             "validation_iso",
+            "weighting",
         ),
     ),
     (
@@ -35,9 +37,23 @@ SECTIONS = (
         ("leastsquare", "optichain", "convergence", "constraints", "baseline_res", "opti_res_*", "opti_plots"),
     ),
     ("overview", "Comfort at a glance", ("critical_shares", "exceedance")),
-    ("thresholding", "Thresholding", ("thresholding_results_1", "thresholding_results_2", "thresholding_table")),
-    ("iso2631", "ISO 2631", ("ride_comfors", "rid_comf_res", "perception")),
-    ("iri", "International Roughness Index", ("IRI_thresholds.figure", "rid_comf_res2")),
+    (
+        "thresholding",
+        "Thresholding",
+        ("thresholding_results_1", "thresholding_results_2", "thresholding_table", "jerk"),
+    ),
+    ("iso2631", "ISO 2631", ("ride_comfors", "rid_comf_res", "perception", "vibration", "exposure")),
+    (
+        "iri",
+        "International Roughness Index",
+        ("IRI_thresholds.figure", "rid_comf_res2", "iri_resolution.figure", "iri_resolution", "iri_tracks"),
+    ),
+    (
+        "agreement",
+        "Agreement of the methods",
+        ("agreement.figure", "agreement", "confusion", "influence.figure", "influence"),
+    ),
+    ("runs", "Number of runs", ("number_of_runs.figure", "number_of_runs")),
 )
 """Key, title and pieces of each section; ``.figure`` tells a figure from the table of the same name."""
 
@@ -81,14 +97,14 @@ def _lead(study: Study) -> str:
 
 
 def _sections(study: Study, tables: Mapping[str, Table], figures: Mapping[str, bytes]):
-    captions = {**catalogue.METHOD_FIGURES, **catalogue.ROAD_FIGURES, **catalogue.CALIBRATION_FIGURES}
-    captions |= {**catalogue.COMPARISON_FIGURES, **catalogue.COMFORT_FIGURES}
+    captions = catalogue.figures(study.settings["sites"])
     for key, title, names in SECTIONS:
         pieces = []
         for name in names:
             figure = name.removesuffix(".figure")
             if name.endswith("*"):
                 pieces += [_table(table) for other, table in tables.items() if other.startswith(name[:-1])]
+                pieces += [_figure(other, captions[other], figures[other]) for other in figures if other.startswith(name[:-1])]
             elif name in tables:
                 pieces.append(_table(tables[name]))
             elif figure in figures:
@@ -133,7 +149,7 @@ def _files(study: Study) -> list[tuple[str, ...]]:
         for name, file in site.files.items():
             found.append(_file(file, getattr(site, name)))
     found += [_file(study.calibration_files[name], dataset) for name, dataset in study.calibrations.items()]
-    return found
+    return [*found, _file(study.assessment_file, study.assessment)]
 
 
 def _file(file: str, dataset) -> tuple[str, ...]:

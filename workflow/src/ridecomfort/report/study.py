@@ -28,6 +28,7 @@ class Site:
     thresholds: xr.Dataset
     iso2631: xr.Dataset
     iri: xr.Dataset
+    inspection: xr.Dataset | None = None
     comparison: xr.Dataset | None = None
     standin: bool = False
     title: str = ""
@@ -46,6 +47,7 @@ class Site:
 class Study:
     """The sites in order, the calibrations by the site that they were made on, and the settings.
 
+    ``assessment`` is what the sites together say of the methods (``comfort.assessment.gather``).
     ``settings`` is the configuration that the report was made with (plain data), ``software``
     maps names of software to versions.
     """
@@ -53,6 +55,8 @@ class Study:
     sites: tuple[Site, ...]
     calibrations: Mapping[str, xr.Dataset] = field(default_factory=dict)
     calibration_files: Mapping[str, str] = field(default_factory=dict)
+    assessment: xr.Dataset | None = None
+    assessment_file: str = ""
     model: str = "base"
     settings: Mapping = field(default_factory=dict)
     software: Mapping[str, str] = field(default_factory=dict)

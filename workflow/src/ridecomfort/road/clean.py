@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from numba import njit
-from scipy import sparse
+from scipy import ndimage, sparse
 from scipy.sparse.linalg import spsolve
 
 from ..errors import InputError
@@ -46,8 +46,11 @@ _BLOCK = 100
 _PASSES = 4
 """Most repetitions: an outlier may hide behind a larger one beside it."""
 
-MEASURED, OUTLIER, FILLED = 0, 1, 2
-"""What the variable ``treated`` says of a cell."""
+VOUCHED = 10
+"""Points of a scan that must agree on the height of a dip (`survey.grid`, ``support``) for it to be real."""
+
+MEASURED, OUTLIER, FILLED, KEPT = 0, 1, 2, 3
+"""What the variable ``treated`` says of a cell; what looks like an outlier and was kept is as measured."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,7 @@ class Report:
         return said
 
 
-def find_outliers(elevation: np.ndarray) -> np.ndarray:
+def find_outliers(elevation: np.ndarray, vouched: np.ndarray | None = None) -> np.ndarray:
     """True for cells (u, v) that no neighbour speaks for: measurement failures, not defects of the road.
 
     Deviations are those from the median of the 5 x 5 cells around, after the
@@ -87,15 +90,18 @@ def find_outliers(elevation: np.ndarray) -> np.ndarray:
     `THRESHOLD` robust standard deviations and `FLOOR`. It is an outlier unless two
     of its eight neighbours (one at an edge, or one for which two speak) lie
     `SUPPORT` of its deviation or more to the same side: potholes and joints are
-    larger than a cell or two. A bump above `BUMP` is an outlier unless it extends
-    along the road or across it. Repeated without those found, until none is.
+    larger than a cell or two. A smaller dip looks like an outlier in the grid and
+    is kept only where ``vouched`` (u, v) is True: many points of a scan saw it. A
+    bump above `BUMP` is an outlier unless it extends along the road or across it.
+    Repeated without those found, until none is.
     """
     found = np.zeros(elevation.shape, dtype=bool)
+    vouched = found.copy() if vouched is None else vouched
     for _ in range(_PASSES):
         kept = np.where(found, np.nan, elevation)
         level = _level(kept)
         deviation = _deviation(level)
-        more = _unsupported(level, deviation, _thresholds(deviation))
+        more = _unsupported(level, deviation, _thresholds(deviation), vouched)
         if not more.any():
             break
         found |= more
@@ -143,16 +149,23 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
         ``refuse`` or ``fill``, those of repaired outliers apart.
 
     The road gains ``treated`` (u, v): 0 as measured, 1 a repaired outlier, 2 a
-    filled hole; ``treatment`` gains a line for each step. Raises InputError for
-    what is to be refused.
+    filled hole, 3 what looks like an outlier and was kept; ``treatment`` gains a
+    line for each step. A road with the ``support`` of `survey.grid` is a scan: dips
+    that `VOUCHED` points agree on are no outliers, and notches in its edge no longer
+    than `LARGEST_HOLE` are holes, for the edge is that of the scanner's swath.
+    Raises InputError for what is to be refused.
     """
     chosen = _choose(options)
     elevation = road.elevation.values
     u, v = road.u.values, road.v.values
     spacing = (u[-1] - u[0]) / (len(u) - 1), (v[-1] - v[0]) / (len(v) - 1)
     coarse = max(spacing) > COARSEST
-    outlier = np.zeros(elevation.shape, dtype=bool) if coarse else find_outliers(elevation)
+    vouched = road.support.values >= VOUCHED if "support" in road else None
+    outlier = np.zeros(elevation.shape, dtype=bool) if coarse else find_outliers(elevation, vouched)
+    kept = np.zeros_like(outlier)
     inside = _inside(elevation)
+    if "support" in road:
+        inside = _swath(inside, round(LARGEST_HOLE / spacing[0]))
     hole = inside & ~np.isfinite(elevation)
     said = [road.attrs.get("treatment", "")] if road.attrs.get("treatment") else []
     before = len(said)
@@ -162,7 +175,7 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
         if chosen["outliers"] == "refuse":
             raise InputError(f"{outlier.sum()} outliers, {where} (or outliers: repair)", place="road.outliers")
         said.append(f"{outlier.sum()} cells look like outliers, {where}: kept")
-        outlier[:] = False
+        outlier, kept = kept, outlier
     if hole.any() and chosen["holes"] == "refuse":
         i, j = np.argwhere(hole)[0]
         raise InputError(
@@ -171,7 +184,7 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
     banking = road.bank.values[:, None] * v
     repaired = fill(np.where(outlier, np.nan, elevation) - banking, spacing, inside=inside) + banking
     repaired = np.where(outlier | hole, repaired, elevation)
-    treated = np.where(outlier, OUTLIER, np.where(hole, FILLED, MEASURED)).astype(np.int8)
+    treated = np.select([outlier, hole, kept], [OUTLIER, FILLED, KEPT], MEASURED).astype(np.int8)
     cleaned = road.copy()
     cleaned["elevation"] = (("u", "v"), repaired, road.elevation.attrs)
     cleaned["treated"] = (
@@ -179,8 +192,8 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
         treated,
         {
             "long_name": "what was done to the height of the cell",
-            "flag_values": np.arange(3, dtype=np.int8),
-            "flag_meanings": "measured outlier_repaired hole_filled",
+            "flag_values": np.arange(4, dtype=np.int8),
+            "flag_meanings": "measured outlier_repaired hole_filled outlier_kept",
         },
     )
     report = _report(road, cleaned, outlier, hole)
@@ -233,6 +246,13 @@ def _inside(elevation: np.ndarray) -> np.ndarray:
         between = (rows > full[0]) & (rows < full[-1])
         beyond = np.where(empty[:, None], beyond[before] | beyond[after] | ~between[:, None], beyond)
     return ~beyond
+
+
+def _swath(inside: np.ndarray, cells: int) -> np.ndarray:
+    """What lies inside (u, v), with notches of up to so many cells along u closed."""
+    padded = np.pad(inside, ((cells, cells), (0, 0)), mode="edge")
+    closed = ndimage.binary_closing(padded, np.ones((cells + 1, 1)))
+    return inside | closed[cells : len(closed) - cells]
 
 
 def _level(elevation: np.ndarray) -> np.ndarray:
@@ -300,8 +320,8 @@ def _thresholds(deviation: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True)
-def _unsupported(level, deviation, limits):
-    """True for suspects that their neighbours do not speak for."""
+def _unsupported(level, deviation, limits, vouched):
+    """True for suspects that neither their neighbours nor, for dips, many points of a scan speak for."""
     nu, nv = level.shape
     speakers = np.zeros((nu, nv), dtype=np.int8)
     one = np.zeros((nu, nv, 2), dtype=np.int64)
@@ -325,7 +345,8 @@ def _unsupported(level, deviation, limits):
             if abs(here) > limits[i]:
                 chain = speakers[i, j] == 1 and (at_edge[i, j] or speakers[one[i, j, 0], one[i, j, 1]] >= 2)
                 is_leaf = here > BUMP and not _extends(level, i, j, here)
-                alone[i, j] = is_leaf or not (speakers[i, j] >= 2 or chain)
+                seen = here < 0 and vouched[i, j]
+                alone[i, j] = is_leaf or not (speakers[i, j] >= 2 or chain or seen)
     return alone
 
 

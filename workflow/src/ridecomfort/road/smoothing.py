@@ -43,18 +43,25 @@ def smooth(values: np.ndarray, spacing: float, wavelength: float) -> np.ndarray:
     """Equidistant values (n, columns) smoothed along their first axis; waves of ``wavelength`` keep half their height.
 
     Minimises ``sum((f - y)^2) + lambda sum(f''^2)``: the cubic smoothing spline on
-    a grid (Eilers 2003, Anal. Chem. 75, 3631). NaN counts for nothing, and the
-    spline is carried on over it.
+    a grid (Eilers 2003, Anal. Chem. 75, 3631). NaN counts for nothing: the spline
+    is carried on over gaps and `FOLDS` values beyond the ends, further out NaN stays.
+    A single value is its own spline.
     """
     known = np.isfinite(values)
-    bands = _stiffness(len(values), penalty(wavelength) / spacing**4)
-    fitted = np.empty_like(values, dtype=float)
+    weight = penalty(wavelength) / spacing**4
+    fitted = np.full(values.shape, np.nan)
     alike: dict[bytes, list[int]] = {}
     for column, pattern in enumerate(known.T):
         alike.setdefault(pattern.tobytes(), []).append(column)
     for columns in alike.values():
-        pattern = known[:, columns[0]]
-        fitted[:, columns] = _solve(bands, np.where(pattern[:, None], values[:, columns], 0.0), pattern)
+        places = np.flatnonzero(known[:, columns[0]])
+        if not places.size:
+            continue
+        span = slice(max(places[0] - FOLDS, 0), places[-1] + 1 + FOLDS)
+        if places.size == 1:
+            fitted[span, columns] = values[places[0], columns]
+        else:
+            fitted[span, columns] = _spline(values[span, columns], known[span, columns[0]], weight)
     return fitted
 
 
@@ -122,7 +129,8 @@ def _stiffness(count: int, weight: float) -> np.ndarray:
     return weight * bands
 
 
-def _solve(bands: np.ndarray, values: np.ndarray, known: np.ndarray) -> np.ndarray:
-    system = bands.copy()
+def _spline(values: np.ndarray, known: np.ndarray, weight: float) -> np.ndarray:
+    """The smoothing spline through the known values (n, columns), of which there are two or more."""
+    system = _stiffness(len(values), weight)
     system[2] += known
-    return solveh_banded(system, values, overwrite_ab=True, check_finite=False)
+    return solveh_banded(system, np.where(known[:, None], values, 0.0), overwrite_ab=True, check_finite=False)

@@ -13,7 +13,7 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from ..errors import InputError
 from ..vocabulary import describe
-from . import crg, smoothing
+from . import cells, crg, smoothing
 
 POSE = ("x", "y", "z", "heading", "roll", "pitch")
 """Position in m and attitude in rad of the scanner over ``time``: what a trajectory holds."""
@@ -23,15 +23,6 @@ KNOTS = 5.0
 
 FOLLOWED = 20.0
 """m; waves of the trajectory's height and roll that slope and bank keep half of."""
-
-REJECTED = 6.0
-"""Robust standard deviations (1.4826 MAD) from the median of its cell beyond which a point is dropped."""
-
-REJECTED_FLOOR = 0.002
-"""m that a point may always lie from the median of its cell."""
-
-_LEAST = 3
-"""Points that make a height."""
 
 _CARRIED = 10
 """Cross sections behind the latest profile that may still gain points."""
@@ -153,15 +144,17 @@ def grid(
     spacing: tuple[float, float] = (0.1, 0.1),
     width: float = 4.0,
 ) -> tuple[xr.Dataset, Report]:
-    """The road that a scan saw: a plane fitted to the points of each cell, read at its middle.
+    """The road that a scan saw: a surface fitted to the points of each cell (`cells.fit`), read at its middle.
 
     ``profiles`` stream by, a block at a time; only those around the scanner are
     held. ``trajectory`` has `POSE` over ``time``, of the scanner itself. The grid
-    has ``spacing`` m along u and v and reaches ``width`` m across. Points further
-    than `REJECTED` robust standard deviations from the median of their cell are
-    dropped; cells with fewer than three points stay NaN. Height, slope and bank
-    follow the trajectory; ``u`` starts where the first points lie. Raises InputError
-    for a trajectory that cannot be used or that does not span the profiles.
+    has ``spacing`` m along u and v and reaches ``width`` m across. Outliers of
+    their cell are dropped; cells with fewer than three points stay NaN. ``support`` (u, v) counts
+    the points that agree on the height of a cell, none where they are those of a
+    single profile: `clean.clean` keeps the dips that many points saw, however
+    small. Height, slope and bank follow the trajectory; ``u`` starts where the
+    first points lie. Raises InputError for a trajectory that cannot be used or
+    that does not span the profiles.
     """
     smoothed, choices = smooth_trajectory(trajectory)
     line = reference_line(smoothed, spacing=spacing[0])
@@ -169,6 +162,7 @@ def grid(
     half = round(0.5 * width / spacing[1])
     v = spacing[1] * np.arange(-half, half + 1)
     heights = np.full((len(line.u), len(v)), np.nan)
+    support = np.zeros(heights.shape, dtype=np.int32)
     counts = np.zeros(5, dtype=np.int64)
     held = np.empty((5, 0))
     finished, guess, last = 0, 0, np.array([np.inf, np.inf])
@@ -189,9 +183,9 @@ def grid(
         held = np.concatenate([held, points], axis=1)
         complete = min(reached - _CARRIED, len(line.u))
         if complete > finished:
-            held = _settle(held, finished, complete, heights, counts)
+            held = _settle(held, finished, complete, spacing, heights, support, counts)
             finished = complete
-    _settle(held, finished, len(line.u), heights, counts)
+    _settle(held, finished, len(line.u), spacing, heights, support, counts)
     seen = np.flatnonzero(np.isfinite(heights).any(axis=1))
     if not seen.size:
         raise InputError("no point lies within the grid around the trajectory", place="profiles")
@@ -202,6 +196,7 @@ def grid(
     road = xr.Dataset(
         {
             "elevation": (("u", "v"), elevation),
+            "support": (("u", "v"), support),
             **{name: ("u", getattr(line, name)) for name in ("x", "y", "heading", "slope", "bank")},
             "curvature": ("u", crg.curvature(line.x, line.y, spacing[0])),
         },
@@ -216,10 +211,10 @@ def grid(
     return describe(road.assign_coords(u=road.u - road.u[0])), report
 
 
-def _settle(held: np.ndarray, first: int, end: int, heights: np.ndarray, counts: np.ndarray) -> np.ndarray:
-    """Heights of the cross sections from ``first`` to ``end`` from their points; gives back the others."""
+def _settle(held: np.ndarray, first: int, end: int, size: tuple, heights, support, counts) -> np.ndarray:
+    """Heights and support of the cross sections from ``first`` to ``end`` from their points; gives back the others."""
     now = held[0] < end
-    _fit(held[:, now & (held[0] >= first)], first, end, heights, counts)
+    cells.fit(held[:, now & (held[0] >= first)], first, end, size, heights, support, counts)
     return held[:, ~now]
 
 
@@ -294,69 +289,3 @@ def _place(poses, across, height, line_x, line_y, heading, z, bank, du, v0, dv, 
         if lowest < rows:
             reached = lowest
     return points[:, :used], guess, reached
-
-
-@njit(cache=True)
-def _fit(points, first, end, heights, counts):
-    """Planes through the points of each cell without its outliers, read at the middle of the cell."""
-    nv = heights.shape[1]
-    cells = (end - first) * nv
-    start = np.zeros(cells + 1, dtype=np.int64)
-    for k in range(points.shape[1]):
-        start[int(points[0, k] - first) * nv + int(points[1, k]) + 1] += 1
-    start = np.cumsum(start)
-    order = np.empty(points.shape[1], dtype=np.int64)
-    place = start[:-1].copy()
-    for k in range(points.shape[1]):
-        cell = int(points[0, k] - first) * nv + int(points[1, k])
-        order[place[cell]] = k
-        place[cell] += 1
-    for cell in range(cells):
-        of_cell = order[start[cell] : start[cell + 1]]
-        if len(of_cell) >= _LEAST:
-            heights[first + cell // nv, cell % nv] = _plane(points[2], points[3], points[4], of_cell, counts)
-
-
-@njit(cache=True)
-def _plane(du, dv, z, chosen, counts):
-    """Height at the origin of the least-squares plane through the chosen points without outliers.
-
-    Outliers are dropped twice: those far from the median, then those far from the plane through the others.
-    """
-    level, slope_u, slope_v = np.median(z[chosen]), 0.0, 0.0
-    away = np.empty(len(chosen))
-    for _ in range(2):
-        for k, point in enumerate(chosen):
-            away[k] = abs(z[point] - level - slope_u * du[point] - slope_v * dv[point])
-        limit = max(REJECTED * 1.4826 * np.median(away), REJECTED_FLOOR)
-        level, slope_u, slope_v = _least_squares(du, dv, z, chosen, away <= limit)
-    counts[2] += np.sum(away > limit)
-    return level
-
-
-@njit(cache=True)
-def _least_squares(du, dv, z, chosen, used):
-    """Level and slopes of the plane through the used points; level only where they do not spread over the cell."""
-    n = 0
-    mean_u = mean_v = mean_z = 0.0
-    for k, point in enumerate(chosen):
-        if used[k]:
-            n += 1
-            mean_u += du[point]
-            mean_v += dv[point]
-            mean_z += z[point]
-    mean_u, mean_v, mean_z = mean_u / n, mean_v / n, mean_z / n
-    uu = uv = vv = uz = vz = 0.0
-    for k, point in enumerate(chosen):
-        if used[k]:
-            a, b, c = du[point] - mean_u, dv[point] - mean_v, z[point] - mean_z
-            uu += a * a
-            uv += a * b
-            vv += b * b
-            uz += a * c
-            vz += b * c
-    determinant = uu * vv - uv * uv
-    if n < 2 * _LEAST or determinant < 1e-4 * uu * vv or min(uu, vv) < n * 1e-5:
-        return mean_z, 0.0, 0.0
-    slope_u, slope_v = (uz * vv - vz * uv) / determinant, (vz * uu - uz * uv) / determinant
-    return mean_z - slope_u * mean_u - slope_v * mean_v, slope_u, slope_v

@@ -94,11 +94,7 @@ def profiles(
     count = int(true.time.values[-1] * scanner.rate)
     rng = np.random.default_rng([seed, 2])
     gaps = rng.integers(0, count, rng.poisson(scanner.gaps_per_km * true.time.values[-1] * scanner.speed / 1000))
-    leaves = [
-        (rng.integers(count), rng.integers(scanner.points - 40), rng.integers(2, 8), rng.integers(15, 40),
-         rng.uniform(0.1, 0.6))
-        for _ in range(scanner.leaves)
-    ]  # fmt: skip
+    leaves = [_leaf(rng, count, scanner) for _ in range(scanner.leaves)]
     guess = 0
     for start in range(0, count, block):
         index = np.arange(start, min(start + block, count))
@@ -119,6 +115,12 @@ def profiles(
                 if first <= row < first + long:
                     height[k, left : left + wide] += high
         yield Profiles(time, across, height)
+
+
+def _leaf(rng: np.random.Generator, count: int, scanner: Scanner) -> tuple:
+    """First profile and point of a leaf 70 to 180 mm wide, how many of them it covers, and its height in m."""
+    wide = int(np.ceil(rng.uniform(0.07, 0.18) / scanner.width * (scanner.points - 1)))
+    return rng.integers(count), rng.integers(scanner.points - wide), rng.integers(2, 8), wide, rng.uniform(0.1, 0.6)
 
 
 @njit(cache=True)

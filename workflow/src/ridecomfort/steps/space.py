@@ -16,15 +16,15 @@ def main(drives, road, config, output):
     s = places(u[0], u[-1], **config["space"])
     runs = store.read(drives, ["s", "v_x", "a_x", "a_y", "a_z"])
     weighting = config["iso2631"]
+    averaging = weighting["time_constant"], weighting["averaging"]
     rate = 1.0 / float(runs["time"][1] - runs["time"][0])
-    doses = Doses(runs["s"].transpose("run", "time"), rate, s[0], s[-1])
+    doses = Doses(runs["s"].transpose("run", "time"), rate, s[0], s[-1], *averaging)
     runs["a_v"] = iso2631.running_total_value(
         runs["a_x"],
         runs["a_y"],
         runs["a_z"],
         rate,
-        weighting["time_constant"],
-        weighting["averaging"],
+        *averaging,
         weightings=tuple(weighting["weightings"]),
         factors=tuple(weighting["factors"]),
         before="mirror",

@@ -8,13 +8,14 @@ from matplotlib.figure import Figure
 
 from .. import style
 from ..study import Study
-from . import along, calibration, diagrams, overview, roads, weighting
+from . import agreement, along, calibration, diagrams, overview, roads, roughness, surface, weighting
 
 BUILDERS: Mapping[str, Callable[[Study], Figure]] = {
     "framework": diagrams.framework,
     "leastsquare": diagrams.leastsquare,
     "validation_iso": weighting.validation_iso,
     "testsection_figs": roads.testsection_figs,
+    "smoothing": surface.smoothing,
     "optichain": diagrams.optichain,
     "convergence": calibration.convergence,
     "opti_plots": calibration.opti_plots,
@@ -23,10 +24,23 @@ BUILDERS: Mapping[str, Callable[[Study], Figure]] = {
     "ride_comfors": along.ride_comfors,
     "IRI_thresholds": along.iri_thresholds,
     "critical_shares": overview.critical_shares,
+    "iri_resolution": roughness.iri_resolution,
+    "agreement": agreement.agreement,
+    "influence": agreement.influence,
+    "number_of_runs": agreement.number_of_runs,
 }
+
+OF_SITE: Mapping[str, Callable[[Study, str], Figure]] = {
+    "views": roads.views,
+    "spectrum": surface.spectrum,
+}
+"""Figures that every site has; their names end with the site's."""
 
 
 def draw(study: Study, name: str) -> Figure:
     """One figure by its name in ``catalogue.figures``, in the study's style."""
     with style.styled():
-        return BUILDERS[name](study)
+        if name in BUILDERS:
+            return BUILDERS[name](study)
+        kind, _, site = name.partition("_")
+        return OF_SITE[kind](study, site)

@@ -138,11 +138,16 @@ def _strip(strip: Axes, dataset, dimension: str, classes) -> None:
     """Sections by class: full colour where the mean is critical, paler by the share of the runs elsewhere."""
     start = dataset["window_start"].values
     length = float(dataset.attrs["critical_length"])
-    image = np.ones((len(classes), start.size, 3))
+    step = float(start[1] - start[0]) if start.size > 1 else length
+    # Of sliding sections many lie over one place; the strip shows the strongest.
+    size = max(1, round(length / step))
+    image = np.ones((len(classes), start.size + size - 1, 3))
     for row, name in enumerate(classes):
         chosen = dataset.sel({dimension: name})
         probability = np.nan_to_num(chosen["exceedance_probability"].values)
         strength = np.where(chosen["critical"].values > 0, 1.0, LIKELY * probability)
+        strength = np.pad(strength, size - 1)
+        strength = np.lib.stride_tricks.sliding_window_view(strength, size).max(axis=1)
         image[row] += strength[:, None] * (np.array(to_rgb(style.SEVERITY[name])) - 1.0)
     strip.imshow(
         image,

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy import signal
 
-from ...comfort import weighting
+from ...comfort import streaming, weighting
 from .. import style
 from ..study import Study
 
@@ -25,7 +24,8 @@ def validation_iso(study: Study) -> Figure:
     sample, origin = sample_signal(study)
     shown = slice(int(MARGIN * RATE), int((MARGIN + SECONDS) * RATE))
     exact = weighting.weight(sample, RATE, WEIGHTING)[shown]
-    bilinear = signal.sosfilt(bilinear_sections(WEIGHTING, RATE), sample)[shown]
+    papers = streaming.bilinear(WEIGHTING, RATE)
+    bilinear = papers.filter(sample)[shown]
     sample = sample[shown]
     time = np.arange(sample.size) / RATE
     sine, amplitude = response_of_weight(WEIGHTING, RATE)
@@ -57,7 +57,7 @@ def validation_iso(study: Study) -> Figure:
     drawn.align_ylabels([raw, weighted, difference])
 
     factor, error = drawn.add_subplot(grid[:2, 1]), drawn.add_subplot(grid[2, 1])
-    warped = np.abs(signal.sosfreqz(bilinear_sections(WEIGHTING, RATE), frequency, fs=RATE)[1])
+    warped = np.abs(papers.response(frequency))
     factor.loglog(frequency, analogue, color=style.FAINT, linewidth=2.6, label="analogue filter (ISO 2631-1)")
     factor.loglog(sine, amplitude, "o", color=EXACT, markersize=2.6, label="this study, sines")
     factor.loglog(frequency, warped, color=BILINEAR, dashes=(3, 1), label="bilinear, not prewarped")
@@ -106,15 +106,6 @@ def sample_signal(study: Study) -> tuple[np.ndarray, str]:
     length = SECONDS + 2 * MARGIN
     start = time[0] + max(0.0, 0.5 * (time[-1] - time[0] - length))
     return np.interp(start + np.arange(int(length * RATE)) / RATE, time, values), origin
-
-
-def bilinear_sections(name: str, rate: float) -> np.ndarray:
-    """The paper's digital filter as second-order sections: bilinear transform, no prewarping (eq:transf, with T)."""
-    filter_ = weighting.named(name)
-    zeros, poles = filter_.zeros_poles()
-    at = 2j * np.pi * 1.0
-    gain = filter_.response(1.0) / (np.prod(at - zeros) / np.prod(at - poles))
-    return signal.zpk2sos(*signal.bilinear_zpk(zeros, poles, float(np.real(gain)), rate))
 
 
 def response_of_weight(name: str, rate: float, count: int = 24) -> tuple[np.ndarray, np.ndarray]:

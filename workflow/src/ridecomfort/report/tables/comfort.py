@@ -213,6 +213,11 @@ def _largest(line) -> set[int]:
     return {column + offset for column, share in shares.items() if share == most for offset in (0, 1)}
 
 
+def notes_with_standin(study: Study, notes) -> tuple[str, ...]:
+    """The notes of a table, and behind them that data are stand-ins where they are."""
+    return _notes(study, notes)
+
+
 def _notes(study: Study, notes, windows_of: str | None = None) -> tuple[str, ...]:
     notes = list(notes)
     if windows_of:

@@ -180,10 +180,15 @@ def thresholds_manual(study: Study) -> Table:
         rows.append((style, OURS, *ours))
         rows.append((style, PAPER, *(value for axis in ("a_x", "a_y", "a_z") for value in paper[axis][style])))
     sources = (
-        Source(OURS, file, "lower, upper", "as in the file, the same for all sites"),
+        Source(OURS, file, "lower, upper, source", "as in the file, the same for all sites"),
         Source.paper("acceleration_thresholds", "tab:thresholds_manual"),
     )
+    origins: dict[str, list[str]] = {}
+    for axis in ("a_x", "a_y", "a_z"):
+        for style in ("PT", "ND", "AG"):
+            origins.setdefault(str(dataset["source"].sel(axis=axis, style=style).values), []).append(f"{symbol(axis)} {style}")
     notes = (
+        "Bands of this study from: " + "; ".join(f"{origin} ({', '.join(where)})" for origin, where in origins.items()) + ".",
         "The paper's text prints −5.80 m/s² for the AG deceleration along x; −5.08 m/s² of its table and of its "
         "source is used.",
     )

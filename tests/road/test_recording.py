@@ -1,0 +1,61 @@
+"""What a scanner recorded: the files that are read, and those that are not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from ridecomfort.errors import InputError
+from ridecomfort.road import recording, survey
+
+TIME = np.arange(50) / 200
+POSE = {"x": 20 * TIME, "y": 0 * TIME, "z": 2 + 0 * TIME, "heading": 0.1 * TIME, "roll": 0.02 * TIME, "pitch": 0 * TIME}
+
+
+def table(**columns) -> pd.DataFrame:
+    return pd.DataFrame({"time": TIME, **POSE} | columns)
+
+
+def test_netcdf_and_csv_hold_the_same(tmp_path):
+    xr.Dataset({name: ("time", values) for name, values in POSE.items()}, {"time": TIME}).to_netcdf(tmp_path / "t.nc")
+    table().to_csv(tmp_path / "t.csv", index=False)
+    one, other = recording.trajectory(tmp_path / "t.nc"), recording.trajectory(tmp_path / "t.csv")
+    xr.testing.assert_allclose(one, other)
+
+
+def test_columns_may_carry_their_unit_and_azimuth_stand_for_heading(tmp_path):
+    data = table().drop(columns=["heading", "roll"])
+    data["azimuth [deg]"] = 90 - np.degrees(POSE["heading"])
+    data["roll [deg]"] = np.degrees(POSE["roll"])
+    data["satellites"] = 12
+    data.to_csv(tmp_path / "t.csv", index=False)
+    found = recording.trajectory(tmp_path / "t.csv")
+    assert set(found.data_vars) == set(survey.POSE)
+    for name in ("heading", "roll"):
+        np.testing.assert_allclose(found[name], POSE[name], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "data, said",
+    [
+        (table().drop(columns="pitch"), "has no column 'pitch'"),
+        (table(z=["high"] + [2.0] * 49), "line 2, column 'z': 'high', expected a number"),
+        (table(**{"pitch [gon]": 0.0}), "column 'pitch \\[gon\\]': unit 'gon', expected one of s, m, rad, deg"),
+    ],
+)
+def test_a_trajectory_that_cannot_be_used_is_refused_in_one_line(tmp_path, data, said):
+    data.to_csv(tmp_path / "t.csv", index=False)
+    with pytest.raises(InputError, match=said) as refusal:
+        recording.trajectory(tmp_path / "t.csv")
+    assert "\n" not in str(refusal.value) and "t.csv" in str(refusal.value)
+
+
+def test_profiles_with_other_dimensions_are_refused(tmp_path):
+    xr.Dataset({"height": (("a", "b"), np.zeros((3, 4))), "time": ("a", np.zeros(3)), "across": ("b", np.zeros(4))}).to_netcdf(
+        tmp_path / "p.nc"
+    )
+    with pytest.raises(InputError, match="height has dimensions .*expected height \\(profile, point\\)"):
+        with recording.profiles(tmp_path / "p.nc"):
+            pass
