@@ -65,7 +65,8 @@ def read(path, **options: str) -> xr.Dataset:
         kept beyond the edges); ``explicit`` only what the file states; ``ignore``
         none.
     interpolation
-        ``linear``, as OpenCRG defines the surface, or ``cubic`` (sec:road_surf).
+        ``linear``, as OpenCRG defines the surface, or ``cubic`` (sec:road_surf), which
+        the study uses unless the site says otherwise (`prepare.INTERPOLATION`).
     holes
         cells without a height inside the road: ``refuse``, or ``keep`` them for
         `clean.fill`.

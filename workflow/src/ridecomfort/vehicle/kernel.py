@@ -15,8 +15,6 @@ Ports for further physics come from a module of the form of ``effects.neutral``;
 
 from __future__ import annotations
 
-from math import sqrt
-
 import numpy as np
 from numba import njit
 
@@ -69,7 +67,9 @@ from ridecomfort.vehicle.motion import (
     Z,
     body_rates,
     sensor_acceleration,
+    sin_cos,
 )
+from ridecomfort.vehicle.tyre import brush
 from ridecomfort.vocabulary import STANDARD_GRAVITY
 
 MINIMUM_SPEED = 1.0
@@ -86,10 +86,6 @@ PER_CONTACT_DEPTH = 1.0 / CONTACT_DEPTH
 
 GRADE_LENGTH = 20.0
 """m of road whose grade the speed controller knows of at the start."""
-
-SINE = (-1 / 6, 1 / 120, -1 / 5040, 1 / 362880)
-COSINE = (-1 / 2, 1 / 24, -1 / 720, 1 / 40320, -1 / 3628800)
-"""Taylor coefficients."""
 
 
 @njit(cache=True)
@@ -192,15 +188,6 @@ def _drive(
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)
-def _sin_cos(angle):
-    """Sine and cosine by their series: exact to 1e-9 up to 0.8 rad, beyond what the driver steers."""
-    x = angle * angle
-    sine = angle * (1.0 + x * (SINE[0] + x * (SINE[1] + x * (SINE[2] + x * SINE[3]))))
-    cosine = 1.0 + x * (COSINE[0] + x * (COSINE[1] + x * (COSINE[2] + x * (COSINE[3] + x * COSINE[4]))))
-    return sine, cosine
-
-
-@njit(inline="always", error_model="numpy", _nrt=False)
 def _locate(surface, targets, s):
     place = (s - surface.u0) * surface.per_u
     index = min(max(int(place), 0), targets.shape[0] - 2)
@@ -270,7 +257,7 @@ def _feel(
     Rows of ``ground``: one step ahead, now, one and two steps before. The bend of the road
     enters the place of a wheel to second order; ``stretch`` is the series of 1 / (1 - bend).
     """
-    sine, cosine = _sin_cos(pose[HEADING] + step * pose_rate[2])
+    sine, cosine = sin_cos(pose[HEADING] + step * pose_rate[2])
     s = pose[S] + step * pose_rate[0]
     e = pose[E] + step * pose_rate[1]
     for i in range(4):
@@ -336,25 +323,6 @@ def _vertical(
 
 
 @njit(inline="always", error_model="numpy", _nrt=False)
-def brush(slip_x, slip_y, load, friction, stiffness_x, stiffness_y):
-    """Forces in N of a brush tyre with parabolic pressure under combined slip, and its give.
-
-    Pacejka (2012), Tire and Vehicle Dynamics, section 3.2; stiffnesses are per unit load. The
-    give is the slope of the force over the slip, relative to that at no slip; 0 when it slides.
-    """
-    per_friction = 1.0 / friction
-    x = stiffness_x * slip_x * per_friction
-    y = stiffness_y * slip_y * per_friction
-    total = sqrt(x * x + y * y)
-    if total < 3.0:
-        share = 1.0 - total * (1.0 / 3.0 - total * (1.0 / 27.0))
-        give = (1.0 - total * (1.0 / 3.0)) ** 2
-    else:
-        share, give = 1.0 / total, 0.0
-    return friction * load * share * x, friction * load * share * y, give
-
-
-@njit(inline="always", error_model="numpy", _nrt=False)
 def _planar(
     car, wheels, now, travel_rate, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
     friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
@@ -363,7 +331,7 @@ def _planar(
 
     ``side_push``: the side force carried on to the next step, where the links press with it.
     """
-    sine, cosine = _sin_cos(angle)
+    sine, cosine = sin_cos(angle)
     half = 0.5 * step
     per_two_steps = 0.5 / step
     share_front = car.drive_share_front if demand > 0.0 else car.brake_share_front
@@ -448,7 +416,7 @@ def _advance(step, curvature, pose, pose_rate, speeds, change):
     """Speeds and then the pose one step on; the rates of place and heading are kept."""
     for k in range(6):
         speeds[k] += step * change[k]
-    sine, cosine = _sin_cos(pose[HEADING] + 0.5 * step * pose_rate[2])
+    sine, cosine = sin_cos(pose[HEADING] + 0.5 * step * pose_rate[2])
     progress = (speeds[V_X] * cosine - speeds[V_Y] * sine) / (1.0 - curvature * pose[E])
     drift = speeds[V_X] * sine + speeds[V_Y] * cosine
     turn = speeds[YAW_RATE] - curvature * progress
