@@ -1,0 +1,76 @@
+"""From candidates to a verdict on a model in which everything is known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort.discrepancy import select, verdict
+
+from .linear import Linear
+
+
+def judged(model, suspicions=()):
+    selection = select.select(model, {"stiffness": 0.0}, most=3)
+    return selection, verdict.judge(selection, model.candidates, suspicions)
+
+
+def test_the_missing_effect_is_named_measured_and_confirmed_on_the_held_out_drive():
+    selection, found = judged(Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0}))
+    assert found.verdict == "named" and [e.name for e in found.effects] == ["effect_2"]
+    size = found.effects[0].sizes[0]
+    assert size["interval"][0] < 1.0 < size["interval"][1] and size["unit"] == "N"
+    assert found.share > 0.8 and found.held_out_share > 0.5
+    assert selection.final.values["stiffness"] == pytest.approx(0.7, abs=0.05)
+
+
+def test_two_missing_effects_are_both_found():
+    _, found = judged(Linear(2, {"effect_1.size": 0.4, "effect_4.size": 0.2}))
+    assert {e.name for e in found.effects} == {"effect_1", "effect_4"}
+
+
+def test_nothing_is_named_where_nothing_is_missing():
+    verdicts = [judged(Linear(seed, {"stiffness": 0.5}))[1].verdict for seed in range(10, 20)]
+    assert verdicts.count("nothing") >= 9
+
+
+def test_effects_that_look_alike_are_named_as_a_cluster():
+    _, found = judged(Linear(3, {"effect_2.size": 0.3}, twins=("effect_2.size", "effect_5.size")))
+    assert found.verdict == "cluster"
+    assert {found.effects[0].name, *found.effects[0].like} == {"effect_2", "effect_5"}
+
+
+def test_what_no_candidate_explains_is_said_to_lie_outside_the_library():
+    model = Linear(4, {"effect_5.size": 0.6})
+    model.candidates = model.candidates[:5]
+    _, found = judged(model)
+    assert found.verdict == "outside" and found.effects == ()
+
+
+def test_an_implausible_size_disqualifies():
+    selection, found = judged(Linear(5, {"effect_3.size": 7.0}))
+    assert "effect_3" not in [e.name for e in found.effects]
+    assert any("plausible" in trial.objection for trial in selection.rounds[0].trials if trial.name == "effect_3")
+
+
+def test_suspicions_keep_the_data_from_naming_anything():
+    _, found = judged(Linear(1, {"effect_2.size": 0.3}), ["the clock is off"])
+    assert found.verdict == "suspect" and "the clock is off" in found.reasons
+
+
+def test_a_verdict_is_plain_json():
+    _, found = judged(Linear(6, {}))
+    import json
+
+    text = json.dumps(found.json())
+    assert set(json.loads(text)) >= {"verdict", "effects", "reasons"} and "NaN" not in text
+    assert found.words().startswith("Nothing")
+
+
+def test_shared_error_of_repeats_is_nothing_for_noise_and_half_for_one_as_large_as_the_noise():
+    selection, _ = judged(Linear(7, {}))
+    assert abs(selection.remaining) < 0.05
+    model = Linear(7, {"effect_0.size": 1.0})
+    model.candidates = model.candidates[1:]
+    selection, _ = judged(model)
+    assert 0.3 < selection.remaining < 0.7 and np.isfinite(selection.remaining_z)

@@ -1,0 +1,278 @@
+"""Measured drives and the vehicle that is meant to explain them, as an Experiment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+from scipy.ndimage import gaussian_filter1d
+
+from .. import calibrate
+from .. import simulate as simulator
+from ..drive.record import unstack, upward
+from ..drive.replay import Replay, Simulated, replay, smooth
+from ..effects import library
+from ..effects.contract import COMPILED, Effect, Parameter
+from ..calibrated import with_values
+from ..vehicle.parameters import PARAMETERS
+from ..vocabulary import SIGNALS, STANDARD_GRAVITY
+from .experiment import Candidate, Record, Size
+
+PROBE = 0.25
+"""Share of an effect's typical size that it is probed with: the smallest size of interest."""
+
+CALIBRATION_PROBE = 0.02
+"""Share of the bounds' width that a calibrated parameter is probed with."""
+
+LOWEST = 0.8
+"""Hz; slower errors are drifts of instruments and what the driver makes of the path."""
+
+HIGHEST = 0.85
+"""Share of the records' own cut-off up to which errors are judged."""
+
+BLOCK = 1.0
+"""s at the mean speed; white errors farther apart are independent."""
+
+KNOTS = 150.0
+"""m between the points of what alignment may still get wrong of the place along and across the road."""
+
+SAME_SPEED = 0.05
+"""Relative difference of mean speeds within which drives repeat one another."""
+
+CORRECTIONS = {"speed": (2, 0.1), "lateral": (8, 1.2)}
+"""Rounds in which what the driver is asked for is corrected by what the model then does, and the s that each correction is
+smoothed over: a driver asked for more than he can follow overshoots."""
+
+SETTLING = 1.5
+"""s after the run-in that are left out too: at rest on level ground a vehicle with an effect stands otherwise."""
+
+UNCERTAIN = {
+    "roll_inertia": 0.1,
+    "pitch_inertia": 0.1,
+    "yaw_inertia": 0.1,
+    "cg_height": 0.1,
+    "damping_front": 0.15,
+    "damping_rear": 0.15,
+    "anti_roll_stiffness_front": 0.15,
+    "anti_roll_stiffness_rear": 0.15,
+    "cornering_stiffness": 0.15,
+}
+"""Parameters that no calibration fits but nobody knows better than to this share: they must not pass for an effect."""
+
+OF_THE_ROAD = ("road_bank", "road_grade")
+"""Effects that are errors of the road's file, not of the vehicle."""
+
+VARIED_UNITS = ("Hz", "m/s")
+"""Units of parameters that shape an effect so much that it is tried with several values."""
+
+
+@dataclass(frozen=True)
+class Site:
+    """A road with the aligned drives on it, ready to be driven on."""
+
+    name: str
+    course: object
+    drives: Sequence[xr.Dataset]
+
+
+@dataclass
+class Car:
+    """Drives on one or several sites beside a vehicle with ``effects`` (those the model already has)."""
+
+    records: list[Record]
+    replays: list[Replay]
+    vehicle: object
+    effects: Mapping[str, Mapping[str, float]]
+    free: tuple[Size, ...]
+    candidates: tuple[Candidate, ...]
+    quiet: Mapping[str, Mapping[str, float]]
+    """Effects that are in every simulation at neutral values, so that one compiled kernel serves for all of them."""
+    channels: tuple[str, ...] = SIGNALS
+    simulations: int = 0
+
+    def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
+        """Simulated minus measured signals (6, sample) behind the run-in of the model."""
+        again = self.replays[index]
+        return again.residual(self.simulated(values, index))[:, again.compared]
+
+    def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
+        """What the model does on a drive."""
+        self.simulations += 1
+        vehicle, effects = with_values(self.vehicle, self.effects, values)
+        return self.replays[index](vehicle, {**self.quiet, **effects})
+
+    def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
+        """Slow errors of the clock and of the path, biases, gains and tilts, (direction, 6, sample)."""
+        again = self.replays[index]
+        kept = again.compared
+        simulated = self.simulated(values, index)
+        vehicle, effects = with_values(self.vehicle, self.effects, values)
+        hats = _hats(again.place[kept])
+        up = STANDARD_GRAVITY * upward(simulated.roll, simulated.pitch)[:, kept]
+        force = simulated.signals[:3, kept] + up * float(again.drive.attrs.get("gravity", 0))
+        rates = simulated.signals[3:, kept]
+        columns = [hat * simulated.slopes[:, kept] for hat in hats]
+        aside = again.aside(vehicle, effects)[:, kept]
+        columns += [hat * aside for hat in hats]
+        zero = np.zeros_like(force)
+        columns += [np.concatenate([force, zero]), np.concatenate([zero, rates])]
+        for axis in np.eye(3):
+            turned = [np.cross(np.broadcast_to(axis[:, None], part.shape), part, axis=0) for part in (force, rates)]
+            columns.append(np.concatenate(turned))
+        columns += list(np.eye(6)[:, :, None] * np.ones(kept.sum()))
+        return np.stack(columns).astype(np.float32)
+
+
+def car(
+    sites: Sequence[Site],
+    vehicle,
+    *,
+    effects: Mapping[str, Mapping[str, float]] | None = None,
+    effects_folder=None,
+    fitted_on: Sequence[str] | None = None,
+    bounds: Mapping[str, Sequence[float]] | None = None,
+    uncertain: Mapping[str, float] | None = None,
+    library_names: Sequence[str] | None = None,
+    simulate: Callable[..., xr.Dataset] = simulator.run,
+    options: Mapping | None = None,
+) -> Car:
+    """The experiment of these drives. ``vehicle`` and ``effects`` are the calibrated ones.
+
+    Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, all others are held out.
+    ``bounds``: of calibrated parameters, beside tab:constraints. ``uncertain``: share by which further
+    parameters of the vehicle may be wrong (default UNCERTAIN). ``library_names``: the effects to look
+    among, by default all of the library and of the user's folder but those of the model.
+    """
+    effects = {name: dict(sizes or {}) for name, sizes in (effects or {}).items()}
+    fitted_on = list(fitted_on) if fitted_on else [sites[0].name]
+    options = {"effects_folder": effects_folder, **(options or {})}
+    records, replays = [], []
+    for site in sites:
+        speeds: list[float] = []
+        for drive in site.drives:
+            again = replay(drive, site.course, simulate, options=options)
+            again = _as_driven(again, vehicle, effects)
+            first = again.time[again.compared][0] + SETTLING
+            again = replace(again, compared=again.compared & (again.time >= first))
+            role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
+            records.append(_record(site.name, again, role, speeds, len(sites) > 1))
+            replays.append(again)
+    known = library.find(effects_folder)
+    chosen = [entry for entry, _ in library.choose(effects, effects_folder)]
+    for entry in chosen:
+        effects[entry.effect.name] = entry.effect.values(effects[entry.effect.name])
+    free = [_calibrated(name, vehicle[name], pair) for name, pair in {**calibrate.BOUNDS, **(bounds or {})}.items() if "." not in name]
+    for name, share in (UNCERTAIN if uncertain is None else uncertain).items():
+        span = PARAMETERS[name]
+        lower, upper = (min(max(vehicle[name] * factor, span.lower), span.upper) for factor in (1 - share, 1 + share))
+        free.append(_calibrated(name, vehicle[name], (lower, upper)))
+    for entry in chosen:
+        own = candidate(entry.effect)
+        free += [replace(size, neutral=effects[entry.effect.name][size.key.partition(".")[2]]) for size in own.sizes]
+    wanted = sorted(known if library_names is None else library_names)
+    candidates = tuple(candidate(known[name].effect) for name in wanted if name not in effects)
+    quiet = {n: known[n].effect.neutral for n in wanted if n not in effects and known[n].effect.port in COMPILED}
+    return Car(records, replays, vehicle, effects, tuple(free), tuple(c for c in candidates if c.sizes), quiet)
+
+
+def _as_driven(again: Replay, vehicle, effects) -> Replay:
+    """The replay with a path and a speed asked for that bring the model to what was measured.
+
+    A driver cuts corners and lags behind; asked for the measured path he would do so twice.
+    """
+    rate = (len(again.time) - 1) / np.ptp(again.time)
+    speed, offset = (smooth(again.drive[name].values, rate) for name in ("v_x", "e"))
+    if not np.isfinite(offset).all():
+        return again
+    for turn in range(max(rounds for rounds, _ in CORRECTIONS.values())):
+        run = again.simulate(again.road, vehicle, effects=effects, **again.demand, **again.options)
+        demand = dict(again.demand)
+        for key, name, wanted in (("speed", "v_x", speed), ("lateral", "e", offset)):
+            rounds, seconds = CORRECTIONS[key]
+            if turn >= rounds:
+                continue
+            target = demand[key]
+            if not isinstance(target, xr.DataArray):
+                target = demand["speed"] * 0.0 + float(target)
+            u = target.u.values
+            error = np.interp(u, again.place, wanted) - np.interp(u, run["s"].values, run[name].values)
+            error[(u < again.place[0]) | (u > again.place[-1])] = 0.0
+            spread = float(again.drive["v_x"].mean()) * seconds / (u[1] - u[0])
+            demand[key] = target + gaussian_filter1d(error, spread)
+        again = replace(again, demand=demand)
+    return again
+
+
+def sites_of(measured: Mapping[str, tuple]) -> list[Site]:
+    """Sites from a mapping of name to (road, measured drives): roads are prepared, stacked drives taken apart."""
+    return [
+        Site(
+            name,
+            road if isinstance(road, simulator.Course) else simulator.prepare(road),
+            unstack(drives) if isinstance(drives, xr.Dataset) else list(drives),
+        )
+        for name, (road, drives) in measured.items()
+    ]
+
+
+def start_values(experiment: Car) -> dict[str, float]:
+    """The values that the calibrated model has."""
+    return {size.key: float(np.clip(size.neutral, size.lower, size.upper)) for size in experiment.free}
+
+
+def candidate(effect: Effect) -> Candidate:
+    """An effect as a candidate: its sizes, and what only shapes it with the settings to try."""
+    sizes = [parameter for parameter in effect.parameters if _is_size(parameter, effect)]
+    shaping = [parameter for parameter in effect.parameters if parameter not in sizes]
+    varied = [p for p in shaping if p.unit in VARIED_UNITS or p.name.startswith("clearance")]
+    typical = {f"{effect.name}.{p.name}": p.typical for p in shaping}
+    shapes = [typical]
+    if varied:
+        for end in (0, 1):
+            moved = {f"{effect.name}.{p.name}": float(np.sqrt(p.typical * p.plausible[end])) for p in varied}
+            shapes.append({**typical, **moved})
+    instrument = effect.port in ("sensor", "path") or effect.name in OF_THE_ROAD
+    return Candidate(effect.name, tuple(_size(p, effect) for p in sizes), tuple(shapes), effect.sentence, instrument)
+
+
+def _is_size(parameter: Parameter, effect: Effect) -> bool:
+    """Whether it switches the effect on; a size may be typically nil where one of its kind is not."""
+    if parameter.neutral != parameter.typical:
+        return True
+    return any(p.unit == parameter.unit and p.neutral == parameter.neutral != p.typical for p in effect.parameters)
+
+
+def _size(parameter: Parameter, effect: Effect) -> Size:
+    same = [p.typical - p.neutral for p in effect.parameters if p.unit == parameter.unit and p.typical != p.neutral]
+    step = parameter.typical - parameter.neutral or same[0]
+    return Size(
+        f"{effect.name}.{parameter.name}", parameter.unit, parameter.neutral, *map(float, parameter.plausible), PROBE * step
+    )
+
+
+def _calibrated(name: str, value: float, bounds: Sequence[float]) -> Size:
+    lower, upper = map(float, bounds)
+    return Size(name, PARAMETERS[name].unit, float(value), lower, upper, CALIBRATION_PROBE * (upper - lower))
+
+
+def _record(site: str, again: Replay, role: str, speeds: list[float], several: bool) -> Record:
+    place, time = again.place[again.compared], again.time[again.compared]
+    speed = float(np.ptp(place) / np.ptp(time))
+    same = next((known for known in speeds if abs(known - speed) < SAME_SPEED * known), None)
+    if same is None:
+        speeds.append(speed)
+    rate = float((len(time) - 1) / np.ptp(time))
+    band = (LOWEST, min(HIGHEST * float(again.drive.attrs["cut_off"]), 0.45 * rate))
+    name = str(again.drive.attrs["name"])
+    return Record(
+        f"{site} {name}" if several else name, role, site, f"{site} at {3.6 * (same or speed):.0f} km/h", rate, band,
+        place, BLOCK * (same or speed),
+    )  # fmt: skip
+
+
+def _hats(place: np.ndarray) -> np.ndarray:
+    """Piecewise linear functions that are one at a knot each, (knot, sample)."""
+    knots = np.linspace(place[0], place[-1], max(2, int(round(np.ptp(place) / KNOTS)) + 1))
+    return np.maximum(1 - np.abs(place - knots[:, None]) / (knots[1] - knots[0]), 0.0)

@@ -1,0 +1,198 @@
+"""What the search for a missing effect needs to know of a model and its measurements, be it a car or one mass.
+
+An Experiment hands out residuals (simulated minus measured) for any values of its
+parameters. Everything else, which effect, how sure, how large, is done with those.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from . import spectrum
+from .evidence import without
+from .spectrum import Spectrum, Whitening
+
+
+@dataclass(frozen=True)
+class Record:
+    """One measured drive: what a test has to know beside its residual.
+
+    ``condition``: records of one condition (road and speed) share a spectrum of errors and may repeat one
+    another at equal ``place`` (sample,), in the unit of ``block`` lengths. Samples of one ``site`` and block depend
+    on one another, over all records.
+    """
+
+    name: str
+    role: str
+    site: str
+    condition: str
+    rate: float
+    band: tuple[float, float]
+    place: np.ndarray
+    block: float
+
+    def blocks(self, finer: float = 1.0) -> np.ndarray:
+        """Number of the block that every sample lies in, (sample,)."""
+        return np.floor(self.place * finer / self.block).astype(np.int64)
+
+
+@dataclass(frozen=True)
+class Size:
+    """A number that may be fitted: its unit, where it starts or changes nothing, what is plausible, a step to probe with."""
+
+    key: str
+    unit: str
+    neutral: float
+    lower: float
+    upper: float
+    probe: float
+
+    @property
+    def sign(self) -> int:
+        """1 where only amounts above (or, with a negative probe, below) the neutral one are plausible."""
+        return int(self.neutral in (self.lower, self.upper))
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """An effect that may be missing: its sizes, and ``shapes``, the settings of what only shapes it to try it with."""
+
+    name: str
+    sizes: tuple[Size, ...]
+    shapes: tuple[Mapping[str, float], ...] = ({},)
+    sentence: str = ""
+    instrument: bool = False
+    """Whether it is an error of the measurement, not of the model."""
+
+    def at(self, shares: Mapping[str, float], shape: int = 0) -> dict[str, float]:
+        """Values with each size at this many probes from neutral, the others neutral."""
+        values = {size.key: size.neutral + shares.get(size.key, 0.0) * size.probe for size in self.sizes}
+        return {**values, **self.shapes[shape]}
+
+
+class Experiment(Protocol):
+    """A model beside its measurements. ``values`` maps the keys of ``free`` and of candidates to SI values; a candidate
+    none of whose keys is there is switched off."""
+
+    records: Sequence[Record]
+    channels: Sequence[str]
+    free: Sequence[Size]
+    candidates: Sequence[Candidate]
+
+    def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
+        """Simulated minus measured, (channel, sample), of a record."""
+
+    def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
+        """What the alignment of a record may still get wrong, (direction, channel, sample)."""
+
+
+@dataclass
+class Frame:
+    """Records made white and free of their nuisances, as one long vector for least squares."""
+
+    experiment: Experiment
+    indices: list[int]
+    whitening: dict[int, Whitening]
+    nuisances: dict[int, np.ndarray]
+    bases: dict[int, np.ndarray] = field(init=False)
+
+    def __post_init__(self):
+        self.bases, self._amounts = {}, {}
+        for index in self.indices:
+            raw = self.nuisances[index]
+            white = self.whitening[index](raw).reshape(len(raw), -1)
+            self.bases[index], self._amounts[index] = _orthonormal(white)
+
+    def flat(self, parts: Mapping[int, np.ndarray]) -> np.ndarray:
+        """White vector of a residual or column per record, nuisances projected out."""
+        return np.concatenate([self._flat(index, parts[index]) for index in self.indices])
+
+    def own_share(self, parts: Mapping[int, np.ndarray]) -> float:
+        """Share of the power of a column that its nuisances leave."""
+        left = sum(np.sum(self._flat(index, parts[index]) ** 2) for index in self.indices)
+        whole = sum(np.sum(self.whitening[index](parts[index]) ** 2) for index in self.indices)
+        return float(left / whole) if whole > 0 else 0.0
+
+    def _flat(self, index: int, part: np.ndarray) -> np.ndarray:
+        return without(self.whitening[index](part).ravel(), self.bases[index])
+
+    def cleaned(self, index: int, residual: np.ndarray) -> np.ndarray:
+        """A residual (channel, sample) less what its nuisances explain of it."""
+        amounts = self._amounts[index] @ (self.bases[index] @ self.whitening[index](residual).ravel())
+        return residual - np.tensordot(amounts, self.nuisances[index], 1)
+
+    def blocks(self, finer: float = 1.0) -> np.ndarray:
+        """Number of the block of every element of ``flat``; records of one site share them."""
+        sites = sorted({self.experiment.records[index].site for index in self.indices})
+        numbers = []
+        for index in self.indices:
+            record = self.experiment.records[index]
+            own = record.blocks(finer) + 10**7 * sites.index(record.site)
+            numbers.append(np.tile(own, len(self.experiment.channels)))
+        return np.concatenate(numbers)
+
+
+def frame(
+    experiment: Experiment,
+    residuals: Mapping[int, np.ndarray],
+    nuisances: Mapping[int, np.ndarray],
+    cleaned: Mapping[int, np.ndarray] | None = None,
+) -> Frame:
+    """The frame in which these residuals, less their nuisances, are white.
+
+    ``cleaned``: the residuals less their nuisances where that is known from an earlier frame.
+    """
+    indices = sorted(residuals)
+    found = condition_spectra(experiment, residuals if cleaned is None else cleaned)
+    whitening = {}
+    for index in indices:
+        record = experiment.records[index]
+        plain = Whitening(found[record.condition], record.rate, record.band)
+        scale = spectrum.local_scale(plain((cleaned or residuals)[index]), record.rate)
+        whitening[index] = Whitening(found[record.condition], record.rate, record.band, scale)
+    made = Frame(experiment, indices, whitening, dict(nuisances))
+    if cleaned is not None:
+        return made
+    return frame(experiment, residuals, nuisances, {index: made.cleaned(index, residuals[index]) for index in indices})
+
+
+def _orthonormal(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Orthonormal rows of the span of ``rows``, and the matrix from amounts of those to amounts of ``rows``."""
+    if not len(rows):
+        return rows, np.zeros((0, 0))
+    size = np.sqrt(np.sum(rows.astype(np.float64) ** 2, axis=1))
+    size = np.where(size > 0, size, np.inf)
+    scaled = rows / size[:, None].astype(rows.dtype)
+    values, vectors = np.linalg.eigh((scaled @ scaled.T).astype(np.float64))
+    kept = values > 1e-5 * values[-1]
+    turn = vectors[:, kept] / np.sqrt(values[kept])
+    return turn.T.astype(rows.dtype) @ scaled, turn / size[:, None]
+
+
+def condition_spectra(experiment: Experiment, residuals: Mapping[int, np.ndarray]) -> dict[str, Spectrum]:
+    """Cross-spectrum of the residuals of every condition."""
+    found: dict[str, list[int]] = {}
+    for index in sorted(residuals):
+        found.setdefault(experiment.records[index].condition, []).append(index)
+    return {
+        condition: spectrum.cross_spectrum([residuals[i] for i in own], experiment.records[own[0]].rate)
+        for condition, own in found.items()
+    }
+
+
+def simulate(experiment: Experiment, values: Mapping[str, float], indices: Iterable[int]) -> dict[int, np.ndarray]:
+    """Residuals of several records."""
+    return {index: experiment.residual(values, index) for index in indices}
+
+
+def secant(
+    experiment: Experiment, values: Mapping[str, float], base: Mapping[int, np.ndarray], size: Size, step: float
+) -> dict[int, np.ndarray]:
+    """Change of the residuals per probe of a size, from the value it has (or its neutral one) by ``step`` probes."""
+    start = values.get(size.key, size.neutral)
+    moved = simulate(experiment, {**values, size.key: start + step * size.probe}, base)
+    return {index: (moved[index] - base[index]) / step for index in base}

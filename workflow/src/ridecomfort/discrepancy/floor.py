@@ -1,0 +1,79 @@
+"""The noise floor: what no model of this road and car could explain, known from drives that repeat one another."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+
+from .experiment import Experiment, Record
+from .spectrum import Spectrum, cross_spectrum
+
+
+def deviations(records: Sequence[Record], residuals: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """What every repeat has of its own at equal place, (channel, sample), its power that of one drive's noise.
+
+    Residuals are compared on the places of each record in turn; those that others do not reach are left
+    out at the ends. With n repeats a deviation from the mean holds (n - 1)/n of the power, which is made up for.
+    """
+    count = len(records)
+    start = max(record.place[0] for record in records)
+    end = min(record.place[-1] for record in records)
+    splines = [make_interp_spline(*_rising(record.place, residual)) for record, residual in zip(records, residuals)]
+    parts = []
+    for record, residual in zip(records, residuals):
+        inside = (record.place >= start) & (record.place <= end)
+        place = record.place[inside]
+        mean = sum(spline(place) for spline in splines).T / count
+        parts.append((residual[:, inside] - mean) * np.sqrt(count / (count - 1)))
+    return parts
+
+
+def _rising(place: np.ndarray, residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    kept = np.concatenate([[True], np.diff(np.maximum.accumulate(place)) > 1e-9])
+    return place[kept], residual[:, kept].T
+
+
+def floor(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> dict[str, Spectrum]:
+    """Spectrum of the noise of every condition that was driven at least twice, from its residuals less nuisances."""
+    repeats: dict[str, list[int]] = {}
+    for index in sorted(cleaned):
+        repeats.setdefault(experiment.records[index].condition, []).append(index)
+    return {
+        condition: cross_spectrum(
+            deviations([experiment.records[i] for i in own], [cleaned[i] for i in own]), experiment.records[own[0]].rate
+        )
+        for condition, own in repeats.items()
+        if len(own) > 1
+    }
+
+
+def power(spectrum: Spectrum, band: tuple[float, float], rate: float) -> np.ndarray:
+    """Mean square (channel,) within a band."""
+    kept = (spectrum.frequency >= band[0]) & (spectrum.frequency <= band[1])
+    count = spectrum.density.shape[-1]
+    return spectrum.density[kept][:, range(count), range(count)].real.mean(axis=0) * 2 * (band[1] - band[0]) / rate
+
+
+def squares(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> np.ndarray:
+    """Mean square of the residuals within the band, (record, channel), less their mean."""
+    return np.stack(
+        [
+            power(cross_spectrum([part - part.mean(axis=1, keepdims=True)], experiment.records[index].rate),
+                  experiment.records[index].band, experiment.records[index].rate)
+            for index, part in sorted(cleaned.items())
+        ]
+    )  # fmt: skip
+
+
+def explained_share(before: np.ndarray, after: np.ndarray, first: np.ndarray, ground: np.ndarray) -> float:
+    """Fall of the error from ``before`` to ``after`` as a share of what was explainable at ``first``; nan where nothing was.
+
+    All are mean squares (record, channel), ``ground`` those of the floor; records are averaged, channels weigh alike.
+    """
+    if not first.size:
+        return float("nan")
+    before, after, first, ground = (values.mean(axis=0) for values in (before, after, first, ground))
+    explainable = np.sum(np.maximum(first - ground, 0.0) / first)
+    return float(np.sum((before - after) / first) / explainable) if explainable > 0 else float("nan")

@@ -1,0 +1,37 @@
+"""A map over several processes that share what the function holds, without sending it."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Callable, Iterable, Iterator
+
+_shared: list[Callable] = []
+
+
+def _call(job):
+    return _shared[-1](job)
+
+
+def workers() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def mapped(count: int) -> Callable[[Callable, Iterable], Iterator]:
+    """A ``map`` over ``count`` forked processes; the plain one where there is no fork or only one is wanted."""
+    if count < 2 or "fork" not in multiprocessing.get_all_start_methods():
+        return map
+
+    def each(function: Callable, jobs: Iterable) -> Iterator:
+        jobs = list(jobs)
+        if len(jobs) < 2:
+            return map(function, jobs)
+        _shared.append(function)
+        try:
+            with multiprocessing.get_context("fork").Pool(min(count, len(jobs))) as pool:
+                return iter(pool.map(_call, jobs, chunksize=1))
+        finally:
+            _shared.pop()
+
+    return each

@@ -1,0 +1,140 @@
+"""Which physical effect is missing: every effect of the library against the measured drives, and a verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+
+from .. import calibrated
+from . import car as cars
+from . import floor, pool, suspect
+from .select import Selection, select
+from .verdict import Verdict, judge
+
+
+def rank(
+    measured: Mapping[str, tuple],
+    vehicle,
+    *,
+    calibration: xr.Dataset | None = None,
+    effects: Mapping[str, Mapping[str, float]] | None = None,
+    effects_folder=None,
+    fitted_on: Sequence[str] | None = None,
+    bounds: Mapping[str, Sequence[float]] | None = None,
+    among: Sequence[str] | None = None,
+    most: int = 3,
+    seed: int = 0,
+    workers: int | None = None,
+    options: Mapping | None = None,
+    say: Callable[[str], None] = lambda words: None,
+) -> tuple[xr.Dataset, Verdict]:
+    """Rank the effects that the model may lack, and judge what the evidence carries.
+
+    ``measured``: mapping of site to (road, aligned drives); drives of role "fit" on the sites ``fitted_on`` (by
+    default the first) are fitted, the others decide. ``calibration`` and ``effects`` are those of the model;
+    ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
+    default one for each core.
+
+    Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
+    the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
+    their gains, shares and objections; over ``model``: the ladder. Raises InputError.
+    """
+    vehicle, effects = calibrated.apply(calibration, vehicle, effects)
+    experiment = cars.car(
+        cars.sites_of(measured), vehicle, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
+        bounds=bounds, library_names=among, options=options,
+    )  # fmt: skip
+    each = pool.mapped(pool.workers() if workers is None else workers)
+    selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
+    verdict = judge(selection, experiment.candidates, suspicions(experiment, selection))
+    return dataset(experiment, selection), verdict
+
+
+def suspicions(experiment: cars.Car, selection: Selection) -> list[str]:
+    """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains."""
+    reasons = suspect.of_drives(experiment)
+    first = selection.ladder[0]
+    explainable = np.maximum(first.squares - selection.ground, 0.0)[0]
+    index = selection.frame.indices[0]
+    deviation = suspect.road_noise(experiment.replays[index].road.road)
+    if deviation > 0:
+        share = suspect.noise_share(experiment, selection.frame, first.fit.values, deviation, explainable)
+        if share > suspect.CAUSED:
+            reasons.append(
+                f"the road holds noise of {1e3 * deviation:.2f} mm between its points, which alone makes "
+                f"{100 * share:.0f} % of the error that could be explained"
+            )
+    return reasons
+
+
+def dataset(experiment, selection: Selection) -> xr.Dataset:
+    """The evidence of a selection as the Dataset of ranking.nc."""
+    rounds = selection.rounds
+    names = [candidate.name for candidate in experiment.candidates]
+    table = {key: np.full((len(rounds), len(names)), np.nan) for key in ("p_value", "gain", "absorbed")}
+    trials = []
+    for number, turn in enumerate(rounds):
+        places = [names.index(name) for name in turn.names]
+        for key in table:
+            table[key][number, places] = getattr(turn, key)
+        trials += [(number + 1, trial, turn) for trial in turn.trials]
+    fitted = [record.name for record in experiment.records if record.role == "fit"]
+    held_out = [record.name for record in experiment.records if record.role != "fit"]
+    by_trial = lambda get: ("trial", np.array([get(trial) for _, trial, _ in trials], dtype=float))
+    text = lambda get: ("trial", np.array([get(trial) for _, trial, _ in trials], dtype=str))
+    columns = {key: (("round", "effect"), values, {"units": "1"}) for key, values in table.items()}
+    result = xr.Dataset(
+        {
+            **columns,
+            "trial_round": ("trial", np.array([number for number, _, _ in trials], dtype=int)),
+            "trial_effect": text(lambda trial: trial.name),
+            "trial_sizes": text(lambda trial: _sizes_in_words(trial, experiment)),
+            "trial_gain": by_trial(lambda trial: trial.gain),
+            "trial_bic": by_trial(lambda trial: trial.bic),
+            "trial_held_out_gain": by_trial(lambda trial: trial.held_out_gain),
+            "trial_held_out_z": by_trial(lambda trial: trial.held_out_z),
+            "trial_share": by_trial(lambda trial: trial.share),
+            "trial_held_out_share": by_trial(lambda trial: trial.held_out_share),
+            "trial_correlation": (
+                "trial", np.array([turn.correlation.get(trial.name, np.nan) for _, trial, turn in trials], dtype=float),
+            ),
+            "trial_objection": text(lambda trial: trial.objection),
+            "winner": ("round", np.array([turn.winner.name if turn.winner else "" for turn in rounds], dtype=str)),
+            "cluster": ("round", np.array([", ".join(turn.cluster) for turn in rounds], dtype=str)),
+            "decoy_p_value": ("round", np.array([turn.decoy_p_value for turn in rounds], dtype=float)),
+            "mean_square": (("model", "drive", "signal"), np.stack([state.squares for state in selection.ladder])),
+            "held_out_mean_square": (
+                ("model", "held_out", "signal"), np.stack([state.held_out_squares for state in selection.ladder]),
+            ),
+            "floor_mean_square": (("drive", "signal"), selection.ground),
+            "held_out_floor_mean_square": (("held_out", "signal"), selection.held_out_ground),
+            "value": (("parameter",), np.array([selection.final.values[key] for key in selection.intervals])),
+            "interval": (("parameter", "bound"), np.array(list(selection.intervals.values())).reshape(-1, 2)),
+        },
+        {
+            "effect": names,
+            "round": np.arange(1, len(rounds) + 1),
+            "model": [state.name for state in selection.ladder],
+            "drive": fitted,
+            "held_out": held_out,
+            "signal": list(experiment.channels),
+            "parameter": list(selection.intervals),
+            "bound": ["lower", "upper"],
+        },
+    )  # fmt: skip
+    return result.assign_attrs(
+        floor="from repeats" if selection.repeats else "taken as nil: no drive was repeated",
+        remaining=selection.remaining,
+        remaining_z=selection.remaining_z,
+    )
+
+
+def _sizes_in_words(trial, experiment) -> str:
+    candidate = next(c for c in experiment.candidates if c.name == trial.name)
+    return ", ".join(
+        f"{size.key.partition('.')[2]} {trial.fit.values[size.key]:.4g} {size.unit}"
+        for size in candidate.sizes
+        if size.key in trial.fit.values
+    )

@@ -1,0 +1,172 @@
+"""Fits of parameters and sizes of effects together in the white frame, and how two fits compare."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import lsq_linear
+from scipy.stats import norm
+from scipy.stats import t as student
+
+from ..errors import InputError
+from . import experiment as exp
+from . import spectrum
+from .experiment import Experiment, Frame, Size
+
+BEYOND = 0.5
+"""Share of the plausible range that a fit may go beyond it, to see that it wants to."""
+
+RENEWAL = 0.3
+"""Probes that a size must have moved for its column to be made anew."""
+
+CONFIDENCE = 0.90
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Where a fit ended: ``values``, ``residuals`` by record, ``keys`` fitted with white ``columns`` per probe, white ``loss``."""
+
+    values: dict[str, float]
+    residuals: dict[int, np.ndarray]
+    keys: tuple[str, ...]
+    columns: np.ndarray
+    loss: float
+
+
+def limits(size: Size, effect: bool) -> tuple[float, float]:
+    """Bounds of a fit: those of calibration, or what is plausible of an effect and somewhat more."""
+    width = BEYOND * (size.upper - size.lower) if effect else 0.0
+    lower = size.lower if size.lower == size.neutral else size.lower - width
+    upper = size.upper if size.upper == size.neutral else size.upper + width
+    return lower, upper
+
+
+def refit(
+    experiment: Experiment,
+    frame: Frame,
+    values: Mapping[str, float],
+    sizes: Sequence[Size],
+    columns: Mapping[str, np.ndarray],
+    *,
+    renewed: Sequence[str] = (),
+    iterations: int = 4,
+    tolerance: float = 2e-4,
+) -> Fit:
+    """Gauss-Newton within bounds for ``sizes`` from ``values``, in the white frame.
+
+    ``columns``: white change per probe of each key at the start; those of ``renewed`` are made anew, as secants, after
+    every step. Steps that do not lower the loss, or that cannot be simulated, are halved.
+    """
+    free = {size.key for size in experiment.free}
+    values = dict(values)
+    residuals = exp.simulate(experiment, values, frame.indices)
+    flat = frame.flat(residuals)
+    loss = float(flat @ flat)
+    matrix = np.stack([columns[size.key] for size in sizes], axis=1)
+    for _ in range(iterations):
+        orthogonal, triangle = np.linalg.qr(matrix)
+        now = np.array([values.get(size.key, size.neutral) for size in sizes])
+        probe = np.array([size.probe for size in sizes])
+        bounds = np.array([limits(size, size.key not in free) for size in sizes])
+        room = np.sort((bounds - now[:, None]) / probe[:, None], axis=1)
+        room = room + np.array([-1e-9, 1e-9])
+        power = np.sqrt(np.sum(triangle**2, axis=0))
+        power = np.where(power > 0, power, 1.0)
+        step = lsq_linear(triangle / power, -(orthogonal.T @ flat), (room[:, 0] * power, room[:, 1] * power)).x / power
+        improved = False
+        for _ in range(4):
+            trial = {**values, **{size.key: float(v) for size, v in zip(sizes, now + step * probe)}}
+            try:
+                found = exp.simulate(experiment, trial, frame.indices)
+            except (InputError, ValueError):
+                step = step / 2
+                continue
+            flat_trial = frame.flat(found)
+            if flat_trial @ flat_trial < loss:
+                improved = True
+                break
+            step = step / 2
+        if not improved:
+            break
+        gained = loss - float(flat_trial @ flat_trial)
+        values, residuals, flat, loss = trial, found, flat_trial, float(flat_trial @ flat_trial)
+        for k, size in enumerate(sizes):
+            if size.key in renewed and abs(step[k]) > RENEWAL:
+                matrix[:, k] = _renewed(experiment, frame, values, residuals, size, matrix[:, k])
+        if gained < tolerance * loss:
+            break
+    return Fit(values, residuals, tuple(size.key for size in sizes), matrix.T, loss)
+
+
+def _renewed(experiment, frame, values, residuals, size: Size, before: np.ndarray) -> np.ndarray:
+    inside = (values[size.key] + size.probe - size.lower) * (size.upper - values[size.key] - size.probe) >= 0
+    try:
+        column = exp.secant(experiment, values, residuals, size, 1.0 if inside else -0.5)
+    except (InputError, ValueError):
+        return before
+    return frame.flat(column)
+
+
+def covariance(fit: Fit, frame: Frame) -> tuple[np.ndarray, int]:
+    """Covariance of the fitted sizes in probes, and the number of blocks it rests on.
+
+    Sandwich estimator: errors of one block may depend on one another in any way (Cameron and Miller 2015, eq. 11).
+    """
+    residual, blocks = frame.flat(fit.residuals), np.unique(frame.blocks(), return_inverse=True)[1]
+    count = len(fit.columns)
+    bread = np.linalg.pinv(fit.columns @ fit.columns.T, rcond=1e-10, hermitian=True)
+    sums = np.stack([np.bincount(blocks, row * residual) for row in fit.columns])
+    used = int(np.sum(np.any(sums != 0, axis=0)))
+    factor = used / max(used - count, 1)
+    return factor * bread @ (sums @ sums.T) @ bread, used
+
+
+def interval(fit: Fit, frame: Frame, size: Size) -> tuple[float, float]:
+    """90 % interval of a fitted size in its unit."""
+    matrix, blocks = covariance(fit, frame)
+    k = fit.keys.index(size.key)
+    half = student.ppf(0.5 + CONFIDENCE / 2, max(blocks - len(fit.keys), 1)) * np.sqrt(matrix[k, k]) * abs(size.probe)
+    value = fit.values[size.key]
+    return value - half, value + half
+
+
+def information(frame: Frame, residuals: Mapping[int, np.ndarray]) -> float:
+    """Twice the log-likelihood of Gaussian errors whose spectra are those of the residuals themselves (Whittle 1953).
+
+    Larger is better; it needs no spectrum known beforehand, so that it compares models whose errors differ in colour.
+    """
+    cleaned = {index: frame.cleaned(index, residuals[index]) / frame.whitening[index].scale for index in frame.indices}
+    found = exp.condition_spectra(frame.experiment, cleaned)
+    total = 0.0
+    for index in frame.indices:
+        record = frame.experiment.records[index]
+        seconds = residuals[index].shape[1] / record.rate
+        total -= 2 * seconds * (record.band[1] - record.band[0]) * found[record.condition].log_determinant(record.band)
+    return total
+
+
+def advantage(frame: Frame, one: Mapping[int, np.ndarray], other: Mapping[int, np.ndarray]) -> tuple[float, float]:
+    """How much better ``one`` fits than ``other``: fall of the white loss, and its z over blocks (Vuong 1989).
+
+    Both are made white by the mean of their spectra, so that neither is favoured.
+    """
+    cleaned = [{i: frame.cleaned(i, part[i]) for i in frame.indices} for part in (one, other)]
+    spectra = [exp.condition_spectra(frame.experiment, part) for part in cleaned]
+    losses = np.zeros(0)
+    for index in frame.indices:
+        record = frame.experiment.records[index]
+        mean = (spectra[0][record.condition] + spectra[1][record.condition]) * 0.5
+        white = spectrum.Whitening(mean, record.rate, record.band, frame.whitening[index].scale)
+        difference = white(cleaned[1][index]) ** 2 - white(cleaned[0][index]) ** 2
+        losses = np.concatenate([losses, difference.ravel()])
+    sums = np.bincount(np.unique(frame.blocks(), return_inverse=True)[1], losses)
+    sums = sums[sums != 0]
+    spread = np.sqrt(np.sum((sums - sums.mean()) ** 2)) if sums.size > 1 else np.inf
+    return float(sums.sum()), float(sums.sum() / spread) if spread > 0 else 0.0
+
+
+def one_sided_p(z: float) -> float:
+    """Probability of a z as large under equal fits."""
+    return float(norm.sf(z))

@@ -1,0 +1,495 @@
+"""From a library of candidates to the effects that are missing: proposed on fitted drives, decided on held-out ones.
+
+Forward selection. Each round tests every candidate on the white residual of the present
+model, refits the best few together with all that is calibrated, and keeps one only if it
+is significant over the whole library, plausible in size, worth its parameters (BIC) and
+makes drives better that it was never fitted to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..errors import InputError
+from . import evidence, floor, refit
+from . import experiment as exp
+from .experiment import Candidate, Experiment, Frame
+from .refit import Fit
+
+LEVEL = 0.05
+"""Probability of a false alarm over the whole library."""
+
+LEAST_SHARE = 0.01
+"""Share of the explainable error below which an effect is not worth naming."""
+
+PROPOSED = 5
+"""Candidates that are refitted in a round."""
+
+APART = 2.0
+"""z of the difference of two refits below which the data do not tell them apart."""
+
+HELD_OUT_Z = 2.0
+"""z of the improvement of held-out drives that an effect must reach."""
+
+LARGE = 0.02
+"""Gain per independent value of the records above which a refit is repeated with the spectrum of its own residuals."""
+
+HUGE = 0.2
+"""The same, above which the columns of all parameters are made anew."""
+
+SETTLED = 3
+"""Refits that this is done for, the best of a round."""
+
+CYCLES = 8
+"""Most such repetitions."""
+
+ALIAS = 0.1
+"""Share of a candidate's power that nuisances must leave; below it it is one of them under another name."""
+
+DECOYS = 6
+"""Columns with the spectrum of a candidate and random phases that must never rank."""
+
+FINER = 4.0
+"""Parts of a block in the second form of the test, which sees rare events better."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A candidate refitted: its fit, gains in twice the log-likelihood, shares of the explainable error, and what speaks against it."""
+
+    name: str
+    shape: Mapping[str, float]
+    fit: Fit
+    gain: float
+    bic: float
+    held_out_gain: float
+    held_out_z: float
+    share: float
+    held_out_share: float
+    objection: str
+
+
+@dataclass(frozen=True)
+class Round:
+    """One step of the selection: the evidence by candidate, the refits, who won, and who cannot be told from it."""
+
+    names: tuple[str, ...]
+    p_value: np.ndarray
+    gain: np.ndarray
+    size: dict[str, float]
+    size_error: dict[str, float]
+    absorbed: np.ndarray
+    trials: tuple[Trial, ...]
+    winner: Trial | None
+    cluster: tuple[str, ...]
+    correlation: dict[str, float]
+    decoy_p_value: float
+    decoy_ranks: bool
+    """Whether a decoy is significant and gains more than any candidate."""
+
+
+@dataclass(frozen=True)
+class State:
+    """A model of the ladder: its name, fit, and mean squares (record, channel) on fitted and held-out records."""
+
+    name: str
+    fit: Fit
+    squares: np.ndarray
+    held_out_squares: np.ndarray
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What the selection found: its rounds, the ladder of models, the floor, the final frame."""
+
+    rounds: tuple[Round, ...]
+    ladder: tuple[State, ...]
+    ground: np.ndarray
+    held_out_ground: np.ndarray
+    repeats: bool
+    frame: Frame
+    accepted: tuple[str, ...]
+    intervals: dict[str, tuple[float, float]]
+    final: Fit
+    remaining: float
+    """Share of the white error that all repeats still have in common, 0 to 1; nan without repeats."""
+    remaining_z: float
+    """How surely that is more than nothing, as a z."""
+
+
+def select(
+    experiment: Experiment,
+    start: Mapping[str, float],
+    *,
+    most: int = 3,
+    seed: int = 0,
+    each: Callable = map,
+    say: Callable[[str], None] = lambda words: None,
+) -> Selection:
+    """Find up to ``most`` missing effects from ``start`` (values of the calibrated model).
+
+    ``each`` maps a function over candidates (``map`` or that of a pool); ``say`` is told what goes on.
+    """
+    return _Search(experiment, dict(start), most, seed, each, say).run()
+
+
+@dataclass
+class _Search:
+    experiment: Experiment
+    values: dict[str, float]
+    most: int
+    seed: int
+    each: Callable
+    say: Callable
+    accepted: list[str] = field(default_factory=list)
+
+    def __post_init__(self):
+        records = self.experiment.records
+        self.fitted = [i for i, record in enumerate(records) if record.role == "fit"]
+        self.held_out = [i for i, record in enumerate(records) if record.role != "fit"]
+        if not self.fitted:
+            raise InputError("no drive has the role 'fit' (expected at least one)", place="drives")
+        self.by_name = {candidate.name: candidate for candidate in self.experiment.candidates}
+
+    def run(self) -> Selection:
+        self.frame, base = self._calibrated(self.values)
+        self.frame, base = self._calibrated(base.values)
+        check = exp.simulate(self.experiment, base.values, self.held_out)
+        self.check_frame = self._frame(check, base.values) if check else None
+        self._grounds(base, check)
+        ladder = [self._state("calibrated", base, check)]
+        self.base_squares = ladder[0]
+        self.say("probing every candidate")
+        self.columns = self._probe(base)
+        rounds = []
+        while len(self.accepted) < self.most:
+            turn, base = self._round(base, check, len(rounds))
+            rounds.append(turn)
+            if turn.winner is None:
+                break
+            self.accepted.append(turn.winner.name)
+            self.say(f"accepted {turn.winner.name}")
+            self.frame, base = self._calibrated(base.values)
+            check = exp.simulate(self.experiment, base.values, self.held_out)
+            self.check_frame = self._frame(check, base.values) if check else None
+            self._grounds(base, check)
+            ladder.append(self._state(turn.winner.name, base, check))
+        sizes = {size.key: size for size in self._sizes()}
+        final = self._final(base)
+        bounds = {key: refit.interval(final, self.frame, sizes[key]) for key in final.keys}
+        return Selection(
+            tuple(rounds), tuple(ladder), self.ground, self.held_out_ground, self.repeats, self.frame,
+            tuple(self.accepted), bounds, final, *self._remaining(final),
+        )  # fmt: skip
+
+    def _sizes(self, extra: Sequence[str] = ()) -> list[exp.Size]:
+        names = [*self.accepted, *extra]
+        return [*self.experiment.free, *(size for name in names for size in self.by_name[name].sizes)]
+
+    def _frame(self, residuals, values) -> Frame:
+        nuisances = {index: self.experiment.nuisances(values, index) for index in residuals}
+        return exp.frame(self.experiment, residuals, nuisances)
+
+    def _calibrated(self, values: dict[str, float]) -> tuple[Frame, Fit]:
+        """Frame and fit of the present model, at its own spectrum."""
+        residuals = exp.simulate(self.experiment, values, self.fitted)
+        sizes, frame = self._sizes(), self._frame(residuals, values)
+        self.raw = {size.key: exp.secant(self.experiment, values, residuals, size, _inward(size, values)) for size in sizes}
+        for _ in range(2):
+            columns = {key: frame.flat(column) for key, column in self.raw.items()}
+            fit = refit.refit(self.experiment, frame, values, sizes, columns, iterations=3)
+            values = fit.values
+            frame = exp.frame(self.experiment, fit.residuals, frame.nuisances, self._cleaned(frame, fit.residuals))
+        return frame, fit
+
+    def _final(self, base: Fit) -> Fit:
+        columns = {key: self.frame.flat(column) for key, column in self._raw_at(base).items()}
+        return refit.refit(self.experiment, self.frame, base.values, self._sizes(), columns, iterations=1)
+
+    def _raw_at(self, base: Fit) -> dict:
+        return {
+            size.key: exp.secant(self.experiment, base.values, base.residuals, size, _inward(size, base.values))
+            for size in self._sizes()
+        }
+
+    def _cleaned(self, frame: Frame, residuals) -> dict[int, np.ndarray]:
+        return {index: frame.cleaned(index, residuals[index]) for index in residuals}
+
+    def _grounds(self, fit: Fit, check) -> None:
+        """Mean squares of the floor on fitted and held-out records; of a condition without repeats, as of the others.
+
+        Repeats differ in their path, so what the model lacks differs too: the floor sinks as the model improves.
+        """
+        known = floor.floor(self.experiment, self._cleaned(self.frame, fit.residuals))
+        self.repeats = bool(known)
+        for name, indices in (("ground", self.fitted), ("held_out_ground", self.held_out)):
+            rows = np.zeros((len(indices), len(self.experiment.channels)))
+            for row, index in zip(rows, indices):
+                record = self.experiment.records[index]
+                found = known.get(record.condition) or next(iter(known.values()), None)
+                if found is not None:
+                    row[:] = floor.power(found, record.band, record.rate)
+            before = getattr(self, name, None)
+            setattr(self, name, rows if before is None else np.minimum(before, rows))
+        # No floor lies above what a model has reached.
+        self.ground = np.minimum(self.ground, floor.squares(self.experiment, self._cleaned(self.frame, fit.residuals)))
+        if check:
+            reached = floor.squares(self.experiment, self._cleaned(self.check_frame, check))
+            self.held_out_ground = np.minimum(self.held_out_ground, reached)
+
+    def _state(self, name: str, fit: Fit, check) -> State:
+        squares = floor.squares(self.experiment, self._cleaned(self.frame, fit.residuals))
+        held_out = floor.squares(self.experiment, self._cleaned(self.check_frame, check)) if check else self.held_out_ground
+        return State(name, fit, squares, held_out)
+
+    def _probe(self, base: Fit) -> dict[tuple[str, int], dict[str, dict[int, np.ndarray]]]:
+        """Change of the residuals per probe of every size of every candidate and shape, in single precision."""
+        jobs = [(c.name, shape) for c in self.experiment.candidates for shape in range(len(c.shapes))]
+        results = self.each(_Probe(self.experiment, base.values, base.residuals), jobs)
+        kept = {job: found for job, found in zip(jobs, results) if found}
+        return {
+            job: found for job, found in kept.items()
+            if max(self.frame.own_share(column) for column in found.values()) > ALIAS
+        }  # fmt: skip
+
+    def _round(self, base: Fit, check, number: int) -> tuple[Round, Fit]:
+        free = np.stack([self.frame.flat(self.raw[size.key]) for size in self._sizes()])
+        jobs = [job for job in self.columns if job[0] not in self.accepted]
+        rows, group, sign, labels = [], [], [], []
+        for g, job in enumerate(jobs):
+            parts = [self.frame.flat(column) for column in self.columns[job].values()]
+            signs = [size.sign for size in self.by_name[job[0]].sizes if size.key in self.columns[job]]
+            keys = list(self.columns[job])
+            if len(parts) > 1:
+                parts, signs, keys = [*parts, sum(parts)], [*signs, int(all(signs))], [*keys, "all"]
+            rows += parts
+            sign += signs
+            group += [g] * len(parts)
+            labels += [(job, key) for key in keys]
+        rng = np.random.default_rng([self.seed, number])
+        for _ in range(DECOYS if jobs else 0):
+            job = jobs[rng.integers(len(jobs))]
+            column = next(iter(self.columns[job].values()))
+            state = rng.integers(2**31)
+            decoy = {i: evidence.phase_randomised(part, np.random.default_rng(state)) for i, part in column.items()}
+            rows.append(self.frame.flat(decoy))
+            group.append(group[-1] + 1)
+            sign.append(0)
+        found = evidence.score_test(
+            self.frame.flat(base.residuals), free, np.stack(rows), [self.frame.blocks(), self.frame.blocks(FINER)],
+            group=group, sign=sign, seed=self.seed + number,
+        )  # fmt: skip
+        names = tuple(dict.fromkeys(job[0] for job in jobs))
+        own = {name: [g for g, job in enumerate(jobs) if job[0] == name] for name in names}
+        best = {name: max(own[name], key=lambda g: found.group_gain[g]) for name in names}
+        p_value = np.array([found.p_value[own[name]].min() for name in names])
+        gain = np.array([found.group_gain[best[name]] for name in names])
+        order = [name for _, name in sorted(zip(-gain, names)) if p_value[names.index(name)] <= LEVEL][:PROPOSED]
+        self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
+        first = list(self.each(_Try(self, base, check), [jobs[best[name]] for name in order]))
+        leading = sorted((trial for trial in first if trial is not None), key=_merit, reverse=True)
+        large = [trial for trial in leading[:SETTLED] if trial.gain > LARGE * self._count()]
+        settled = self.each(_Settle(self, base, check), large)
+        trials = [*(trial for trial in settled if trial is not None), *(trial for trial in leading if trial not in large)]
+        winner = max((t for t in trials if not t.objection), key=_merit, default=None)
+        cluster, correlation = (), {}
+        if winner is not None:
+            columns = {labels[k]: found.projected[k] for k in range(len(labels))}
+            cluster, correlation = self._cluster(winner, trials, columns)
+        size = {key: found.size[k] for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"}
+        error = {key: found.error[k] for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"}
+        absorbed = np.array([min(found.absorbed[k] for k in range(len(labels)) if group[k] == best[name]) for name in names])
+        turn = Round(
+            names, p_value, gain, size, error, absorbed, tuple(trials), winner, cluster, correlation,
+            float(found.p_value[len(jobs) :].min(initial=1.0)), _ranks(found, len(jobs)),
+        )  # fmt: skip
+        return turn, winner.fit if winner is not None else base
+
+    def _try(self, job: tuple[str, int], base: Fit, check) -> Trial | None:
+        """The refit of a candidate in one shape; None where it cannot be simulated."""
+        candidate, raw = self.by_name[job[0]], {**self.raw, **self.columns[job]}
+        shape = candidate.shapes[job[1]]
+        sizes = [size for size in self._sizes([candidate.name]) if size.key in raw]
+        columns = {key: self.frame.flat(column) for key, column in raw.items()}
+        try:
+            fit = refit.refit(
+                self.experiment, self.frame, {**base.values, **candidate.at({}), **shape}, sizes, columns,
+                renewed=list(self.columns[job]),
+            )  # fmt: skip
+            return self._judge(candidate, shape, fit, base, check)
+        except (InputError, ValueError):
+            return None
+
+    def _settle(self, trial: Trial, base: Fit, check) -> Trial | None:
+        """The refit repeated in the frame of its own residuals while the error falls by much.
+
+        A large error makes itself white: what is missing weighs least where it is largest.
+        """
+        candidate, fit, gained = self.by_name[trial.name], trial.fit, trial.gain
+        own = [size for size in candidate.sizes if size.key in fit.keys]
+        try:
+            for _ in range(CYCLES):
+                frame = self._frame(fit.residuals, fit.values)
+                anew = own if gained < HUGE * self._count() else self._sizes([candidate.name])
+                raw = {
+                    size.key: exp.secant(self.experiment, fit.values, fit.residuals, size, _inward(size, fit.values))
+                    for size in anew
+                }
+                columns = {key: frame.flat(column) for key, column in {**self.raw, **raw}.items()}
+                sizes = [size for size in self._sizes([candidate.name]) if size.key in columns]
+                fit = refit.refit(self.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own])
+                judged = self._judge(candidate, trial.shape, fit, base, check)
+                gained = judged.gain - trial.gain
+                trial = judged if gained > 0 else trial
+                if gained < LARGE * self._count():
+                    break
+        except (InputError, ValueError):
+            pass
+        return trial
+
+    def _judge(self, candidate: Candidate, shape, fit: Fit, base: Fit, check) -> Trial:
+        fit = replace(fit, columns=np.zeros((0, 0)))
+        held = exp.simulate(self.experiment, fit.values, self.held_out)
+        gain = refit.information(self.frame, fit.residuals) - refit.information(self.frame, base.residuals)
+        bic = gain - len(candidate.sizes) * np.log(len(np.unique(self.frame.blocks())))
+        held_gain, held_z = float("nan"), float("nan")
+        if self.check_frame is not None:
+            held_gain = refit.information(self.check_frame, held) - refit.information(self.check_frame, check)
+            held_z = refit.advantage(self.check_frame, held, check)[1]
+        now, before, first = self._state(candidate.name, fit, held), self._state("", base, check), self.base_squares
+        share = floor.explained_share(before.squares, now.squares, first.squares, self.ground)
+        held_share = floor.explained_share(
+            before.held_out_squares, now.held_out_squares, first.held_out_squares, self.held_out_ground
+        )
+        trial = Trial(candidate.name, shape, fit, gain, bic, held_gain, held_z, share, held_share, "")
+        return replace(trial, objection=self._objection(trial, candidate))
+
+    def _count(self) -> float:
+        """Independent values in the band of the fitted records and channels."""
+        records = [self.experiment.records[i] for i in self.fitted]
+        seconds = [len(record.place) / record.rate for record in records]
+        return len(self.experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
+
+    def _objection(self, trial: Trial, candidate: Candidate) -> str:
+        for size in candidate.sizes:
+            value = trial.fit.values.get(size.key, size.neutral)
+            room = 1e-3 * (size.upper - size.lower)
+            if not size.lower - room <= value <= size.upper + room:
+                return f"{size.key} = {value:.3g} {size.unit} lies outside what is plausible ({size.lower:g} to {size.upper:g})"
+        if trial.bic <= 0:
+            return "not worth its parameters (BIC)"
+        if np.isfinite(trial.held_out_gain) and not (trial.held_out_gain > 0 and trial.held_out_z > HELD_OUT_Z):
+            return "does not improve the drives held out"
+        if trial.share < LEAST_SHARE:
+            return f"removes {100 * trial.share:.1f} % of the explainable error"
+        return ""
+
+    def _cluster(self, winner: Trial, trials, columns) -> tuple[tuple[str, ...], dict[str, float]]:
+        """Candidates whose refits the data do not tell from the winner's, and their canonical correlation with it."""
+        mine = np.stack([row for (job, key), row in columns.items() if job[0] == winner.name])
+        cluster, correlation = [], {}
+        for trial in trials:
+            if trial is winner:
+                continue
+            theirs = np.stack([row for (job, key), row in columns.items() if job[0] == trial.name])
+            correlation[trial.name] = evidence.canonical_correlation(mine, theirs)
+            if trial.gain < 0.5 * winner.gain:
+                continue
+            z = [refit.advantage(self.frame, winner.fit.residuals, trial.fit.residuals)[1]]
+            if self.held_out:
+                held = [exp.simulate(self.experiment, t.fit.values, self.held_out) for t in (winner, trial)]
+                z.append(refit.advantage(self.check_frame, *held)[1])
+            if sum(z) / np.sqrt(len(z)) < APART:
+                cluster.append(trial.name)
+        return tuple(cluster), correlation
+
+    def _remaining(self, final: Fit) -> tuple[float, float]:
+        """What all repeats still share: products of white residuals of different repeats, and their z over blocks."""
+        if not self.repeats:
+            return float("nan"), float("nan")
+        return shared_error(self.frame, final.residuals)
+
+
+def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> tuple[float, float]:
+    """Share of the white power that different repeats have in common at equal place, and its z: 0 where they share nothing."""
+    groups: dict[str, list[int]] = {}
+    for index in frame.indices:
+        groups.setdefault(frame.experiment.records[index].condition, []).append(index)
+    sums, power, pairs = [], 0.0, 0
+    for own in groups.values():
+        records = [frame.experiment.records[i] for i in own]
+        white = [frame.whitening[i](frame.cleaned(i, residuals[i])) for i in own]
+        for a in range(len(own)):
+            for b in range(a):
+                place = records[a].place
+                other = np.stack([np.interp(place, records[b].place, row) for row in white[b]])
+                products = (white[a] * other).sum(axis=0)
+                numbers = np.unique(records[a].blocks(), return_inverse=True)[1]
+                sums.append(np.bincount(numbers, products))
+                power, pairs = power + np.sqrt(np.sum(white[a] ** 2) * np.sum(other**2)), pairs + 1
+    if not sums:
+        return float("nan"), float("nan")
+    length = min(len(part) for part in sums)
+    total = sum(part[:length] for part in sums)
+    return float(total.sum() / power), float(total.sum() / np.sqrt(np.sum(total**2)))
+
+
+def _merit(trial: Trial) -> float:
+    return trial.bic + (trial.held_out_gain if np.isfinite(trial.held_out_gain) else 0.0)
+
+
+def _ranks(found: evidence.Evidence, candidates: int) -> bool:
+    decoys = np.where(found.p_value[candidates:] <= LEVEL, found.group_gain[candidates:], 0.0)
+    return bool(decoys.size and decoys.max() > found.group_gain[:candidates].max(initial=0.0))
+
+
+def _inward(size: exp.Size, values: Mapping[str, float]) -> float:
+    value = values.get(size.key, size.neutral)
+    return 1.0 if size.lower <= value + size.probe <= size.upper else -1.0
+
+
+@dataclass(frozen=True)
+class _Probe:
+    """The columns of one candidate in one shape, as a function that a pool can be handed."""
+
+    experiment: Experiment
+    values: Mapping[str, float]
+    residuals: Mapping[int, np.ndarray]
+
+    def __call__(self, job: tuple[str, int]) -> dict[str, dict[int, np.ndarray]]:
+        candidate = next(c for c in self.experiment.candidates if c.name == job[0])
+        columns = {}
+        for size in candidate.sizes:
+            try:
+                moved = exp.simulate(
+                    self.experiment, {**self.values, **candidate.at({size.key: 1.0}, job[1])}, self.residuals
+                )
+            except (InputError, ValueError):
+                continue
+            column = {i: (moved[i] - self.residuals[i]).astype(np.float32) for i in moved}
+            if any(np.any(part) for part in column.values()):
+                columns[size.key] = column
+        return columns
+
+
+@dataclass(frozen=True)
+class _Try:
+    search: _Search
+    base: Fit
+    check: Mapping[int, np.ndarray]
+
+    def __call__(self, job: tuple[str, int]) -> Trial | None:
+        return self.search._try(job, self.base, self.check)
+
+
+@dataclass(frozen=True)
+class _Settle:
+    search: _Search
+    base: Fit
+    check: Mapping[int, np.ndarray]
+
+    def __call__(self, trial: Trial) -> Trial | None:
+        return self.search._settle(trial, self.base, self.check)

@@ -1,0 +1,147 @@
+"""Cross-spectra of errors over all channels, and series made white by them.
+
+An error of one channel comes with errors of the others and colours them; taken for
+independent noise it makes every candidate look certain. Series are multiplied by the
+inverse root of their cross-spectral density, so that what is left is white in time,
+of unit variance and independent between channels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
+from scipy.ndimage import uniform_filter1d
+
+SEGMENT = 4.0
+"""s of the segments of the spectra (Hann window, half overlapping)."""
+
+BANDWIDTH = 1.0
+"""Hz over which a spectrum is smoothed."""
+
+EDGE = 1.0
+"""s at both ends of a series that are left out when white: what came before the first sample is not known."""
+
+LEAST = 1e-8
+"""Share of the mean variance, all channels in units of their own, that a direction keeps: a sensor that repeats another."""
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Cross-spectral density in units of white noise: a white series of unit variance has the unit matrix.
+
+    ``frequency`` (Hz), ``density`` (frequency, channel, channel), ``seconds`` of record it rests on.
+    """
+
+    frequency: np.ndarray
+    density: np.ndarray
+    seconds: float
+
+    def __add__(self, other: Spectrum) -> Spectrum:
+        """Sum of two spectra on the frequencies of the first."""
+        return Spectrum(self.frequency, self.density + _at(other, self.frequency), min(self.seconds, other.seconds))
+
+    def __mul__(self, factor: float) -> Spectrum:
+        return Spectrum(self.frequency, factor * self.density, self.seconds)
+
+    def log_determinant(self, band: tuple[float, float]) -> float:
+        """Mean of log det over the band: the Gaussian information of one sample is half of it (Whittle 1953)."""
+        kept = (self.frequency >= band[0]) & (self.frequency <= band[1])
+        return float(np.mean(np.linalg.slogdet(_regular(self.density[kept]))[1]))
+
+
+def cross_spectrum(series: Sequence[np.ndarray], rate: float, bandwidth: float = BANDWIDTH) -> Spectrum:
+    """Cross-spectral density of series (channel, sample) of one condition, by Welch's method.
+
+    ``rate`` in Hz. Segments are averaged over all series and frequencies over ``bandwidth`` (Hz).
+    """
+    length = min(int(round(SEGMENT * rate)), min(part.shape[1] for part in series))
+    window = np.hanning(length + 1)[:-1]
+    window /= np.sqrt(np.sum(window**2))
+    total, count = 0.0, 0
+    for part in series:
+        starts = np.arange(0, part.shape[1] - length + 1, max(length // 2, 1))
+        pieces = np.stack([part[:, start : start + length] for start in starts])
+        bins = np.fft.rfft(pieces * window, axis=-1)
+        total = total + np.einsum("nif,njf->fij", bins, bins.conj())
+        count += len(starts)
+    density = total / count
+    frequency = np.fft.rfftfreq(length, 1.0 / rate)
+    width = max(1, int(round(bandwidth / frequency[1])) // 2 * 2 + 1)
+    smooth = lambda values: uniform_filter1d(values, width, axis=0, mode="nearest")
+    return Spectrum(frequency, smooth(density.real) + 1j * smooth(density.imag), sum(p.shape[1] for p in series) / rate)
+
+
+@dataclass(frozen=True)
+class Whitening:
+    """Makes series with a known spectrum white within a band (Hz); outside it nothing is left.
+
+    ``scale``: rms of the white series over its samples where that is known to vary; it is divided out.
+    """
+
+    spectrum: Spectrum
+    rate: float
+    band: tuple[float, float]
+    scale: np.ndarray | None = None
+
+    def __post_init__(self):
+        values, vectors = np.linalg.eigh(_regular(self.spectrum.density))
+        root = np.einsum("fik,fk,fjk->fij", vectors, values**-0.5, vectors.conj())
+        object.__setattr__(self, "_root", root)
+        object.__setattr__(self, "_known", {})
+
+    def __call__(self, series: np.ndarray) -> np.ndarray:
+        """White series of the same shape (..., channel, sample), in the precision of ``series``."""
+        count = series.shape[-1]
+        white = irfft(self._filter(count, np.asarray(series)), self._length(count), axis=-1)[..., :count]
+        edge = min(int(EDGE * self.rate), count // 10)
+        white[..., :edge] = 0.0
+        white[..., count - edge :] = 0.0
+        return white if self.scale is None else white / self.scale.astype(white.dtype)
+
+    def _length(self, count: int) -> int:
+        return next_fast_len(count + int(SEGMENT * self.rate), real=True)
+
+    def _filter(self, count: int, series: np.ndarray) -> np.ndarray:
+        length = self._length(count)
+        if length not in self._known:
+            frequency = np.fft.rfftfreq(length, 1.0 / self.rate)
+            root = _interpolate(self.spectrum.frequency, self._root, frequency)
+            root[(frequency < self.band[0]) | (frequency > self.band[1])] = 0.0
+            self._known[length] = np.ascontiguousarray(root)
+        bins = rfft(series, length, axis=-1)
+        channels, count = bins.shape[-2:]
+        stacked = bins.reshape(-1, channels, count).transpose(2, 1, 0)
+        return (self._known[length].astype(bins.dtype) @ stacked).transpose(2, 1, 0).reshape(bins.shape)
+
+
+def local_scale(white: np.ndarray, rate: float, seconds: float = 4.0) -> np.ndarray:
+    """Running rms (sample,) over all channels of a white series (channel, sample), against its mean over the record.
+
+    Errors are larger where the road is rough; where they are, a sample weighs less.
+    """
+    power = uniform_filter1d(np.mean(white**2, axis=0), max(1, int(seconds * rate)), mode="nearest")
+    return np.sqrt(np.maximum(power, 0.05 * power.mean()) / power.mean())
+
+
+def _regular(density: np.ndarray) -> np.ndarray:
+    """The density with every channel's own power raised by LEAST of its mean, so that it can be inverted."""
+    count = density.shape[-1]
+    own = density[..., range(count), range(count)].real
+    raised = density.copy()
+    raised[..., range(count), range(count)] = own * (1 + 1e-6) + LEAST * own.mean(axis=0) + 1e-300
+    return raised
+
+
+def _at(spectrum: Spectrum, frequency: np.ndarray) -> np.ndarray:
+    return _interpolate(spectrum.frequency, spectrum.density, frequency)
+
+
+def _interpolate(known: np.ndarray, values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Linear interpolation along the first axis; ends are held."""
+    place = np.clip(np.interp(wanted, known, np.arange(known.size)), 0, known.size - 1)
+    left = np.minimum(place.astype(int), known.size - 2)
+    part = (place - left)[:, None, None]
+    return values[left] * (1 - part) + values[left + 1] * part

@@ -1,0 +1,91 @@
+"""Signs that the measurement, and not the model, is wrong: noise in the scanned road, clock, gain, tilt."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from . import floor
+from . import experiment as exp
+from .car import Car
+from .experiment import Frame
+
+ROAD_BAND = (0.1, 0.8)
+"""Cycles per metre in which the spectrum of a road follows a power law (ISO 8608 holds to 2.83)."""
+
+NOISE_BAND = 2.0
+"""Cycles per metre above which a scanner's white noise stands out of a road's falling spectrum."""
+
+EXCESS = 4.0
+"""Times that the spectrum must lie above its power law there to be called noise."""
+
+CAUSED = 0.3
+"""Share of the explainable error that noise of the road must be able to cause to be suspected."""
+
+CLOCK = 0.002
+"""s of standard error of a clock offset beyond which tyre damping cannot be told from delay."""
+
+GAIN = 0.02
+"""Difference of a recorded gain from one that is more than a calibrated instrument has."""
+
+
+def road_noise(road: xr.Dataset) -> float:
+    """Standard deviation in m of white noise in the heights along the road; 0 where none stands out.
+
+    The mean spectrum of all tracks is compared with the continuation of its power law (ISO 8608:2016, annex C).
+    """
+    heights = road["elevation"].transpose("v", "u").values
+    heights = heights[np.isfinite(heights).all(axis=1)]
+    spacing = float(road["u"][1] - road["u"][0])
+    length = min(1024, heights.shape[1])
+    if not len(heights) or length < 128 or 0.5 / spacing <= NOISE_BAND:
+        return 0.0
+    window = np.hanning(length)
+    pieces = [heights[:, k : k + length] for k in range(0, heights.shape[1] - length + 1, length // 2)]
+    slope = np.linspace(-0.5, 0.5, length)
+    level = [p - p.mean(axis=1, keepdims=True) - np.outer(p @ slope / (slope @ slope), slope) for p in pieces]
+    density = np.mean([np.abs(np.fft.rfft(p * window, axis=1)) ** 2 for p in level], axis=(0, 1))
+    density *= 2 * spacing / np.sum(window**2)
+    wavenumber = np.fft.rfftfreq(length, spacing)
+    law = (wavenumber > ROAD_BAND[0]) & (wavenumber < ROAD_BAND[1])
+    fitted = np.polyfit(np.log(wavenumber[law]), np.log(density[law]), 1)
+    high = (wavenumber > NOISE_BAND) & (wavenumber < 0.45 / spacing)
+    expected = np.exp(np.polyval(fitted, np.log(wavenumber[high])))
+    if np.median(density[high] / expected) < EXCESS:
+        return 0.0
+    return float(np.sqrt(max(np.median(density[high] - expected), 0.0) * 0.5 / spacing))
+
+
+def noise_share(experiment: Car, frame: Frame, values, deviation: float, explainable: np.ndarray, seed: int = 0) -> float:
+    """Mean square error that white noise of this ``deviation`` (m) in the road causes, over the explainable one (channel,).
+
+    The largest share over the channels whose explainable error is not small.
+    """
+    index = frame.indices[0]
+    again = experiment.replays[index]
+    noise = deviation * np.random.default_rng(seed).standard_normal(again.road.elevation.shape)
+    noisy = replace(again, road=replace(again.road, elevation=again.road.elevation + noise))
+    experiment.replays[index] = noisy
+    try:
+        changed = exp.simulate(experiment, values, [index])[index]
+    finally:
+        experiment.replays[index] = again
+    change = changed - experiment.residual(values, index)
+    power = floor.squares(experiment, {index: change})[0]
+    kept = explainable > 0
+    return float(np.median(power[kept] / explainable[kept])) if kept.any() else float("inf")
+
+
+def of_drives(experiment: Car) -> list[str]:
+    """Reasons in words to doubt a record, from what its alignment found."""
+    reasons = []
+    for record, again in zip(experiment.records, experiment.replays):
+        found = again.drive.attrs
+        error, gain = found.get("clock_offset_error", 0.0), found.get("acceleration_gain", 1.0)
+        if np.isfinite(error) and error > CLOCK:
+            reasons.append(f"{record.name}: the clock offset is known to {1e3 * error:.1f} ms only")
+        if np.isfinite(gain) and abs(gain - 1.0) > GAIN:
+            reasons.append(f"{record.name}: the accelerometer's gain is {gain:.3f} against gravity")
+    return reasons

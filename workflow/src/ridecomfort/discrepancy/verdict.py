@@ -1,0 +1,156 @@
+"""What the evidence carries, in words and as JSON: named, a cluster, outside the library, nothing, or suspect data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from . import floor
+from .experiment import Candidate, Size
+from .select import LEVEL, Selection
+
+ENOUGH = 0.5
+"""Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
+
+SHARED_Z = 3.0
+"""z of the error that repeats still share above which something is left to explain."""
+
+SHARED = 0.2
+"""Share of the white error in common between repeats below which it may be what alignment left; a fifth is kappa 0.5."""
+
+KINDS = ("named", "cluster", "outside", "nothing", "suspect")
+
+
+@dataclass(frozen=True)
+class Named:
+    """An effect that was found: its sizes with units and 90 % intervals, and the evidence for it.
+
+    ``share`` of the explainable error that it removed when it was added, on fitted and on held-out drives (nan
+    without); ``absorbed``: share of its response that calibration had taken up; ``like``: what it cannot be told from.
+    """
+
+    name: str
+    sizes: tuple[dict, ...]
+    sentence: str
+    p_value: float
+    share: float
+    held_out_share: float
+    absorbed: float
+    like: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """``verdict`` is one of KINDS; ``effects`` in the order in which they were found; ``reasons`` in words."""
+
+    verdict: str
+    effects: tuple[Named, ...]
+    reasons: tuple[str, ...]
+    share: float
+    held_out_share: float
+
+    def json(self) -> dict:
+        """Plain numbers, text and lists; null where a number is not known."""
+        return _plain(asdict(self))
+
+    def words(self) -> str:
+        """The verdict as a few sentences."""
+        names = ", ".join(effect.name for effect in self.effects)
+        first = {
+            "named": f"Missing: {names}.",
+            "cluster": "Missing is one of: " + "; ".join(" or ".join((e.name, *e.like)) for e in self.effects) + ".",
+            "outside": "Something is missing that is not in the library.",
+            "nothing": "Nothing is missing beyond the noise.",
+            "suspect": "The data are suspect; no effect is named.",
+        }[self.verdict]
+        return " ".join([first, *(f"{reason[0].upper()}{reason[1:]}." for reason in self.reasons)])
+
+
+def total_shares(selection: Selection) -> tuple[float, float]:
+    """Share of the explainable error that all accepted effects remove together, fitted and held out (nan without)."""
+    first, last = selection.ladder[0], selection.ladder[-1]
+    return (
+        floor.explained_share(first.squares, last.squares, first.squares, selection.ground),
+        floor.explained_share(
+            first.held_out_squares, last.held_out_squares, first.held_out_squares, selection.held_out_ground
+        ),
+    )
+
+
+def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = ()) -> Verdict:
+    """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it."""
+    by_name = {candidate.name: candidate for candidate in candidates}
+    share, held_out = total_shares(selection)
+    effects = tuple(_named(selection, number, by_name) for number in range(len(selection.accepted)))
+    reasons, first = [], selection.rounds[0] if selection.rounds else None
+    left = selection.remaining_z > SHARED_Z and selection.remaining > SHARED
+    ground = "the floor is known from repeats" if selection.repeats else "no drive was repeated: the floor is taken as nil"
+    wrong = [name for name in selection.accepted if by_name[name].instrument]
+    decoys = any(turn.decoy_ranks for turn in selection.rounds)
+    if wrong:
+        reasons.append(f"{', '.join(wrong)} is an error of the measurement, not of the vehicle")
+    if decoys:
+        reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
+    if wrong or decoys or suspicions:
+        return Verdict("suspect", effects, (*reasons, *suspicions), share, held_out)
+    if not effects:
+        best = float(np.min(first.p_value)) if first is not None and first.p_value.size else 1.0
+        if best > LEVEL:
+            reasons.append(f"the best of {len(candidates)} candidates has p = {best:.2g} over the whole library")
+        else:
+            reasons += [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
+        if left:
+            reasons.append(f"but repeats share an error that no candidate explains (z = {selection.remaining_z:.1f})")
+        return Verdict("outside" if left else "nothing", (), (*reasons, ground), share, held_out)
+    reasons.append(f"{_percent(share)} of the explainable error is removed on the fitted drives")
+    if np.isfinite(held_out):
+        reasons.append(f"{_percent(held_out)} on drives held out")
+    if selection.repeats and left and not share >= ENOUGH:
+        reasons.append(f"that is less than half, and repeats still share an error (z = {selection.remaining_z:.1f})")
+        return Verdict("outside", effects, (*reasons, ground), share, held_out)
+    for effect in effects:
+        if effect.like:
+            reasons.append(f"the data do not tell {effect.name} from {', '.join(effect.like)}")
+    kind = "cluster" if any(effect.like for effect in effects) else "named"
+    return Verdict(kind, effects, (*reasons, ground), share, held_out)
+
+
+def _named(selection: Selection, number: int, by_name) -> Named:
+    turn = selection.rounds[number]
+    winner = turn.winner
+    place = turn.names.index(winner.name)
+    sizes = []
+    for size in by_name[winner.name].sizes:
+        if size.key in selection.intervals:
+            sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
+    return Named(
+        winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]), winner.share,
+        winner.held_out_share, float(turn.absorbed[place]), turn.cluster,
+    )  # fmt: skip
+
+
+def _size(size: Size, value: float, interval: tuple[float, float]) -> dict:
+    return {
+        "parameter": size.key.partition(".")[2] or size.key,
+        "size": float(value),
+        "unit": size.unit,
+        "interval": [float(end) for end in interval],
+        "plausible": [float(size.lower), float(size.upper)],
+        "is_plausible": bool(size.lower <= value <= size.upper),
+    }
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.0f} %" if np.isfinite(share) else "an unknown share"
+
+
+def _plain(value):
+    if isinstance(value, dict):
+        return {key: _plain(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(part) for part in value]
+    if isinstance(value, float):
+        return value if np.isfinite(value) else None
+    return value.item() if isinstance(value, np.generic) else value
