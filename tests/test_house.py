@@ -1,0 +1,75 @@
+"""The rules of the house: imports point one way, and nothing on the way to a verdict sees the truth."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import ridecomfort
+
+PACKAGE = Path(ridecomfort.__file__).parent
+
+ORDER = [
+    {"vocabulary", "errors", "store", "schema"},
+    {"road", "vehicle", "effects", "drive"},
+    {"simulate", "space", "sample", "calibrated", "problem", "identifiability", "calibrate", "standin"},
+    {"comfort", "discrepancy"},
+    {"report", "config"},
+    {"steps", "commands", "__main__"},
+]
+"""Rooms in the order in which data flows: a module imports from its own row and those above."""
+
+
+def row(room: str) -> int:
+    return next(k for k, rooms in enumerate(ORDER) if room in rooms)
+
+
+def modules():
+    return sorted(path for path in PACKAGE.rglob("*.py") if path.name != "__init__.py")
+
+
+def imports(path: Path) -> set[tuple[str, ...]]:
+    """What a module imports from the package, as parts of dotted names."""
+    own = path.relative_to(PACKAGE).parts
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        names = []
+        if isinstance(node, ast.Import):
+            names = [tuple(alias.name.split(".")) for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            module = tuple(node.module.split(".")) if node.module else ()
+            base = ("ridecomfort", *own[: -node.level]) + module if node.level else module
+            names = [(*base, alias.name) for alias in node.names]
+        found |= {name[1:] for name in names if name[0] == "ridecomfort" and len(name) > 1}
+    return found
+
+
+def room(path: Path) -> str:
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+
+
+@pytest.mark.parametrize("path", modules(), ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_imports_point_one_way(path):
+    for name in imports(path):
+        if (PACKAGE / name[0]).exists() or (PACKAGE / f"{name[0]}.py").exists():
+            assert row(name[0]) <= row(room(path)), f"imports {'.'.join(name)}"
+
+
+def test_only_its_own_steps_import_the_stand_in():
+    users = {path.name for path in modules() if room(path) != "standin" and any(n[0] == "standin" for n in imports(path))}
+    assert users and all(name.startswith("standin_") for name in users)
+
+
+def test_no_module_is_longer_than_a_person_reads_at_once():
+    long = {str(path.relative_to(PACKAGE)): count for path in modules() if (count := len(path.read_text().splitlines())) > 500}
+    assert not long
+
+
+def test_nothing_on_the_way_to_a_verdict_names_the_truth():
+    for name in ("drive", "effects", "vehicle", "discrepancy"):
+        for path in (PACKAGE / name).rglob("*.py"):
+            if path.name.startswith("blind"):
+                continue
+            assert "truth/" not in path.read_text() and "standin.yaml" not in path.read_text(), path
