@@ -46,7 +46,8 @@ def one(seed: int, car, names, kappa: float, *, clock: float = 0.0, without: boo
         for size in effect.sizes
     ]
     return {
-        "seed": seed, "hidden": "+".join(names), "kappa": kappa, "clock": clock, "without": without, "verdict": verdict.verdict,
+        "seed": seed, "hidden": "+".join(names), "kappa": kappa,
+        "reached": trial.truth["reached"], "clock": clock, "without": without, "verdict": verdict.verdict,
         "found": "+".join(found), "first_right": bool(found) and found[0] in names, "in_cluster": bool(cluster & set(names)),
         "wrong_named": verdict.verdict == "named" and not set(found) <= set(names), "exact": set(found) == set(names),
         "covered": sum(sizes), "sizes": len(sizes), "share": verdict.share, "held_out_share": verdict.held_out_share,
@@ -63,9 +64,10 @@ def summary(rows: list[dict]) -> list[str]:
         lower, upper = binomtest(int(hits), int(count)).proportion_ci(method="wilson")
         return f"| {what} | {100 * hits / count:.0f} % ({100 * lower:.0f}-{100 * upper:.0f} %) | {count} |"
 
-    hidden = [row for row in rows if row["hidden"] and not row["without"]]
+    seen = [row for row in rows if row["reached"] >= 0.5 * row["kappa"]]
+    hidden = [row for row in seen if row["hidden"] and not row["without"]]
     null = [row for row in rows if not row["hidden"]]
-    outside = [row for row in rows if row["without"]]
+    outside = [row for row in seen if row["without"]]
     lines = ["| figure | reached (95 % interval) | trials |", "|---|---|---|"]
     for kappa in sorted({row["kappa"] for row in hidden}):
         at = [row for row in hidden if row["kappa"] == kappa]
@@ -77,10 +79,16 @@ def summary(rows: list[dict]) -> list[str]:
         lines.append(line(f"something named where nothing is missing, clock off by {1e3 * clock:g} ms",
                           sum(row["verdict"] in ("named", "cluster") for row in at), len(at)))  # fmt: skip
     lines.append(line('"outside" said when it is', sum(row["verdict"] == "outside" for row in outside), len(outside)))
-    lines.append(line("90 % interval covers the size", sum(row["covered"] for row in hidden), sum(row["sizes"] for row in hidden)))
+    covered, sizes = (sum(row[key] for row in hidden) for key in ("covered", "sizes"))
+    lines.append(line("90 % interval covers the size", covered, sizes))
+    pairs = [row for row in hidden if "+" in row["hidden"]]
+    lines.append(line("exact set of 2 effects", sum(row["exact"] for row in pairs), len(pairs)))
+    small = sum(bool(row["hidden"]) for row in rows) - sum(bool(row["hidden"]) for row in seen)
+    lines.append(f"| hidden effect too small at any plausible size (left out above) | {small} | {len(rows)} |")
     shares = [row["held_out_share"] for row in hidden if row["first_right"] and np.isfinite(row["held_out_share"])]
     if shares:
-        lines.append(f"| held-out explainable error removed, median (10th percentile) | {np.median(shares):.2f} ({np.quantile(shares, 0.1):.2f}) | {len(shares)} |")
+        median, tenth = np.median(shares), np.quantile(shares, 0.1)
+        lines.append(f"| held-out explainable error removed, median (10th percentile) | {median:.2f} ({tenth:.2f}) | {len(shares)} |")
     lines.append(f"| seconds a trial, median | {np.median([row['seconds'] for row in rows]):.1f} | {len(rows)} |")
     return lines
 
@@ -102,7 +110,7 @@ def main() -> None:
         hidden = [] if kind == 5 else [str(name) for name in draw.choice(names, 2 if kind == 4 else 1, replace=False)]
         clock = float(draw.choice([0.0, 0.003])) if kind == 5 else 0.0
         rows.append(one(seed, car, hidden, float(draw.choice(KAPPAS)), clock=clock, without=kind == 3, workers=options.workers))
-        print({key: rows[-1][key] for key in ("seed", "hidden", "kappa", "without", "verdict", "found", "seconds")}, flush=True)
+        print({key: rows[-1][key] for key in ("seed", "hidden", "kappa", "reached", "without", "verdict", "found", "seconds")}, flush=True)
         with open(options.output / "trials.csv", "w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, rows[0].keys())
             writer.writeheader()

@@ -72,7 +72,7 @@ def make(seed: int, car, effects: Mapping[str, Mapping[str, float]], kappa: floa
     demands = [_demand(rng, road.u.values, speed) for speed in (SPEED, SPEED, SPEED, SLOWER * SPEED)]
     drive = lambda vehicle, sizes, demand: simulate.run(course, vehicle, effects=sizes, sensor=SENSOR, step=step, **demand)
     noises = [_noise(rng, drive, true_car, demand) for demand in demands]
-    scale = _scale(drive, true_car, effects, kappa, demands[0], noises[0][0]) if effects else 0.0
+    scale, reached = _scale(drive, true_car, effects, kappa, demands[0], noises[0][0]) if effects else (0.0, 0.0)
     sizes = scaled(effects, scale)
     drives = []
     for k, (demand, (noise, error)) in enumerate(zip(demands, noises)):
@@ -87,7 +87,7 @@ def make(seed: int, car, effects: Mapping[str, Mapping[str, float]], kappa: floa
         if clock:
             record["s"] = record["s"] + clock * record["v_x"]
         drives.append(record)
-    return Trial({"trial": (road, drives)}, {"effects": sizes, "scale": scale, "car": hidden, "kappa": kappa})
+    return Trial({"trial": (road, drives)}, {"effects": sizes, "scale": scale, "car": hidden, "kappa": kappa, "reached": reached})
 
 
 def scaled(effects, factor: float) -> dict[str, dict[str, float]]:
@@ -126,8 +126,9 @@ def _signals(record) -> np.ndarray:
     return np.stack([record[name].values for name in SIGNALS])
 
 
-def _scale(drive, vehicle, effects, kappa, demand, noise) -> float:
-    """Factor of the sizes at which what calibration leaves of the effect is kappa times the noise in the worst channel."""
+def _scale(drive, vehicle, effects, kappa, demand, noise) -> tuple[float, float]:
+    """Factor of the sizes at which what calibration leaves of the effect is kappa times the noise in the worst channel, and
+    the kappa that is reached: a plausible size may be too small for it."""
     base = _signals(drive(vehicle, {}, demand))
     error = {**demand, "lateral": demand["lateral"] + PATH_ERROR}
     lost = _signals(drive(vehicle, {}, error))
@@ -138,13 +139,14 @@ def _scale(drive, vehicle, effects, kappa, demand, noise) -> float:
         moved = _signals(drive(with_values(vehicle, {}, {name: vehicle[name] + 0.02 * (upper - lower)})[0], {}, demand))
         columns.append(((moved[:, 200:count] - base[:, 200 : moved.shape[1]][:, : count - 200]) / floor[:, None]).ravel())
     matrix = np.stack(columns, axis=1)
-    factor = 1.0
-    for _ in range(3):
+    factor, found = 1.0, 0.0
+    for turn in range(4):
         changed = _signals(drive(vehicle, scaled(effects, factor), demand))
         span = min(count, changed.shape[1])
         change = (changed[:, 200:span] - base[:, 200:span]) / floor[:, None]
         rows = matrix.reshape(6, -1, len(BOUNDS))[:, : span - 200].reshape(-1, len(BOUNDS))
         left = change.ravel() - rows @ np.linalg.lstsq(rows, change.ravel(), rcond=None)[0]
         found = np.sqrt(np.mean(left.reshape(6, -1) ** 2, axis=1)).max()
-        factor *= kappa / max(found, 1e-12)
-    return float(factor)
+        if turn < 3:
+            factor *= kappa / max(found, 1e-12)
+    return float(factor), float(found)

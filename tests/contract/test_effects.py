@@ -76,10 +76,11 @@ def test_has_a_size(name):
 
 
 def test_neutral_settings_change_nothing(ground, car, without):
+    """But for rounding: the kernel fuses products and sums, and adding nothing changes which."""
     surface, speed = ground
     base = simulate.run(surface, car, speed=speed, lateral=0.3)
     for name in base.variables:
-        np.testing.assert_array_equal(without[name], base[name])
+        np.testing.assert_allclose(without[name], base[name], rtol=0, atol=1e-9)
 
 
 @each

@@ -201,6 +201,7 @@ class Study:
                     "bounds": study["calibration"]["bounds"],
                     "seed": study["seed"],
                     "workers": None,
+                    "among": None,
                 }
             case "sample":
                 return {

@@ -163,7 +163,8 @@ def car(
     chosen = [entry for entry, _ in library.choose(effects, effects_folder)]
     for entry in chosen:
         effects[entry.effect.name] = entry.effect.values(effects[entry.effect.name])
-    free = [_calibrated(name, vehicle[name], pair) for name, pair in {**calibrate.BOUNDS, **(bounds or {})}.items() if "." not in name]
+    limits = {name: pair for name, pair in {**calibrate.BOUNDS, **(bounds or {})}.items() if "." not in name}
+    free = [_calibrated(name, vehicle[name], pair) for name, pair in limits.items()]
     for name, share in (UNCERTAIN if uncertain is None else uncertain).items():
         span = PARAMETERS[name]
         lower, upper = (min(max(vehicle[name] * factor, span.lower), span.upper) for factor in (1 - share, 1 + share))

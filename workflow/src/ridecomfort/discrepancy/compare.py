@@ -14,6 +14,7 @@ import xarray as xr
 from ..drive.record import unstack
 from ..drive.replay import CLOCK_LEFT, Replay, replay
 from ..vocabulary import SIGNALS
+from .explain import explain
 
 CLOCK_STEPS = 2
 """Gauss-Newton steps; the second changes a clock within CLOCK_LEFT by less than 0.01 ms."""
@@ -47,7 +48,8 @@ def compare(
 
     Returns over drive, time, signal, state: ``measured`` and ``simulated`` (unit by signal in
     ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
-    recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``.
+    recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``,
+    and the floor and the explainable error (``explain.explain``).
     """
     drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
     length = max(drive.sizes["time"] for drive in drives)
@@ -87,7 +89,7 @@ def compare(
             "time": longest["time"].values,
         },
     )
-    return result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal")
+    return explain(result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal"))
 
 
 def _at_best_clock(again: Replay, vehicle, effects) -> tuple[float, np.ndarray]:

@@ -22,8 +22,9 @@ from .. import calibrated
 from . import car as cars
 from . import pool
 from .experiment import Candidate, Size
-from .select import Selection, select
-from .verdict import total_shares
+from .select import select
+from .selection import Selection
+from .verdict import plain, total_shares
 
 FORCE = 30.0
 """N (or N m) that a term is probed with at typical motion."""
@@ -105,6 +106,11 @@ class Discovery:
     by_place: dict[str, float]
     """Fall of twice the negative log-likelihood with the best term of every place."""
     selection: Selection
+
+    def json(self) -> dict:
+        """What a verdict file says of it; null where a number is not known."""
+        names = ("place", "form", "terms", "share", "held_out_share", "p_value", "by_place")
+        return plain({name: getattr(self, name) for name in names})
 
 
 def discover(

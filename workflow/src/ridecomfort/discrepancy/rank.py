@@ -10,7 +10,8 @@ import xarray as xr
 from .. import calibrated
 from . import car as cars
 from . import floor, pool, suspect
-from .select import Selection, select
+from .select import select
+from .selection import Selection
 from .verdict import Verdict, judge
 
 
@@ -128,6 +129,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
         floor="from repeats" if selection.repeats else "taken as nil: no drive was repeated",
         remaining=selection.remaining,
         remaining_z=selection.remaining_z,
+        shared_gone=selection.shared_gone,
     )
 
 

@@ -14,10 +14,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import evidence, floor, refit
+from . import cluster, evidence, floor, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment, Frame
 from .refit import Fit
+from .selection import Round, Selection, State, Trial
 
 LEVEL = 0.05
 """Probability of a false alarm over the whole library."""
@@ -27,9 +28,6 @@ LEAST_SHARE = 0.01
 
 PROPOSED = 5
 """Candidates that are refitted in a round."""
-
-APART = 2.0
-"""z of the difference of two refits below which the data do not tell them apart."""
 
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that an effect must reach."""
@@ -54,70 +52,6 @@ DECOYS = 6
 
 FINER = 4.0
 """Parts of a block in the second form of the test, which sees rare events better."""
-
-
-@dataclass(frozen=True)
-class Trial:
-    """A candidate refitted: its fit, gains in twice the log-likelihood, shares of the explainable error, and what speaks against it."""
-
-    name: str
-    shape: Mapping[str, float]
-    fit: Fit
-    gain: float
-    bic: float
-    held_out_gain: float
-    held_out_z: float
-    share: float
-    held_out_share: float
-    objection: str
-
-
-@dataclass(frozen=True)
-class Round:
-    """One step of the selection: the evidence by candidate, the refits, who won, and who cannot be told from it."""
-
-    names: tuple[str, ...]
-    p_value: np.ndarray
-    gain: np.ndarray
-    size: dict[str, float]
-    size_error: dict[str, float]
-    absorbed: np.ndarray
-    trials: tuple[Trial, ...]
-    winner: Trial | None
-    cluster: tuple[str, ...]
-    correlation: dict[str, float]
-    decoy_p_value: float
-    decoy_ranks: bool
-    """Whether a decoy is significant and gains more than any candidate."""
-
-
-@dataclass(frozen=True)
-class State:
-    """A model of the ladder: its name, fit, and mean squares (record, channel) on fitted and held-out records."""
-
-    name: str
-    fit: Fit
-    squares: np.ndarray
-    held_out_squares: np.ndarray
-
-
-@dataclass(frozen=True)
-class Selection:
-    """What the selection found: its rounds, the ladder of models, the floor, the final frame."""
-
-    rounds: tuple[Round, ...]
-    ladder: tuple[State, ...]
-    ground: np.ndarray
-    held_out_ground: np.ndarray
-    repeats: bool
-    frame: Frame
-    accepted: tuple[str, ...]
-    intervals: dict[str, tuple[float, float]]
-    final: Fit
-    remaining: float
-    """Share of the white error that all repeats still have in common, 0 to 1; nan without repeats."""
-    remaining_z: float
-    """How surely that is more than nothing, as a z."""
 
 
 def select(
@@ -182,7 +116,7 @@ class _Search:
         bounds = {key: refit.interval(final, self.frame, sizes[key]) for key in final.keys}
         return Selection(
             tuple(rounds), tuple(ladder), self.ground, self.held_out_ground, self.repeats, self.frame,
-            tuple(self.accepted), bounds, final, *self._remaining(final),
+            tuple(self.accepted), bounds, final, *self._remaining(ladder[0].fit, final),
         )  # fmt: skip
 
     def _sizes(self, extra: Sequence[str] = ()) -> list[exp.Size]:
@@ -258,6 +192,8 @@ class _Search:
     def _round(self, base: Fit, check, number: int) -> tuple[Round, Fit]:
         free = np.stack([self.frame.flat(self.raw[size.key]) for size in self._sizes()])
         jobs = [job for job in self.columns if job[0] not in self.accepted]
+        if not jobs:
+            return Round.empty(), base
         rows, group, sign, labels = [], [], [], []
         for g, job in enumerate(jobs):
             parts = [self.frame.flat(column) for column in self.columns[job].values()]
@@ -270,7 +206,7 @@ class _Search:
             group += [g] * len(parts)
             labels += [(job, key) for key in keys]
         rng = np.random.default_rng([self.seed, number])
-        for _ in range(DECOYS if jobs else 0):
+        for _ in range(DECOYS):
             job = jobs[rng.integers(len(jobs))]
             column = next(iter(self.columns[job].values()))
             state = rng.integers(2**31)
@@ -295,15 +231,16 @@ class _Search:
         settled = self.each(_Settle(self, base, check), large)
         trials = [*(trial for trial in settled if trial is not None), *(trial for trial in leading if trial not in large)]
         winner = max((t for t in trials if not t.objection), key=_merit, default=None)
-        cluster, correlation = (), {}
+        like, correlation, apart = (), {}, {}
         if winner is not None:
             columns = {labels[k]: found.projected[k] for k in range(len(labels))}
-            cluster, correlation = self._cluster(winner, trials, columns)
-        size = {key: found.size[k] for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"}
-        error = {key: found.error[k] for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"}
+            frames = [frame for frame in (self.frame, self.check_frame) if frame is not None]
+            like, correlation, apart = cluster.cluster(self.experiment, frames, winner, trials, columns)
+        shown = [(k, key) for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"]
+        size, error = ({key: values[k] for k, key in shown} for values in (found.size, found.error))
         absorbed = np.array([min(found.absorbed[k] for k in range(len(labels)) if group[k] == best[name]) for name in names])
         turn = Round(
-            names, p_value, gain, size, error, absorbed, tuple(trials), winner, cluster, correlation,
+            names, p_value, gain, size, error, absorbed, tuple(trials), winner, like, correlation, apart,
             float(found.p_value[len(jobs) :].min(initial=1.0)), _ranks(found, len(jobs)),
         )  # fmt: skip
         return turn, winner.fit if winner is not None else base
@@ -387,54 +324,13 @@ class _Search:
             return f"removes {100 * trial.share:.1f} % of the explainable error"
         return ""
 
-    def _cluster(self, winner: Trial, trials, columns) -> tuple[tuple[str, ...], dict[str, float]]:
-        """Candidates whose refits the data do not tell from the winner's, and their canonical correlation with it."""
-        mine = np.stack([row for (job, key), row in columns.items() if job[0] == winner.name])
-        cluster, correlation = [], {}
-        for trial in trials:
-            if trial is winner:
-                continue
-            theirs = np.stack([row for (job, key), row in columns.items() if job[0] == trial.name])
-            correlation[trial.name] = evidence.canonical_correlation(mine, theirs)
-            if trial.gain < 0.5 * winner.gain:
-                continue
-            z = [refit.advantage(self.frame, winner.fit.residuals, trial.fit.residuals)[1]]
-            if self.held_out:
-                held = [exp.simulate(self.experiment, t.fit.values, self.held_out) for t in (winner, trial)]
-                z.append(refit.advantage(self.check_frame, *held)[1])
-            if sum(z) / np.sqrt(len(z)) < APART:
-                cluster.append(trial.name)
-        return tuple(cluster), correlation
-
-    def _remaining(self, final: Fit) -> tuple[float, float]:
-        """What all repeats still share: products of white residuals of different repeats, and their z over blocks."""
+    def _remaining(self, first: Fit, final: Fit) -> tuple[float, float, float]:
+        """Of what all repeats share: the share of the error that it still is, its z, and the share of it that is gone."""
         if not self.repeats:
-            return float("nan"), float("nan")
-        return shared_error(self.frame, final.residuals)
-
-
-def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> tuple[float, float]:
-    """Share of the white power that different repeats have in common at equal place, and its z: 0 where they share nothing."""
-    groups: dict[str, list[int]] = {}
-    for index in frame.indices:
-        groups.setdefault(frame.experiment.records[index].condition, []).append(index)
-    sums, power, pairs = [], 0.0, 0
-    for own in groups.values():
-        records = [frame.experiment.records[i] for i in own]
-        white = [frame.whitening[i](frame.cleaned(i, residuals[i])) for i in own]
-        for a in range(len(own)):
-            for b in range(a):
-                place = records[a].place
-                other = np.stack([np.interp(place, records[b].place, row) for row in white[b]])
-                products = (white[a] * other).sum(axis=0)
-                numbers = np.unique(records[a].blocks(), return_inverse=True)[1]
-                sums.append(np.bincount(numbers, products))
-                power, pairs = power + np.sqrt(np.sum(white[a] ** 2) * np.sum(other**2)), pairs + 1
-    if not sums:
-        return float("nan"), float("nan")
-    length = min(len(part) for part in sums)
-    total = sum(part[:length] for part in sums)
-    return float(total.sum() / power), float(total.sum() / np.sqrt(np.sum(total**2)))
+            return float("nan"), float("nan"), float("nan")
+        share, z, power = floor.shared_error(self.frame, final.residuals)
+        before = floor.shared_error(self.frame, first.residuals)[2]
+        return share, z, 1.0 - power / before if before > 0 else float("nan")
 
 
 def _merit(trial: Trial) -> float:

@@ -9,7 +9,8 @@ import numpy as np
 
 from . import floor
 from .experiment import Candidate, Size
-from .select import LEVEL, Selection
+from .select import LEVEL
+from .selection import Selection
 
 ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
@@ -28,7 +29,8 @@ class Named:
     """An effect that was found: its sizes with units and 90 % intervals, and the evidence for it.
 
     ``share`` of the explainable error that it removed when it was added, on fitted and on held-out drives (nan
-    without); ``absorbed``: share of its response that calibration had taken up; ``like``: what it cannot be told from.
+    without); ``absorbed``: share of its response that calibration had taken up; ``like``: what it cannot be told from,
+    ``differ_on``: the drive on which each of those differs most from it.
     """
 
     name: str
@@ -39,6 +41,7 @@ class Named:
     held_out_share: float
     absorbed: float
     like: tuple[str, ...]
+    differ_on: dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ class Verdict:
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
-        return _plain(asdict(self))
+        return plain(asdict(self))
 
     def words(self) -> str:
         """The verdict as a few sentences."""
@@ -107,12 +110,13 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
     reasons.append(f"{_percent(share)} of the explainable error is removed on the fitted drives")
     if np.isfinite(held_out):
         reasons.append(f"{_percent(held_out)} on drives held out")
-    if selection.repeats and left and not share >= ENOUGH:
+    if selection.repeats and selection.remaining_z > SHARED_Z and max(share, selection.shared_gone) < ENOUGH:
         reasons.append(f"that is less than half, and repeats still share an error (z = {selection.remaining_z:.1f})")
         return Verdict("outside", effects, (*reasons, ground), share, held_out)
     for effect in effects:
         if effect.like:
-            reasons.append(f"the data do not tell {effect.name} from {', '.join(effect.like)}")
+            where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like)
+            reasons.append(f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}")
     kind = "cluster" if any(effect.like for effect in effects) else "named"
     return Verdict(kind, effects, (*reasons, ground), share, held_out)
 
@@ -127,7 +131,7 @@ def _named(selection: Selection, number: int, by_name) -> Named:
             sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
     return Named(
         winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]), winner.share,
-        winner.held_out_share, float(turn.absorbed[place]), turn.cluster,
+        winner.held_out_share, float(turn.absorbed[place]), turn.cluster, turn.differ_on,
     )  # fmt: skip
 
 
@@ -146,11 +150,11 @@ def _percent(share: float) -> str:
     return f"{100 * share:.0f} %" if np.isfinite(share) else "an unknown share"
 
 
-def _plain(value):
+def plain(value):
+    """A value as JSON knows it: Python's own numbers and lists, None for what is not a finite number."""
     if isinstance(value, dict):
-        return {key: _plain(part) for key, part in value.items()}
+        return {key: plain(part) for key, part in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(part) for part in value]
-    if isinstance(value, float):
-        return value if np.isfinite(value) else None
-    return value.item() if isinstance(value, np.generic) else value
+        return [plain(part) for part in value]
+    value = value.item() if isinstance(value, np.generic) else value
+    return None if isinstance(value, float) and not np.isfinite(value) else value

@@ -1,4 +1,8 @@
-"""Find the physical effects that the model lacks, from all measured drives, and write evidence and verdict."""
+"""Find the physical effects that the model lacks, from all measured drives; write the evidence and the verdict.
+
+Where something is missing that no effect of the library explains, the form that is proposed for it is written
+beside the verdict as an effect file, ``discovered.py``, to be read, kept and switched on.
+"""
 
 import json
 import sys
@@ -14,23 +18,26 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict):
         name: (store.read(road), store.read(drive))
         for name, road, drive in zip(config["sites"], roads, measured, strict=True)
     }
-    table, found = discrepancy.rank(
-        drives,
-        parameters.read(vehicle),
-        calibration=None if calibration is None else store.read(calibration),
-        effects=config["effects"],
-        effects_folder=config["effects_folder"],
-        fitted_on=config["fitted_on"],
-        bounds=config["bounds"],
-        seed=config["seed"],
-        workers=config["workers"],
-        options={"step": config["simulation"]["step"]},
-        say=lambda words: print(words, file=sys.stderr, flush=True),
-    )
+    settings = {key: config[key] for key in ("effects", "effects_folder", "fitted_on", "bounds", "seed", "workers")}
+    settings["calibration"] = None if calibration is None else store.read(calibration)
+    settings["options"] = {"step": config["simulation"]["step"]}
+    settings["say"] = lambda words: print(words, file=sys.stderr, flush=True)
+    car = parameters.read(vehicle)
+    table, found = discrepancy.rank(drives, car, among=config["among"], **settings)
+    content = found.json()
+    if found.verdict == "outside":
+        proposal = discrepancy.discover(drives, car, **settings)
+        content["proposal"] = proposal.json()
+        if proposal.source:
+            _write(Path(verdict).with_name("discovered.py"), proposal.source)
     store.write(table, ranking, title="Evidence for effects that the model lacks", configuration=config, seed=config["seed"])
-    with store.replacing(verdict) as part:
-        Path(part).write_text(json.dumps(found.json(), indent=1) + "\n", encoding="utf-8")
+    _write(verdict, json.dumps(content, indent=1) + "\n")
     print(found.words(), file=sys.stderr)
+
+
+def _write(path, text):
+    with store.replacing(path) as part:
+        part.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

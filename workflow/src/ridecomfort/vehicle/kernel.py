@@ -116,7 +116,8 @@ def drive(
 
 
 # Without reference counts on the arrays, which would cost as much as the physics: nothing is allocated here.
-@njit(error_model="numpy", _nrt=False)
+# Products and sums may be fused, which rounds once instead of twice.
+@njit(error_model="numpy", _nrt=False, fastmath={"contract", "arcp"})
 def _drive(
     car, wheels, surface, elevation, targets, friction, start, end, step, every,
     sensor, parameters, record, accelerations,

@@ -1,0 +1,37 @@
+"""The explainable error is what repeats share; their noise is the floor."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ridecomfort.discrepancy.explain import explain
+
+from .coloured import coloured
+
+
+def comparison(repeats=3):
+    rng = np.random.default_rng(1)
+    time = np.arange(6000) / 100.0
+    common = 2.0 * coloured(rng, 6000)
+    noise = np.stack([coloured(rng, 6000) for _ in range(repeats)])
+    residual = np.stack([common + noise, 0.5 * common + noise])
+    series = (("drive", "time"), np.broadcast_to(20.0 * time, (repeats, 6000)))
+    return noise, xr.Dataset(
+        {"residual": (("state", "drive", "signal", "time"), residual), "s": series, "v_x": series[:1] + (np.full((repeats, 6000), 20.0),)},
+        {"state": ["reference", "calibrated"], "time": time},
+    )
+
+
+def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_common_error():
+    noise, compared = comparison()
+    found = explain(compared)
+    assert np.asarray(found["floor_rmse"]).mean() == pytest.approx(noise.std(axis=-1).mean(), rel=0.06)
+    assert float(found["explained_share"].sel(state="calibrated").mean()) == pytest.approx(0.75, abs=0.06)
+    assert found.attrs["floor"] == "from repeats"
+
+
+def test_without_repeats_the_floor_is_said_to_be_taken_as_nil():
+    found = explain(comparison(repeats=1)[1])
+    assert "nil" in found.attrs["floor"] and float(found["floor_rmse"].max()) == 0.0

@@ -1,0 +1,46 @@
+"""Which refitted candidates the data do not tell from the best, and where they differ most."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from . import evidence, refit
+from . import experiment as exp
+from .experiment import Experiment, Frame
+from .selection import Trial
+
+APART = 2.0
+"""z of the difference of two refits below which the data do not tell them apart."""
+
+COMPARABLE = 0.5
+"""Share of the best one's gain that another must reach to be taken for it."""
+
+
+def cluster(
+    experiment: Experiment, frames: Sequence[Frame], winner: Trial, trials: Sequence[Trial], columns: Mapping[tuple, np.ndarray]
+) -> tuple[tuple[str, ...], dict[str, float], dict[str, str]]:
+    """Names of the candidates like the winner, canonical correlations of all with it, and for each of the first the
+    record on which it differs most from the winner.
+
+    ``frames``: of the fitted and, where there are any, of the held-out records. ``columns``: projected columns by
+    ((candidate, shape), key).
+    """
+    rows = lambda name: np.stack([row for (job, _), row in columns.items() if job[0] == name])
+    like, correlation, apart = [], {}, {}
+    for trial in trials:
+        if trial is winner:
+            continue
+        correlation[trial.name] = evidence.canonical_correlation(rows(winner.name), rows(trial.name))
+        if trial.gain < COMPARABLE * winner.gain:
+            continue
+        z, power = [], {}
+        for frame in frames:
+            one, other = (exp.simulate(experiment, fit.values, frame.indices) for fit in (winner.fit, trial.fit))
+            z.append(refit.advantage(frame, one, other)[1])
+            power |= {i: float(np.mean(frame.whitening[i](one[i] - other[i]) ** 2)) for i in frame.indices}
+        if sum(z) / np.sqrt(len(z)) < APART:
+            like.append(trial.name)
+            apart[trial.name] = experiment.records[max(power, key=power.get)].name
+    return tuple(like), correlation, apart

@@ -1,0 +1,86 @@
+"""What a search for missing effects holds: refits, rounds, the ladder of models, and the selection of it all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .experiment import Frame
+from .refit import Fit
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A candidate refitted: its fit, gains in twice the log-likelihood, shares of the explainable error, and what
+    speaks against it."""
+
+    name: str
+    shape: Mapping[str, float]
+    fit: Fit
+    gain: float
+    bic: float
+    held_out_gain: float
+    held_out_z: float
+    share: float
+    held_out_share: float
+    objection: str
+
+
+@dataclass(frozen=True)
+class Round:
+    """One step of the selection: the evidence by candidate, the refits, who won, and who cannot be told from it."""
+
+    names: tuple[str, ...]
+    p_value: np.ndarray
+    gain: np.ndarray
+    size: dict[str, float]
+    size_error: dict[str, float]
+    absorbed: np.ndarray
+    trials: tuple[Trial, ...]
+    winner: Trial | None
+    cluster: tuple[str, ...]
+    correlation: dict[str, float]
+    differ_on: dict[str, str]
+    """For each of the cluster, the drive on which it differs most from the winner."""
+    decoy_p_value: float
+    decoy_ranks: bool
+    """Whether a decoy is significant and gains more than any candidate."""
+
+    @classmethod
+    def empty(cls) -> Round:
+        """A round without any candidate that the data could see."""
+        nothing = np.zeros(0)
+        return cls((), nothing, nothing, {}, {}, nothing, (), None, (), {}, {}, 1.0, False)
+
+
+@dataclass(frozen=True)
+class State:
+    """A model of the ladder: its name, fit, and mean squares (record, channel) on fitted and held-out records."""
+
+    name: str
+    fit: Fit
+    squares: np.ndarray
+    held_out_squares: np.ndarray
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What the selection found: its rounds, the ladder of models, the floor, the final frame."""
+
+    rounds: tuple[Round, ...]
+    ladder: tuple[State, ...]
+    ground: np.ndarray
+    held_out_ground: np.ndarray
+    repeats: bool
+    frame: Frame
+    accepted: tuple[str, ...]
+    intervals: dict[str, tuple[float, float]]
+    final: Fit
+    remaining: float
+    """Share of the white error that all repeats still have in common, 0 to 1; nan without repeats."""
+    remaining_z: float
+    """How surely that is more than nothing, as a z."""
+    shared_gone: float
+    """Share of what the repeats had in common before the first effect that is gone; nan without repeats."""
