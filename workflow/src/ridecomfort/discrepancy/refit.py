@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import lsq_linear
-from scipy.stats import norm
 from scipy.stats import t as student
 
 from ..errors import InputError
@@ -165,8 +164,3 @@ def advantage(frame: Frame, one: Mapping[int, np.ndarray], other: Mapping[int, n
     sums = sums[sums != 0]
     spread = np.sqrt(np.sum((sums - sums.mean()) ** 2)) if sums.size > 1 else np.inf
     return float(sums.sum()), float(sums.sum() / spread) if spread > 0 else 0.0
-
-
-def one_sided_p(z: float) -> float:
-    """Probability of a z as large under equal fits."""
-    return float(norm.sf(z))
