@@ -8,6 +8,7 @@ import pytest
 
 from ridecomfort.__main__ import main
 from ridecomfort.comfort import alone, weighting
+from ridecomfort.errors import InputError
 
 TIME = np.arange(3000) / 100.0
 
@@ -107,3 +108,19 @@ def test_a_real_recording(shared, tmp_path):
     assert recording.attrs["rate"] == pytest.approx(104.26, abs=0.01)
     total = float(alone.ride(recording).signals["a_v"].median())
     assert 0.1 < total < 1.0
+
+
+def test_units_may_stand_behind_the_names_of_columns(tmp_path):
+    time = np.arange(0, 20, 0.01)
+    wave = np.sin(2 * np.pi * 8 * time)
+    plain = pd.DataFrame({"time": time, "a_z": wave})
+    plain.to_csv(tmp_path / "plain.csv", index=False)
+    pd.DataFrame({"time [s]": time, "a_z [g]": wave / 9.80665}).to_csv(tmp_path / "headed.csv", index=False)
+    first, second = (alone.recording(tmp_path / f"{name}.csv") for name in ("plain", "headed"))
+    np.testing.assert_allclose(second["a_z"], first["a_z"], atol=1e-6)
+
+
+def test_a_recording_without_time_is_refused(tmp_path):
+    pd.DataFrame({"t": [0.0, 0.01], "a_z": [0.0, 1.0]}).to_csv(tmp_path / "my.csv", index=False)
+    with pytest.raises(InputError, match="no column time .found t, a_z.; name it with --column"):
+        alone.recording(tmp_path / "my.csv")

@@ -45,18 +45,20 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
     """The accelerations of a CSV file in m/s2 over uniform ``time``; attribute ``rate`` in Hz.
 
     ``settings``: ``columns`` (quantity to {"column": name}) and ``unit``. Without
-    columns the file has ``time`` and any of AXES. Time stamps that jitter are
+    columns the file has ``time`` and any of AXES, their units behind them in brackets
+    or as in ``unit``. Time stamps that jitter are
     brought to a uniform clock; a file that skips samples is refused.
     """
     settings = settings or {}
     unit = settings.get("unit", "m/s2")
-    given = dict(settings.get("columns", {}))
     present = list(_table(file, rows=0).columns)
-    columns = {name: given.get(name, {"column": name}) for name in ("time", *AXES) if name in given or name in present}
+    columns = {**_headed(present), **settings.get("columns", {})}
+    if "time" not in columns:
+        raise InputError(f"no column time (found {', '.join(present)}); name it with --column time=COLUMN", file=file)
     for name in AXES:
         if name in columns:
-            units.factor(name, unit, file=file, place="--unit")
-            columns[name] = {**columns[name], "unit": unit}
+            columns[name] = {"unit": unit, **columns[name]}
+            units.factor(name, columns[name]["unit"], file=file, place="--unit")
     found, _ = csv.read(file, columns)
     if not found:
         raise InputError(f"no column {', '.join(AXES)} (found {', '.join(present)})", file=file)
@@ -73,6 +75,16 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
     }
     answer = xr.Dataset(signals, {"time": time - time[0]}, {"rate": float(rate), "file": str(file)})
     return describe(answer)
+
+
+def _headed(present) -> dict[str, dict[str, str]]:
+    """The columns that are headed by the name of a quantity, with the unit in brackets behind it: ``a_z [m/s2]``."""
+    answer = {}
+    for column in present:
+        name, bracket, unit = str(column).partition("[")
+        if name.strip() in ("time", *AXES):
+            answer[name.strip()] = {"column": column, **({"unit": unit.strip(" ]")} if bracket else {})}
+    return answer
 
 
 def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.Seat | None = None) -> Result:
