@@ -153,13 +153,23 @@ def _group_gain(columns, residual, own, sign) -> float:
     both = np.concatenate([part, -part[sign[own] == 0]])
     normal = both @ both.T
     scale = np.sqrt(np.diag(normal))
-    # Non-negative least squares on the normal equations: the factor stands for the long columns.
-    values, vectors = np.linalg.eigh(normal / np.outer(scale, scale))
-    values = np.maximum(values, 1e-10)
-    factor = (vectors * np.sqrt(values)).T
-    right = (vectors / np.sqrt(values)).T @ (-(both @ residual) / scale)
+    factor, inverse = square_root(normal / np.outer(scale, scale))
+    right = inverse @ (-(both @ residual) / scale)
     amounts, rest = nnls(factor, right)
     return float(right @ right - rest**2)
+
+
+def square_root(normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A factor whose square is ``normal``, to stand for long columns in a least-squares problem, and its inverse transposed."""
+    values, vectors = np.linalg.eigh(normal)
+    values = np.maximum(values, 1e-10)
+    return (vectors * np.sqrt(values)).T, (vectors / np.sqrt(values)).T
+
+
+def product(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """``one @ other.T``, summed piece by piece in double precision where the rows are of single precision."""
+    pieces = range(0, one.shape[-1], 16384)
+    return sum((one[..., k : k + 16384] @ other[..., k : k + 16384].T).astype(float) for k in pieces)
 
 
 def canonical_correlation(one: np.ndarray, other: np.ndarray) -> float:

@@ -10,8 +10,8 @@ from scipy.optimize import lsq_linear
 from scipy.stats import t as student
 
 from ..errors import InputError
+from . import evidence, spectrum
 from . import experiment as exp
-from . import spectrum
 from .experiment import Experiment, Frame, Size
 
 BEYOND = 0.5
@@ -51,29 +51,28 @@ def refit(
     *,
     renewed: Sequence[str] = (),
     iterations: int = 4,
+    residuals: Mapping[int, np.ndarray] | None = None,
     tolerance: float = 2e-4,
 ) -> Fit:
     """Gauss-Newton within bounds for ``sizes`` from ``values``, in the white frame.
 
     ``columns``: white change per probe of each key at the start; those of ``renewed`` are made anew, as secants, after
-    every step. Steps that do not lower the loss, or that cannot be simulated, are halved.
+    every step. ``residuals``: those at the start, where they are known. Steps that do not lower the loss, or that
+    cannot be simulated, are halved.
     """
     free = {size.key for size in experiment.free}
     values = dict(values)
-    residuals = exp.simulate(experiment, values, frame.indices)
+    residuals = exp.simulate(experiment, values, frame.indices) if residuals is None else residuals
     flat = frame.flat(residuals)
     loss = float(flat @ flat)
-    matrix = np.stack([columns[size.key] for size in sizes], axis=1)
+    matrix = np.stack([columns[size.key] for size in sizes])
     for _ in range(iterations):
-        orthogonal, triangle = np.linalg.qr(matrix)
         now = np.array([values.get(size.key, size.neutral) for size in sizes])
         probe = np.array([size.probe for size in sizes])
         bounds = np.array([limits(size, size.key not in free) for size in sizes])
         room = np.sort((bounds - now[:, None]) / probe[:, None], axis=1)
         room = room + np.array([-1e-9, 1e-9])
-        power = np.sqrt(np.sum(triangle**2, axis=0))
-        power = np.where(power > 0, power, 1.0)
-        step = lsq_linear(triangle / power, -(orthogonal.T @ flat), (room[:, 0] * power, room[:, 1] * power)).x / power
+        step = _step(matrix, flat, room)
         improved = False
         for _ in range(4):
             trial = {**values, **{size.key: float(v) for size, v in zip(sizes, now + step * probe)}}
@@ -93,10 +92,22 @@ def refit(
         values, residuals, flat, loss = trial, found, flat_trial, float(flat_trial @ flat_trial)
         for k, size in enumerate(sizes):
             if size.key in renewed and abs(step[k]) > RENEWAL:
-                matrix[:, k] = _renewed(experiment, frame, values, residuals, size, matrix[:, k])
+                matrix[k] = _renewed(experiment, frame, values, residuals, size, matrix[k])
         if gained < tolerance * loss:
             break
-    return Fit(values, residuals, tuple(size.key for size in sizes), matrix.T, loss)
+    return Fit(values, residuals, tuple(size.key for size in sizes), matrix, loss)
+
+
+def _step(matrix: np.ndarray, flat: np.ndarray, room: np.ndarray) -> np.ndarray:
+    """Amounts of the rows of ``matrix`` within ``room`` (row, 2) that bring ``flat`` nearest to nothing.
+
+    On the normal equations: rows are long and few.
+    """
+    normal, right = evidence.product(matrix, matrix), -evidence.product(matrix, flat)
+    power = np.sqrt(np.diag(normal))
+    power = np.where(power > 0, power, 1.0)
+    root, inverse = evidence.square_root(normal / np.outer(power, power))
+    return lsq_linear(root, inverse @ (right / power), (room[:, 0] * power, room[:, 1] * power)).x / power
 
 
 def _renewed(experiment, frame, values, residuals, size: Size, before: np.ndarray) -> np.ndarray:
@@ -115,7 +126,7 @@ def covariance(fit: Fit, frame: Frame) -> tuple[np.ndarray, int]:
     """
     residual, blocks = frame.flat(fit.residuals), np.unique(frame.blocks(), return_inverse=True)[1]
     count = len(fit.columns)
-    bread = np.linalg.pinv(fit.columns @ fit.columns.T, rcond=1e-10, hermitian=True)
+    bread = np.linalg.pinv(evidence.product(fit.columns, fit.columns), rcond=1e-10, hermitian=True)
     sums = np.stack([np.bincount(blocks, row * residual) for row in fit.columns])
     used = int(np.sum(np.any(sums != 0, axis=0)))
     factor = used / max(used - count, 1)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import cluster, evidence, floor, refit
+from . import cluster, evidence, floor, probe, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment, Frame
 from .refit import Fit
@@ -131,23 +131,20 @@ class _Search:
         """Frame and fit of the present model, at its own spectrum."""
         residuals = exp.simulate(self.experiment, values, self.fitted)
         sizes, frame = self._sizes(), self._frame(residuals, values)
-        self.raw = {size.key: exp.secant(self.experiment, values, residuals, size, _inward(size, values)) for size in sizes}
+        self.raw = probe.secants(self.experiment, values, residuals, sizes, self.each)
         for _ in range(2):
-            columns = {key: frame.flat(column) for key, column in self.raw.items()}
-            fit = refit.refit(self.experiment, frame, values, sizes, columns, iterations=3)
-            values = fit.values
+            columns = probe.white(frame, self.raw)
+            fit = refit.refit(self.experiment, frame, values, sizes, columns, iterations=3, residuals=residuals)
+            values, residuals = fit.values, fit.residuals
             frame = exp.frame(self.experiment, fit.residuals, frame.nuisances, self._cleaned(frame, fit.residuals))
         return frame, fit
 
     def _final(self, base: Fit) -> Fit:
-        columns = {key: self.frame.flat(column) for key, column in self._raw_at(base).items()}
-        return refit.refit(self.experiment, self.frame, base.values, self._sizes(), columns, iterations=1)
-
-    def _raw_at(self, base: Fit) -> dict:
-        return {
-            size.key: exp.secant(self.experiment, base.values, base.residuals, size, _inward(size, base.values))
-            for size in self._sizes()
-        }
+        raw = probe.secants(self.experiment, base.values, base.residuals, self._sizes(), self.each)
+        columns = probe.white(self.frame, raw)
+        return refit.refit(
+            self.experiment, self.frame, base.values, self._sizes(), columns, iterations=1, residuals=base.residuals
+        )
 
     def _cleaned(self, frame: Frame, residuals) -> dict[int, np.ndarray]:
         return {index: frame.cleaned(index, residuals[index]) for index in residuals}
@@ -182,21 +179,18 @@ class _Search:
     def _probe(self, base: Fit) -> dict[tuple[str, int], dict[str, dict[int, np.ndarray]]]:
         """Change of the residuals per probe of every size of every candidate and shape, in single precision."""
         jobs = [(c.name, shape) for c in self.experiment.candidates for shape in range(len(c.shapes))]
-        results = self.each(_Probe(self.experiment, base.values, base.residuals), jobs)
+        results = self.each(probe.Probe(self.experiment, base.values, base.residuals), jobs)
         kept = {job: found for job, found in zip(jobs, results) if found}
-        return {
-            job: found for job, found in kept.items()
-            if max(self.frame.own_share(column) for column in found.values()) > ALIAS
-        }  # fmt: skip
+        return {job: found for job, found in kept.items() if self.frame.own_shares(list(found.values())).max() > ALIAS}
 
     def _round(self, base: Fit, check, number: int) -> tuple[Round, Fit]:
-        free = np.stack([self.frame.flat(self.raw[size.key]) for size in self._sizes()])
+        free = self.frame.flats([self.raw[size.key] for size in self._sizes()])
         jobs = [job for job in self.columns if job[0] not in self.accepted]
         if not jobs:
             return Round.empty(), base
         rows, group, sign, labels = [], [], [], []
         for g, job in enumerate(jobs):
-            parts = [self.frame.flat(column) for column in self.columns[job].values()]
+            parts = list(self.frame.flats(list(self.columns[job].values())))
             signs = [size.sign for size in self.by_name[job[0]].sizes if size.key in self.columns[job]]
             keys = list(self.columns[job])
             if len(parts) > 1:
@@ -250,11 +244,11 @@ class _Search:
         candidate, raw = self.by_name[job[0]], {**self.raw, **self.columns[job]}
         shape = candidate.shapes[job[1]]
         sizes = [size for size in self._sizes([candidate.name]) if size.key in raw]
-        columns = {key: self.frame.flat(column) for key, column in raw.items()}
+        columns = probe.white(self.frame, {size.key: raw[size.key] for size in sizes})
         try:
             fit = refit.refit(
                 self.experiment, self.frame, {**base.values, **candidate.at({}), **shape}, sizes, columns,
-                renewed=list(self.columns[job]),
+                renewed=list(self.columns[job]), residuals=base.residuals,
             )  # fmt: skip
             return self._judge(candidate, shape, fit, base, check)
         except (InputError, ValueError):
@@ -271,13 +265,13 @@ class _Search:
             for _ in range(CYCLES):
                 frame = self._frame(fit.residuals, fit.values)
                 anew = own if gained < HUGE * self._count() else self._sizes([candidate.name])
-                raw = {
-                    size.key: exp.secant(self.experiment, fit.values, fit.residuals, size, _inward(size, fit.values))
-                    for size in anew
-                }
-                columns = {key: frame.flat(column) for key, column in {**self.raw, **raw}.items()}
+                raw = {**self.raw, **probe.secants(self.experiment, fit.values, fit.residuals, anew)}
+                columns = probe.white(frame, raw)
                 sizes = [size for size in self._sizes([candidate.name]) if size.key in columns]
-                fit = refit.refit(self.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own])
+                fit = refit.refit(
+                    self.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own],
+                    residuals=fit.residuals,
+                )  # fmt: skip
                 judged = self._judge(candidate, trial.shape, fit, base, check)
                 gained = judged.gain - trial.gain
                 trial = judged if gained > 0 else trial
@@ -340,35 +334,6 @@ def _merit(trial: Trial) -> float:
 def _ranks(found: evidence.Evidence, candidates: int) -> bool:
     decoys = np.where(found.p_value[candidates:] <= LEVEL, found.group_gain[candidates:], 0.0)
     return bool(decoys.size and decoys.max() > found.group_gain[:candidates].max(initial=0.0))
-
-
-def _inward(size: exp.Size, values: Mapping[str, float]) -> float:
-    value = values.get(size.key, size.neutral)
-    return 1.0 if size.lower <= value + size.probe <= size.upper else -1.0
-
-
-@dataclass(frozen=True)
-class _Probe:
-    """The columns of one candidate in one shape, as a function that a pool can be handed."""
-
-    experiment: Experiment
-    values: Mapping[str, float]
-    residuals: Mapping[int, np.ndarray]
-
-    def __call__(self, job: tuple[str, int]) -> dict[str, dict[int, np.ndarray]]:
-        candidate = next(c for c in self.experiment.candidates if c.name == job[0])
-        columns = {}
-        for size in candidate.sizes:
-            try:
-                moved = exp.simulate(
-                    self.experiment, {**self.values, **candidate.at({size.key: 1.0}, job[1])}, self.residuals
-                )
-            except (InputError, ValueError):
-                continue
-            column = {i: (moved[i] - self.residuals[i]).astype(np.float32) for i in moved}
-            if any(np.any(part) for part in column.values()):
-                columns[size.key] = column
-        return columns
 
 
 @dataclass(frozen=True)
