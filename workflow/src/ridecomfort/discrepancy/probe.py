@@ -1,0 +1,63 @@
+"""Columns of a least-squares problem: how the residuals change with a parameter or with an effect that is switched on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from . import experiment as exp
+from .experiment import Experiment, Frame, Size
+
+
+@dataclass(frozen=True)
+class Probe:
+    """The change of the residuals per probe of every size of a candidate in one shape, by key; what cannot be simulated, or
+    changes nothing, is left out. Called with (candidate, number of its shape); a pool can be handed it."""
+
+    experiment: Experiment
+    values: Mapping[str, float]
+    residuals: Mapping[int, np.ndarray]
+
+    def __call__(self, job: tuple[str, int]) -> dict[str, dict[int, np.ndarray]]:
+        candidate = next(c for c in self.experiment.candidates if c.name == job[0])
+        columns = {}
+        for size in candidate.sizes:
+            try:
+                moved = exp.simulate(
+                    self.experiment, {**self.values, **candidate.at({size.key: 1.0}, job[1])}, self.residuals
+                )
+            except (InputError, ValueError):
+                continue
+            column = {i: (moved[i] - self.residuals[i]).astype(np.float32) for i in moved}
+            if any(np.any(part) for part in column.values()):
+                columns[size.key] = column
+        return columns
+
+
+@dataclass(frozen=True)
+class _Secant:
+    experiment: Experiment
+    values: Mapping[str, float]
+    residuals: Mapping[int, np.ndarray]
+
+    def __call__(self, size: Size) -> dict[int, np.ndarray]:
+        value = self.values.get(size.key, size.neutral)
+        inward = 1.0 if size.lower <= value + size.probe <= size.upper else -1.0
+        return exp.secant(self.experiment, self.values, self.residuals, size, inward)
+
+
+def secants(
+    experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray], sizes: Sequence[Size],
+    each: Callable = map,
+) -> dict[str, dict[int, np.ndarray]]:  # fmt: skip
+    """Change of the residuals per probe of every size from its value, into its bounds, by key."""
+    found = each(_Secant(experiment, values, residuals), sizes)
+    return {size.key: column for size, column in zip(sizes, found)}
+
+
+def white(frame: Frame, raw: Mapping[str, Mapping[int, np.ndarray]]) -> dict[str, np.ndarray]:
+    """Columns in the white frame, by key."""
+    return dict(zip(raw, frame.flats(list(raw.values()))))
