@@ -67,3 +67,14 @@ def test_a_lateral_profile_is_followed(car):
     drive = simulate.run(ground, car, speed=15.0, lateral=shift)
     assert drive.e.isel(time=-1) == pytest.approx(0.5, abs=0.02)
     assert float(drive.e.sel(time=slice(0, 5)).max()) < 0.05
+
+
+def test_a_path_is_driven_when_its_demand_is_asked_for(car):
+    ground = road(500.0)
+    u, speed, length = ground.u.values, 20.0, 80.0
+    path = 0.2 * np.sin(2 * np.pi * u / length)
+    demand = driver.path_demand(path, (u[1] - u[0]) / speed, np.full(u.size, speed))
+    drive = simulate.run(ground, car, speed=speed, lateral=xr.DataArray(demand, {"u": u}, "u"))
+    inside = (drive.s > 150) & (drive.s < 400)
+    error = drive.e - 0.2 * np.sin(2 * np.pi * drive.s / length)
+    assert float(np.abs(error[inside]).max()) < 0.015

@@ -7,12 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
-from scipy.ndimage import gaussian_filter1d
 
 from .. import calibrate
 from .. import simulate as simulator
 from ..drive.record import unstack, upward
-from ..drive.replay import Replay, Simulated, replay, smooth
+from ..drive.replay import Replay, Simulated, replay
 from ..effects import library
 from ..effects.contract import COMPILED, Effect, Parameter
 from ..calibrated import with_values
@@ -40,10 +39,6 @@ KNOTS = 150.0
 
 SAME_SPEED = 0.05
 """Relative difference of mean speeds within which drives repeat one another."""
-
-CORRECTIONS = {"speed": (2, 0.1), "lateral": (8, 1.2)}
-"""Rounds in which what the driver is asked for is corrected by what the model then does, and the s that each correction is
-smoothed over: a driver asked for more than he can follow overshoots."""
 
 SETTLING = 1.5
 """s after the run-in that are left out too: at rest on level ground a vehicle with an effect stands otherwise."""
@@ -153,7 +148,7 @@ def car(
         speeds: list[float] = []
         for drive in site.drives:
             again = replay(drive, site.course, simulate, options=options)
-            again = _as_driven(again, vehicle, effects)
+            again = again.tuned(vehicle, effects)
             first = again.time[again.compared][0] + SETTLING
             again = replace(again, compared=again.compared & (again.time >= first))
             role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
@@ -176,34 +171,6 @@ def car(
     candidates = tuple(candidate(known[name].effect) for name in wanted if name not in effects)
     quiet = {n: known[n].effect.neutral for n in wanted if n not in effects and known[n].effect.port in COMPILED}
     return Car(records, replays, vehicle, effects, tuple(free), tuple(c for c in candidates if c.sizes), quiet)
-
-
-def _as_driven(again: Replay, vehicle, effects) -> Replay:
-    """The replay with a path and a speed asked for that bring the model to what was measured.
-
-    A driver cuts corners and lags behind; asked for the measured path he would do so twice.
-    """
-    rate = (len(again.time) - 1) / np.ptp(again.time)
-    speed, offset = (smooth(again.drive[name].values, rate) for name in ("v_x", "e"))
-    if not np.isfinite(offset).all():
-        return again
-    for turn in range(max(rounds for rounds, _ in CORRECTIONS.values())):
-        run = again.simulate(again.road, vehicle, effects=effects, **again.demand, **again.options)
-        demand = dict(again.demand)
-        for key, name, wanted in (("speed", "v_x", speed), ("lateral", "e", offset)):
-            rounds, seconds = CORRECTIONS[key]
-            if turn >= rounds:
-                continue
-            target = demand[key]
-            if not isinstance(target, xr.DataArray):
-                target = demand["speed"] * 0.0 + float(target)
-            u = target.u.values
-            error = np.interp(u, again.place, wanted) - np.interp(u, run["s"].values, run[name].values)
-            error[(u < again.place[0]) | (u > again.place[-1])] = 0.0
-            spread = float(again.drive["v_x"].mean()) * seconds / (u[1] - u[0])
-            demand[key] = target + gaussian_filter1d(error, spread)
-        again = replace(again, demand=demand)
-    return again
 
 
 def sites_of(measured: Mapping[str, tuple]) -> list[Site]:

@@ -106,6 +106,17 @@ def steering(e, course, speed, target, curvature, wheelbase):
     return min(max(angle, -STEERING_LIMIT), STEERING_LIMIT)
 
 
+def path_demand(offset: np.ndarray, interval: float, speed: np.ndarray) -> np.ndarray:
+    """Target in m that the path follower must be given to drive ``offset`` (m), both over uniform time (``interval`` in s).
+
+    The inverse of pure pursuit: with a preview of T seconds it drives an offset e for which, linearised,
+    e + T de/dt + T^2/2 d2e/dt2 is the target. ``offset`` must be smooth: a wave of 1 Hz comes out twelve times as large.
+    """
+    preview = np.maximum(PREVIEW_MINIMUM, PREVIEW_TIME * speed) / speed
+    rate = np.gradient(offset, interval)
+    return offset + preview * rate + 0.5 * preview**2 * np.gradient(rate, interval)
+
+
 @njit(inline="always")
 def acceleration_demand(speed, target, target_ahead, distance_ahead, integral):
     """Acceleration in m/s2 that the speed controller asks for.

@@ -1,0 +1,69 @@
+"""A record driven again by the vehicle that made it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ridecomfort import simulate
+from ridecomfort.drive.replay import fused_place, replay
+from ridecomfort.vehicle import parameters
+from ridecomfort.vocabulary import DRIVE, SIGNALS
+from tests.blind import trials
+
+RATE = 100.0
+
+
+@pytest.fixture(scope="module")
+def car(repository):
+    return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+
+
+@pytest.fixture(scope="module")
+def driven(car):
+    """A bent, rough road and a drive on it that wanders in speed and path, recorded without noise."""
+    rng = np.random.default_rng(5)
+    road = trials.a_road(rng)
+    course = simulate.prepare(road)
+    record = simulate.run(course, car, sensor=trials.SENSOR, **trials._demand(rng, road.u.values, 22.0))
+    x, y, z = trials.SENSOR
+    record = record[list(DRIVE)].isel(time=slice(200, None)).assign_attrs(
+        name="drive", role="fit", gravity=0, cut_off=45.0, place_measured=1, lateral_position=0.0,
+        sensor_x=x, sensor_y=y, sensor_z=z,
+    )  # fmt: skip
+    return course, record
+
+
+def test_the_same_vehicle_repeats_its_own_record(driven, car):
+    course, record = driven
+    again = replay(record, course, simulate.run).tuned(car)
+    residual, measured = again.residual(again(car)), again.measured()
+    share = {
+        name: np.sqrt(np.mean(_band(part[again.compared]) ** 2) / np.mean(_band(whole[again.compared]) ** 2))
+        for name, part, whole in zip(SIGNALS, residual, measured)
+    }
+    assert share["a_z"] < 0.005 and share["roll_rate"] < 0.01 and share["pitch_rate"] < 0.01
+
+
+def test_it_drives_the_recorded_path_at_the_recorded_speed(driven, car):
+    course, record = driven
+    again = replay(record, course, simulate.run).tuned(car)
+    run = again.run(car)
+    for name, largest in (("e", 0.002), ("v_x", 0.001)):
+        difference = np.interp(again.place, run["s"], run[name]) - record[name].values
+        assert np.sqrt(np.mean(difference[again.compared] ** 2)) < largest
+
+
+def test_place_is_fused_from_speed_and_place_in_bends_as_well(driven):
+    course, record = driven
+    noisy = record.assign(s=record["s"] + xr.DataArray(np.random.default_rng(1).normal(0, 0.03, record.sizes["time"]), dims="time"))
+    error = fused_place(noisy, RATE, course.road) - record["s"].values
+    assert error.std() < 0.006
+    assert (fused_place(record, RATE, course.road) - record["s"].values).std() < 0.0005
+
+
+def _band(values, lower=0.8, upper=20.0):
+    bins = np.fft.rfft(values - values.mean())
+    frequency = np.fft.rfftfreq(values.size, 1 / RATE)
+    return np.fft.irfft(np.where((frequency > lower) & (frequency < upper), bins, 0.0), values.size)
