@@ -73,8 +73,12 @@ def test_a_path_is_driven_when_its_demand_is_asked_for(car):
     ground = road(500.0)
     u, speed, length = ground.u.values, 20.0, 80.0
     path = 0.2 * np.sin(2 * np.pi * u / length)
+
+    def largest_error(asked):
+        drive = simulate.run(ground, car, speed=speed, lateral=xr.DataArray(asked, {"u": u}, "u"))
+        error = drive.e - 0.2 * np.sin(2 * np.pi * drive.s / length)
+        return float(np.abs(error[(drive.s > 150) & (drive.s < 400)]).max())
+
     demand = driver.path_demand(path, (u[1] - u[0]) / speed, np.full(u.size, speed))
-    drive = simulate.run(ground, car, speed=speed, lateral=xr.DataArray(demand, {"u": u}, "u"))
-    inside = (drive.s > 150) & (drive.s < 400)
-    error = drive.e - 0.2 * np.sin(2 * np.pi * drive.s / length)
-    assert float(np.abs(error[inside]).max()) < 0.015
+    # What is left is the delay of the vehicle behind its front wheels.
+    assert largest_error(demand) < 0.15 * largest_error(path)

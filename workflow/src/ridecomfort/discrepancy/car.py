@@ -28,6 +28,9 @@ CALIBRATION_PROBE = 0.02
 LOWEST = 0.8
 """Hz; slower errors are drifts of instruments and what the driver makes of the path."""
 
+LOWEST_OF_DRIVER = {"a_x": 1.5, "yaw_rate": 1.5}
+"""Hz; what is slower in these the driver makes, whose foot and hands no record holds."""
+
 HIGHEST = 0.85
 """Share of the records' own cut-off up to which errors are judged."""
 
@@ -236,7 +239,7 @@ def _record(site: str, again: Replay, role: str, speeds: list[float], several: b
     name = str(again.drive.attrs["name"])
     return Record(
         f"{site} {name}" if several else name, role, site, f"{site} at {3.6 * (same or speed):.0f} km/h", rate, band,
-        place, BLOCK * (same or speed),
+        place, BLOCK * (same or speed), tuple(LOWEST_OF_DRIVER.get(name, LOWEST) for name in SIGNALS),
     )  # fmt: skip
 
 

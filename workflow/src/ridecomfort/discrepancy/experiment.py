@@ -34,6 +34,8 @@ class Record:
     band: tuple[float, float]
     place: np.ndarray
     block: float
+    lowest: tuple[float, ...] = ()
+    """Hz by channel below which an error of it says nothing, where that is above the band's lower end."""
 
     def blocks(self, finer: float = 1.0) -> np.ndarray:
         """Number of the block that every sample lies in, (sample,)."""
@@ -187,7 +189,9 @@ def condition_spectra(experiment: Experiment, residuals: Mapping[int, np.ndarray
     for index in sorted(residuals):
         found.setdefault(experiment.records[index].condition, []).append(index)
     return {
-        condition: spectrum.cross_spectrum([residuals[i] for i in own], experiment.records[own[0]].rate)
+        condition: spectrum.cross_spectrum(
+            [residuals[i] for i in own], experiment.records[own[0]].rate, experiment.records[own[0]].lowest
+        )
         for condition, own in found.items()
     }
 

@@ -42,29 +42,27 @@ def floor(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> dict[str
         repeats.setdefault(experiment.records[index].condition, []).append(index)
     return {
         condition: cross_spectrum(
-            deviations([experiment.records[i] for i in own], [cleaned[i] for i in own]), experiment.records[own[0]].rate
+            deviations([experiment.records[i] for i in own], [cleaned[i] for i in own]),
+            experiment.records[own[0]].rate,
+            experiment.records[own[0]].lowest,
         )
         for condition, own in repeats.items()
         if len(own) > 1
     }
 
 
-def power(spectrum: Spectrum, band: tuple[float, float], rate: float) -> np.ndarray:
-    """Mean square (channel,) within a band."""
-    kept = (spectrum.frequency >= band[0]) & (spectrum.frequency <= band[1])
-    count = spectrum.density.shape[-1]
-    return spectrum.density[kept][:, range(count), range(count)].real.mean(axis=0) * 2 * (band[1] - band[0]) / rate
-
-
 def squares(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> np.ndarray:
     """Mean square of the residuals within the band, (record, channel), less their mean."""
     return np.stack(
         [
-            power(cross_spectrum([part - part.mean(axis=1, keepdims=True)], experiment.records[index].rate),
-                  experiment.records[index].band, experiment.records[index].rate)
+            _power([part - part.mean(axis=1, keepdims=True)], experiment.records[index])
             for index, part in sorted(cleaned.items())
         ]
-    )  # fmt: skip
+    )
+
+
+def _power(parts: Sequence[np.ndarray], record: Record) -> np.ndarray:
+    return cross_spectrum(parts, record.rate, record.lowest).power(record.band, record.rate)
 
 
 def explained_share(before: np.ndarray, after: np.ndarray, first: np.ndarray, ground: np.ndarray) -> float:

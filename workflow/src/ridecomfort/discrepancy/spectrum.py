@@ -9,7 +9,7 @@ of unit variance and independent between channels.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
@@ -32,27 +32,47 @@ LEAST = 1e-8
 class Spectrum:
     """Cross-spectral density in units of white noise: a white series of unit variance has the unit matrix.
 
-    ``frequency`` (Hz), ``density`` (frequency, channel, channel), ``seconds`` of record it rests on.
+    ``frequency`` (Hz), ``density`` (frequency, channel, channel), ``seconds`` of record it rests on; ``lowest`` (Hz):
+    frequency by channel below which it says nothing of a channel.
     """
 
     frequency: np.ndarray
     density: np.ndarray
     seconds: float
+    lowest: tuple[float, ...] = ()
 
     def __add__(self, other: Spectrum) -> Spectrum:
         """Sum of two spectra on the frequencies of the first."""
-        return Spectrum(self.frequency, self.density + _at(other, self.frequency), min(self.seconds, other.seconds))
+        return replace(self, density=self.density + _at(other, self.frequency), seconds=min(self.seconds, other.seconds))
 
     def __mul__(self, factor: float) -> Spectrum:
-        return Spectrum(self.frequency, factor * self.density, self.seconds)
+        return replace(self, density=factor * self.density)
+
+    @property
+    def judged(self) -> np.ndarray:
+        """Whether it says something of a channel at a frequency, (frequency, channel)."""
+        return self.frequency[:, None] >= np.array(self.lowest or (0.0,) * self.density.shape[-1])
+
+    def regular(self) -> np.ndarray:
+        """The density so that it can be inverted; one, and unrelated to others, where it says nothing of a channel."""
+        both = self.judged[:, :, None] & self.judged[:, None, :]
+        return np.where(both, _regular(self.density), np.eye(self.density.shape[-1]))
+
+    def power(self, band: tuple[float, float], rate: float) -> np.ndarray:
+        """Mean square (channel,) within a band of a series sampled at ``rate`` (Hz)."""
+        kept = (self.frequency >= band[0]) & (self.frequency <= band[1])
+        own = self.density[kept][:, range(self.density.shape[-1]), range(self.density.shape[-1])].real
+        return (own * self.judged[kept]).mean(axis=0) * 2 * (band[1] - band[0]) / rate
 
     def log_determinant(self, band: tuple[float, float]) -> float:
         """Mean of log det over the band: the Gaussian information of one sample is half of it (Whittle 1953)."""
         kept = (self.frequency >= band[0]) & (self.frequency <= band[1])
-        return float(np.mean(np.linalg.slogdet(_regular(self.density[kept]))[1]))
+        return float(np.mean(np.linalg.slogdet(self.regular()[kept])[1]))
 
 
-def cross_spectrum(series: Sequence[np.ndarray], rate: float, bandwidth: float = BANDWIDTH) -> Spectrum:
+def cross_spectrum(
+    series: Sequence[np.ndarray], rate: float, lowest: tuple[float, ...] = (), bandwidth: float = BANDWIDTH
+) -> Spectrum:
     """Cross-spectral density of series (channel, sample) of one condition, by Welch's method.
 
     ``rate`` in Hz. Segments are averaged over all series and frequencies over ``bandwidth`` (Hz).
@@ -71,7 +91,8 @@ def cross_spectrum(series: Sequence[np.ndarray], rate: float, bandwidth: float =
     frequency = np.fft.rfftfreq(length, 1.0 / rate)
     width = max(1, int(round(bandwidth / frequency[1])) // 2 * 2 + 1)
     smooth = lambda values: uniform_filter1d(values, width, axis=0, mode="nearest")
-    return Spectrum(frequency, smooth(density.real) + 1j * smooth(density.imag), sum(p.shape[1] for p in series) / rate)
+    seconds = sum(part.shape[1] for part in series) / rate
+    return Spectrum(frequency, smooth(density.real) + 1j * smooth(density.imag), seconds, lowest)
 
 
 @dataclass(frozen=True)
@@ -87,8 +108,9 @@ class Whitening:
     scale: np.ndarray | None = None
 
     def __post_init__(self):
-        values, vectors = np.linalg.eigh(_regular(self.spectrum.density))
+        values, vectors = np.linalg.eigh(self.spectrum.regular())
         root = np.einsum("fik,fk,fjk->fij", vectors, values**-0.5, vectors.conj())
+        root *= self.spectrum.judged[:, :, None]
         object.__setattr__(self, "_root", root)
         object.__setattr__(self, "_known", {})
 
