@@ -11,6 +11,10 @@ from .experiment import Experiment, Frame, Record
 from .spectrum import Spectrum, cross_spectrum
 
 
+LEAST = 0.02
+"""Sum over the channels of the explainable shares of their errors, below which nothing is there to be explained."""
+
+
 def deviations(records: Sequence[Record], residuals: Sequence[np.ndarray]) -> list[np.ndarray]:
     """What every repeat has of its own at equal place, (channel, sample), its power that of one drive's noise.
 
@@ -68,13 +72,14 @@ def _power(parts: Sequence[np.ndarray], record: Record) -> np.ndarray:
 def explained_share(before: np.ndarray, after: np.ndarray, first: np.ndarray, ground: np.ndarray) -> float:
     """Fall of the error from ``before`` to ``after`` as a share of what was explainable at ``first``; nan where nothing was.
 
-    All are mean squares (record, channel), ``ground`` those of the floor; records are averaged, channels weigh alike.
+    All are mean squares (record, channel), ``ground`` those of the floor; records are averaged, channels weigh alike. A
+    channel whose floor came out above its error counts against the others: clipped, chance would pass for error.
     """
     if not first.size:
         return float("nan")
     before, after, first, ground = (values.mean(axis=0) for values in (before, after, first, ground))
-    explainable = np.sum(np.maximum(first - ground, 0.0) / first)
-    return float(np.sum((before - after) / first) / explainable) if explainable > 0 else float("nan")
+    explainable = np.sum((first - ground) / first)
+    return float(np.sum((before - after) / first) / explainable) if explainable > LEAST else float("nan")
 
 
 def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> tuple[float, float, float]:

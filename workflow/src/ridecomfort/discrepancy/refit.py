@@ -34,9 +34,9 @@ class Fit:
     loss: float
 
 
-def limits(size: Size, effect: bool) -> tuple[float, float]:
-    """Bounds of a fit: those of calibration, or what is plausible of an effect and somewhat more."""
-    width = BEYOND * (size.upper - size.lower) if effect else 0.0
+def limits(size: Size, beyond: float = 0.0) -> tuple[float, float]:
+    """Bounds of a fit: what is plausible, and ``beyond`` of its width more at ends that are not the neutral value."""
+    width = beyond * (size.upper - size.lower)
     lower = size.lower if size.lower == size.neutral else size.lower - width
     upper = size.upper if size.upper == size.neutral else size.upper + width
     return lower, upper
@@ -52,12 +52,14 @@ def refit(
     renewed: Sequence[str] = (),
     iterations: int = 4,
     residuals: Mapping[int, np.ndarray] | None = None,
+    beyond: float = BEYOND,
     tolerance: float = 2e-4,
 ) -> Fit:
     """Gauss-Newton within bounds for ``sizes`` from ``values``, in the white frame.
 
     ``columns``: white change per probe of each key at the start; those of ``renewed`` are made anew, as secants, after
-    every step. ``residuals``: those at the start, where they are known. Steps that do not lower the loss, or that
+    every step. ``residuals``: those at the start, where they are known. ``beyond``: share of an effect's
+    plausible range that its size may go beyond it. Steps that do not lower the loss, or that
     cannot be simulated, are halved.
     """
     free = {size.key for size in experiment.free}
@@ -69,7 +71,7 @@ def refit(
     for _ in range(iterations):
         now = np.array([values.get(size.key, size.neutral) for size in sizes])
         probe = np.array([size.probe for size in sizes])
-        bounds = np.array([limits(size, size.key not in free) for size in sizes])
+        bounds = np.array([limits(size, 0.0 if size.key in free else beyond) for size in sizes])
         room = np.sort((bounds - now[:, None]) / probe[:, None], axis=1)
         room = room + np.array([-1e-9, 1e-9])
         step = _step(matrix, flat, room)

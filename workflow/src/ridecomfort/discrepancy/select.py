@@ -23,11 +23,14 @@ from .selection import Round, Selection, State, Trial
 LEVEL = 0.05
 """Probability of a false alarm over the whole library."""
 
-LEAST_SHARE = 0.01
+LEAST_SHARE = 0.02
 """Share of the explainable error below which an effect is not worth naming."""
 
 PROPOSED = 5
 """Candidates that are refitted in a round."""
+
+CONTENT = 0.9
+"""Share of the gain of a size that is not plausible at which a plausible one does as well."""
 
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that an effect must reach."""
@@ -245,11 +248,17 @@ class _Search:
         shape = candidate.shapes[job[1]]
         sizes = [size for size in self._sizes([candidate.name]) if size.key in raw]
         columns = probe.white(self.frame, {size.key: raw[size.key] for size in sizes})
+        start, own = {**base.values, **candidate.at({}), **shape}, list(self.columns[job])
         try:
             fit = refit.refit(
-                self.experiment, self.frame, {**base.values, **candidate.at({}), **shape}, sizes, columns,
-                renewed=list(self.columns[job]), residuals=base.residuals,
-            )  # fmt: skip
+                self.experiment, self.frame, start, sizes, columns, renewed=own, residuals=base.residuals
+            )
+            if _implausible(candidate, fit.values):
+                inside = refit.refit(
+                    self.experiment, self.frame, start, sizes, columns, renewed=own, residuals=base.residuals, beyond=0.0
+                )
+                before = float(np.sum(self.frame.flat(base.residuals) ** 2))
+                fit = inside if before - inside.loss > CONTENT * (before - fit.loss) else fit
             return self._judge(candidate, shape, fit, base, check)
         except (InputError, ValueError):
             return None
@@ -305,11 +314,9 @@ class _Search:
         return len(self.experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
 
     def _objection(self, trial: Trial, candidate: Candidate) -> str:
-        for size in candidate.sizes:
-            value = trial.fit.values.get(size.key, size.neutral)
-            room = 1e-3 * (size.upper - size.lower)
-            if not size.lower - room <= value <= size.upper + room:
-                return f"{size.key} = {value:.3g} {size.unit} lies outside what is plausible ({size.lower:g} to {size.upper:g})"
+        outside = _implausible(candidate, trial.fit.values)
+        if outside:
+            return outside
         if trial.bic <= 0:
             return "not worth its parameters (BIC)"
         if np.isfinite(trial.held_out_gain) and not (trial.held_out_gain > 0 and trial.held_out_z > HELD_OUT_Z):
@@ -325,6 +332,16 @@ class _Search:
         share, z, power = floor.shared_error(self.frame, final.residuals)
         before = floor.shared_error(self.frame, first.residuals)[2]
         return share, z, 1.0 - power / before if before > 0 else float("nan")
+
+
+def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
+    """The first size that lies outside its plausible range, in words; empty where all lie within."""
+    for size in candidate.sizes:
+        value = values.get(size.key, size.neutral)
+        room = 1e-3 * (size.upper - size.lower)
+        if not size.lower - room <= value <= size.upper + room:
+            return f"{size.key} = {value:.3g} {size.unit} lies outside what is plausible ({size.lower:g} to {size.upper:g})"
+    return ""
 
 
 def _merit(trial: Trial) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from . import floor
 from .experiment import Candidate, Size
 from .select import LEVEL
-from .selection import Selection
+from .selection import Selection, State
 
 ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
@@ -71,15 +71,19 @@ class Verdict:
         return " ".join([first, *(f"{reason[0].upper()}{reason[1:]}." for reason in self.reasons)])
 
 
+def shares(selection: Selection, before: State, after: State) -> tuple[float, float]:
+    """Share of the explainable error by which two models differ, on fitted and on held-out drives (nan without)."""
+    first = selection.ladder[0]
+    held = (state.held_out_squares for state in (before, after, first))
+    return (
+        floor.explained_share(before.squares, after.squares, first.squares, selection.ground),
+        floor.explained_share(*held, selection.held_out_ground),
+    )
+
+
 def total_shares(selection: Selection) -> tuple[float, float]:
     """Share of the explainable error that all accepted effects remove together, fitted and held out (nan without)."""
-    first, last = selection.ladder[0], selection.ladder[-1]
-    return (
-        floor.explained_share(first.squares, last.squares, first.squares, selection.ground),
-        floor.explained_share(
-            first.held_out_squares, last.held_out_squares, first.held_out_squares, selection.held_out_ground
-        ),
-    )
+    return shares(selection, selection.ladder[0], selection.ladder[-1])
 
 
 def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = ()) -> Verdict:
@@ -129,9 +133,10 @@ def _named(selection: Selection, number: int, by_name) -> Named:
     for size in by_name[winner.name].sizes:
         if size.key in selection.intervals:
             sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
+    before, after = selection.ladder[number : number + 2]
     return Named(
-        winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]), winner.share,
-        winner.held_out_share, float(turn.absorbed[place]), turn.cluster, turn.differ_on,
+        winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]),
+        *shares(selection, before, after), float(turn.absorbed[place]), turn.cluster, turn.differ_on,
     )  # fmt: skip
 
 
