@@ -19,13 +19,15 @@ COMPARABLE = 0.5
 
 
 def cluster(
-    experiment: Experiment, frames: Sequence[Frame], winner: Trial, trials: Sequence[Trial], columns: Mapping[tuple, np.ndarray]
-) -> tuple[tuple[str, ...], dict[str, float], dict[str, str]]:
+    experiment: Experiment, frames: Sequence[Frame], before: Mapping[str, float], winner: Trial, trials: Sequence[Trial],
+    columns: Mapping[tuple, np.ndarray],
+) -> tuple[tuple[str, ...], dict[str, float], dict[str, str]]:  # fmt: skip
     """Names of the candidates like the winner, canonical correlations of all with it, and for each of the first the
     record on which it differs most from the winner.
 
-    ``frames``: of the fitted and, where there are any, of the held-out records. ``columns``: projected columns by
-    ((candidate, shape), key).
+    ``frames``: of the fitted and, where there are any, of the held-out records. ``before``: values of the model that both
+    were added to. ``columns``: projected columns by ((candidate, shape), key). What does as well by changing the
+    signals otherwise is not like the winner: both may be missing.
     """
     rows = lambda name: np.stack([row for (job, _), row in columns.items() if job[0] == name])
     like, correlation, apart = [], {}, {}
@@ -35,12 +37,17 @@ def cluster(
         correlation[trial.name] = evidence.canonical_correlation(rows(winner.name), rows(trial.name))
         if trial.gain < COMPARABLE * winner.gain:
             continue
-        z, power = [], {}
+        z, power, changes = [], {}, []
         for frame in frames:
-            one, other = (exp.simulate(experiment, fit.values, frame.indices) for fit in (winner.fit, trial.fit))
+            base, one, other = (
+                exp.simulate(experiment, values, frame.indices) for values in (before, winner.fit.values, trial.fit.values)
+            )
+            changes.append(frame.flats([{i: part[i] - base[i] for i in part} for part in (one, other)]))
             z.append(refit.advantage(frame, one, other)[1])
             power |= {i: float(np.mean(frame.whitening[i](one[i] - other[i]) ** 2)) for i in frame.indices}
-        if sum(z) / np.sqrt(len(z)) < APART:
+        one, other = np.concatenate(changes, axis=1).astype(float)
+        alike = max(correlation[trial.name], one @ other / np.sqrt((one @ one) * (other @ other)))
+        if alike > evidence.SAME and sum(z) / np.sqrt(len(z)) < APART:
             like.append(trial.name)
             apart[trial.name] = experiment.records[max(power, key=power.get)].name
     return tuple(like), correlation, apart

@@ -77,7 +77,8 @@ def refit(
         step = _step(matrix, flat, room)
         improved = False
         for _ in range(4):
-            trial = {**values, **{size.key: float(v) for size, v in zip(sizes, now + step * probe)}}
+            reached = np.clip(now + step * probe, np.minimum(now, bounds[:, 0]), np.maximum(now, bounds[:, 1]))
+            trial = {**values, **{size.key: float(v) for size, v in zip(sizes, reached)}}
             try:
                 found = exp.simulate(experiment, trial, frame.indices)
             except (InputError, ValueError):

@@ -232,7 +232,7 @@ class _Search:
         if winner is not None:
             columns = {labels[k]: found.projected[k] for k in range(len(labels))}
             frames = [frame for frame in (self.frame, self.check_frame) if frame is not None]
-            like, correlation, apart = cluster.cluster(self.experiment, frames, winner, trials, columns)
+            like, correlation, apart = cluster.cluster(self.experiment, frames, base.values, winner, trials, columns)
         shown = [(k, key) for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"]
         size, error = ({key: values[k] for k, key in shown} for values in (found.size, found.error))
         absorbed = np.array([min(found.absorbed[k] for k in range(len(labels)) if group[k] == best[name]) for name in names])
