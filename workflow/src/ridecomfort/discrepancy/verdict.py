@@ -90,11 +90,13 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
     """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it."""
     by_name = {candidate.name: candidate for candidate in candidates}
     share, held_out = total_shares(selection)
-    effects = tuple(_named(selection, number, by_name) for number in range(len(selection.accepted)))
-    reasons, first = [], selection.rounds[0] if selection.rounds else None
+    found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
+    effects = tuple(effect for effect in found if _is_certain(effect, by_name[effect.name]))
+    reasons = [f"{e.name} helps, but its size may as well be none" for e in found if e not in effects]
+    first = selection.rounds[0] if selection.rounds else None
     left = selection.remaining_z > SHARED_Z and selection.remaining > SHARED
     ground = "the floor is known from repeats" if selection.repeats else "no drive was repeated: the floor is taken as nil"
-    wrong = [name for name in selection.accepted if by_name[name].instrument]
+    wrong = [effect.name for effect in effects if by_name[effect.name].instrument]
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if wrong:
         reasons.append(f"{', '.join(wrong)} is an error of the measurement, not of the vehicle")
@@ -123,6 +125,14 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
             reasons.append(f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}")
     kind = "cluster" if any(effect.like for effect in effects) else "named"
     return Verdict(kind, effects, (*reasons, ground), share, held_out)
+
+
+def _is_certain(effect: Named, candidate: Candidate) -> bool:
+    """Whether the interval of one of its sizes leaves out the value that changes nothing."""
+    neutral = {size.key.partition(".")[2] or size.key: size.neutral for size in candidate.sizes}
+    return any(
+        not size["interval"][0] <= neutral[size["parameter"]] <= size["interval"][1] for size in effect.sizes
+    )
 
 
 def _named(selection: Selection, number: int, by_name) -> Named:
