@@ -11,6 +11,7 @@ from .. import calibrated
 from . import car as cars
 from . import floor, pool, suspect
 from .select import select
+from .signature import signature
 from .selection import Selection
 from .verdict import Verdict, judge
 
@@ -27,6 +28,7 @@ def rank(
     among: Sequence[str] | None = None,
     most: int = 3,
     seed: int = 0,
+    signatures: bool = False,
     workers: int | None = None,
     options: Mapping | None = None,
     say: Callable[[str], None] = lambda words: None,
@@ -36,11 +38,11 @@ def rank(
     ``measured``: mapping of site to (road, aligned drives); drives of role "fit" on the sites ``fitted_on`` (by
     default the first) are fitted, the others decide. ``calibration`` and ``effects`` are those of the model;
     ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
-    default one for each core.
+    default one for each core. ``signatures``: estimate the missing force against what it could depend on as well.
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
-    their gains, shares and objections; over ``model``: the ladder. Raises InputError.
+    their gains, shares and objections; over ``model``: the ladder; and what ``signature`` returns. Raises InputError.
     """
     vehicle, effects = calibrated.apply(calibration, vehicle, effects)
     experiment = cars.car(
@@ -50,7 +52,16 @@ def rank(
     each = pool.mapped(pool.workers() if workers is None else workers)
     selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
     verdict = judge(selection, experiment.candidates, suspicions(experiment, selection))
-    return dataset(experiment, selection), verdict
+    table = dataset(experiment, selection)
+    if signatures:
+        say("drawing the missing force")
+        curves = signature(
+            measured, vehicle, selection.ladder[0].fit.values, effects=effects, effects_folder=effects_folder,
+            fitted_on=fitted_on, bounds=bounds, workers=workers, options=options,
+            named={e.name: {size["parameter"]: size["size"] for size in e.sizes} for e in verdict.effects},
+        )  # fmt: skip
+        table = table.merge(curves)
+    return table, verdict
 
 
 def suspicions(experiment: cars.Car, selection: Selection) -> list[str]:

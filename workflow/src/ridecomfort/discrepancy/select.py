@@ -53,6 +53,9 @@ ALIAS = 0.1
 DECOYS = 6
 """Columns with the spectrum of a candidate and random phases that must never rank."""
 
+DECOY_LEVEL = 0.005
+"""p-value at which a decoy ranks; at LEVEL one of twenty rounds in which nothing is left would call the data suspect."""
+
 FINER = 4.0
 """Parts of a block in the second form of the test, which sees rare events better."""
 
@@ -349,7 +352,7 @@ def _merit(trial: Trial) -> float:
 
 
 def _ranks(found: evidence.Evidence, candidates: int) -> bool:
-    decoys = np.where(found.p_value[candidates:] <= LEVEL, found.group_gain[candidates:], 0.0)
+    decoys = np.where(found.p_value[candidates:] <= DECOY_LEVEL, found.group_gain[candidates:], 0.0)
     return bool(decoys.size and decoys.max() > found.group_gain[:candidates].max(initial=0.0))
 
 

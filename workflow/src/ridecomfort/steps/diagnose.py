@@ -23,7 +23,7 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict):
     settings["options"] = {"step": config["simulation"]["step"]}
     settings["say"] = lambda words: print(words, file=sys.stderr, flush=True)
     car = parameters.read(vehicle)
-    table, found = discrepancy.rank(drives, car, among=config["among"], **settings)
+    table, found = discrepancy.rank(drives, car, among=config["among"], signatures=True, **settings)
     content = found.json()
     if found.verdict == "outside":
         proposal = discrepancy.discover(drives, car, **settings)

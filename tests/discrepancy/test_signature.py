@@ -1,0 +1,46 @@
+"""The missing force as a curve: drawn without a form in mind, it shows the one that is missing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy.signature import signature
+from ridecomfort.effects import library
+from ridecomfort.vehicle import parameters
+from tests.blind import trials
+
+
+@pytest.fixture(scope="module")
+def found(repository):
+    car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+    trial = trials.make(7, car, {"suspension_friction": library.find()["suspension_friction"].effect.values()}, 1.0)
+    true_car = {**trial.truth["car"]}
+    experiment = cars.car(cars.sites_of(trial.measured), car, library_names=[])
+    values = {**cars.start_values(experiment), **true_car}
+    return signature(trial.measured, car, values, named=trial.truth["effects"], workers=1)
+
+
+def test_friction_shows_as_a_step_where_the_velocity_turns(found):
+    curve = found.sel(seen="strut velocity")
+    slow = np.abs(curve["seen_at"]) < 0.2
+    for axle in ("front", "rear"):
+        own = curve.sel(axle=axle)
+        expected = own["named_force"].isel(named_effect=0)
+        assert float(expected.max()) > 15
+        off = np.abs(own["missing_force"] - expected)[slow]
+        assert bool((off < 3 * own["missing_force_error"][slow] + 1.0).all())
+
+
+def test_the_place_where_the_force_acts_explains_most(found):
+    assert str(found["seen"].values[int(np.argmax(found["seen_gain"].values))]) == "strut velocity"
+
+
+def test_a_force_at_rest_does_not_show(found):
+    at_rest = found["missing_force"].where(found["seen_at"] == 0).max("knot")
+    np.testing.assert_allclose(at_rest.values, 0.0, atol=1e-9)
+
+
+def test_an_effect_that_acts_elsewhere_is_not_drawn(found):
+    assert bool(found["named_force"].sel(seen="tyre deflection").isnull().all())

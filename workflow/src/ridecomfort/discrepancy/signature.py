@@ -1,0 +1,217 @@
+"""The missing force, estimated against what it could depend on, without a form in mind: to be checked by eye.
+
+At every place where a force could act it is written as a curve, straight between knots, of
+one thing that the place sees. Its values at the knots are found from the white residuals as
+the size of an effect is, with what is calibrated and aligned projected out. What calibration
+could take up (a straight line) does therefore not show, and what is drawn of a named effect
+for comparison has passed through the same estimate.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from ..effects import library
+from . import car as cars
+from . import evidence, pool, probe
+from . import experiment as exp
+from .experiment import Candidate, Frame, Size
+
+FORCE = 30.0
+"""N that a knot is probed with."""
+
+EXPECTED = 500.0
+"""N; usual size of a missing force, which holds what the data do not show near zero."""
+
+AXLES = ("front", "rear")
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a force may depend on: port, expression, its unit, and the knots of the curve."""
+
+    port: str
+    expression: str
+    unit: str
+    knots: tuple[float, ...]
+
+
+SEEN: Mapping[str, Seen] = {
+    "strut velocity": Seen("suspension", "velocity", "m/s", (-0.6, -0.3, -0.12, -0.04, 0.0, 0.04, 0.12, 0.3, 0.6)),
+    "strut deflection": Seen("suspension", "deflection", "m", (-0.05, -0.03, -0.015, -0.005, 0.0, 0.005, 0.015, 0.03, 0.05)),
+    "tyre deflection": Seen("tyre_vertical", "deflection - rest", "m", (-0.015, -0.008, -0.004, 0.0, 0.004, 0.008, 0.015)),
+}
+
+ARGUMENTS = {
+    "suspension": "wheel, deflection, velocity, stiffness, damping, force_x, force_y",
+    "tyre_vertical": "wheel, deflection, velocity, stiffness, rest, rotation, spin",
+}
+
+
+def signature(
+    measured: Mapping[str, tuple],
+    vehicle,
+    values: Mapping[str, float],
+    *,
+    effects: Mapping[str, Mapping[str, float]] | None = None,
+    effects_folder=None,
+    fitted_on: Sequence[str] | None = None,
+    bounds: Mapping[str, Sequence[float]] | None = None,
+    named: Mapping[str, Mapping[str, float]] | None = None,
+    workers: int | None = None,
+    options: Mapping | None = None,
+) -> xr.Dataset:
+    """Curves of the missing force at ``values`` of the parameters, from the drives that are fitted.
+
+    Arguments as for ``rank``, calibration applied. ``named``: sizes of effects to compare with, as mapping of name to
+    {parameter: value}. Returns over ``seen`` (what it depends on), ``axle`` and ``knot``: ``seen_at`` (in ``seen_unit``),
+    ``missing_force`` (N) with its standard ``missing_force_error``, and over ``named_effect`` too ``named_force``: what
+    the estimate would show were the effect the truth (nan where it acts elsewhere); ``seen_gain`` (fall of
+    the white sum of squares) says which place explains most.
+    """
+    each = pool.mapped(pool.workers() if workers is None else workers)
+    with tempfile.TemporaryDirectory() as folder:
+        for path in sorted(Path(effects_folder).glob("*.py")) if effects_folder else ():
+            (Path(folder) / path.name).write_bytes(path.read_bytes())
+        for number, seen in enumerate(SEEN.values()):
+            (Path(folder) / f"{_name(number)}.py").write_text(_source(_name(number), seen), encoding="utf-8")
+        experiment = cars.car(
+            cars.sites_of(measured), vehicle, effects=effects, effects_folder=folder, fitted_on=fitted_on, bounds=bounds,
+            library_names=[_name(number) for number in range(len(SEEN))], options=options,
+        )  # fmt: skip
+        experiment.candidates = tuple(_candidate(number, seen) for number, seen in enumerate(SEEN.values()))
+        fitted = [index for index, record in enumerate(experiment.records) if record.role == "fit"]
+        residuals = exp.simulate(experiment, values, fitted)
+        frame = exp.frame(experiment, residuals, {index: experiment.nuisances(values, index) for index in fitted})
+        free = probe.secants(experiment, values, residuals, experiment.free, each)
+        found = each(probe.Probe(experiment, values, residuals), [(c.name, 0) for c in experiment.candidates])
+        curves = [_curve(frame, residuals, free, columns, seen) for columns, seen in zip(found, SEEN.values())]
+    known = library.find(effects_folder)
+    names = [name for name in named or {} if known[name].effect.port in ARGUMENTS]
+    return _dataset(curves, names, [_shapes(known[name], (named or {})[name]) for name in names])
+
+
+@dataclass(frozen=True)
+class _Curve:
+    force: np.ndarray
+    error: np.ndarray
+    resolution: np.ndarray
+    """What the estimate makes of a true curve, (axle and knot, axle and knot)."""
+    gain: float
+
+
+def _curve(frame: Frame, residuals, free, columns, seen: Seen) -> _Curve:
+    keys = [key for key in columns]
+    rows = frame.flats([columns[key] for key in keys]).astype(float) / FORCE
+    directions = evidence.basis(frame.flats(list(free.values())).astype(float))
+    rows = evidence.without(rows, directions)
+    residual = evidence.without(frame.flat(residuals), directions)
+    normal = rows @ rows.T
+    held = np.linalg.inv(normal + np.eye(len(rows)) / EXPECTED**2)
+    force = -held @ (rows @ residual)
+    left = residual + force @ rows
+    blocks = np.unique(frame.blocks(), return_inverse=True)[1]
+    sums = np.stack([np.bincount(blocks, row * left) for row in rows])
+    count = len(AXLES) * len(seen.knots)
+    where = [AXLES.index(axle) * len(seen.knots) + int(knot) for axle, knot in (_parts(key) for key in keys)]
+    values, spread, resolution = np.zeros(count), np.zeros((count, count)), np.zeros((count, count))
+    values[where], spread[np.ix_(where, where)] = force, held @ (sums @ sums.T) @ held
+    resolution[np.ix_(where, where)] = held @ normal
+    # A force that is there at rest only moves the place of rest.
+    origin = np.kron(np.eye(len(AXLES)), np.eye(len(seen.knots))[seen.knots.index(0.0)])
+    centred = np.eye(count) - np.repeat(origin, len(seen.knots), axis=0)
+    error = np.sqrt(np.diag(centred @ spread @ centred.T))
+    error[[k for k in range(count) if k not in where]] = np.nan
+    return _Curve(centred @ values, error, centred @ resolution, float(residual @ residual - left @ left))
+
+
+def _shapes(entry: library.Entry, sizes: Mapping[str, float]) -> dict[str, np.ndarray]:
+    """Force of an effect at the knots of what it may depend on, (axle, knot), by what that is."""
+    sizes, act = entry.effect.values(sizes), getattr(entry.act, "py_func", entry.act)
+    found = {}
+    for label, seen in SEEN.items():
+        if seen.port != entry.effect.port:
+            continue
+        force = np.zeros((len(AXLES), len(seen.knots)))
+        for a, wheel in enumerate((0, 2)):
+            for k, knot in enumerate(seen.knots):
+                known = {"wheel": wheel, "deflection": 0.0, "velocity": 0.0, "stiffness": 28000.0, "damping": 2100.0}
+                known |= {"force_x": 0.0, "force_y": 0.0, "rest": 0.015, "rotation": 0.0, "spin": 70.0}
+                known |= {"stiffness": 300000.0, "deflection": 0.015} if seen.port == "tyre_vertical" else {}
+                known[seen.expression.partition(" ")[0]] += knot
+                force[a, k] = act(*(known[name] for name in ARGUMENTS[seen.port].split(", ")), **sizes)
+        found[label] = force
+    return found
+
+
+def _dataset(curves: Sequence[_Curve], names: Sequence[str], shapes: Sequence[Mapping[str, np.ndarray]]) -> xr.Dataset:
+    most = max(len(seen.knots) for seen in SEEN.values())
+    shape = (len(SEEN), len(AXLES), most)
+    at, force, error = np.full((len(SEEN), most), np.nan), np.full(shape, np.nan), np.full(shape, np.nan)
+    drawn = np.full((len(names), *shape), np.nan)
+    for number, ((label, seen), curve) in enumerate(zip(SEEN.items(), curves)):
+        count = len(seen.knots)
+        at[number, :count] = seen.knots
+        force[number, :, :count] = curve.force.reshape(len(AXLES), count)
+        error[number, :, :count] = curve.error.reshape(len(AXLES), count)
+        for k, own in enumerate(shapes):
+            if label in own:
+                drawn[k, number, :, :count] = (curve.resolution @ own[label].ravel()).reshape(len(AXLES), count)
+    over = ("seen", "axle", "knot")
+    return xr.Dataset(
+        {
+            "seen_at": (("seen", "knot"), at),
+            "seen_unit": ("seen", np.array([seen.unit for seen in SEEN.values()])),
+            "seen_gain": ("seen", np.array([curve.gain for curve in curves]), {"units": "1"}),
+            "missing_force": (over, force, {"units": "N", "long_name": "force that the model lacks"}),
+            "missing_force_error": (over, error, {"units": "N", "long_name": "standard error of it"}),
+            "named_force": (("named_effect", *over), drawn, {"units": "N", "long_name": "what named effects would show"}),
+        },
+        {"seen": list(SEEN), "axle": list(AXLES), "named_effect": np.array(names, dtype=str)},
+    )
+
+
+def _name(number: int) -> str:
+    return f"unknown_curve_{number}"
+
+
+def _parts(key: str) -> tuple[str, str]:
+    axle, _, knot = key.partition(".")[2].partition("_")
+    return axle, knot
+
+
+def _candidate(number: int, seen: Seen) -> Candidate:
+    keys = (f"{_name(number)}.{axle}_{knot}" for axle in AXLES for knot in range(len(seen.knots)))
+    return Candidate(_name(number), tuple(Size(key, "N", 0.0, -5e3, 5e3, FORCE) for key in keys))
+
+
+def _source(name: str, seen: Seen) -> str:
+    """Text of an effect file (``effects.contract``) of a force that is a curve over knots."""
+    own = [f"{axle}_{knot}" for axle in AXLES for knot in range(len(seen.knots))]
+    parameters = "\n".join(
+        f'        Parameter("{one}", "N", 0.0, {FORCE}, (-5e3, 5e3), "force at a knot of the curve"),' for one in own
+    )
+    last = len(seen.knots) - 1
+    lines = [f"    if x <= {seen.knots[0]}:", "        return front_0 if wheel < 2 else rear_0"]
+    for k in range(last):
+        low, high = seen.knots[k], seen.knots[k + 1]
+        lines += [
+            f"    if x <= {high}:",
+            f"        part = (x - ({low})) / ({high} - ({low}))",
+            f"        if wheel < 2:\n            return front_{k} + part * (front_{k + 1} - front_{k})",
+            f"        return rear_{k} + part * (rear_{k + 1} - rear_{k})",
+        ]
+    lines.append(f"    return front_{last} if wheel < 2 else rear_{last}")
+    body = "\n".join(lines)
+    return (
+        f'"""A force as a curve over {seen.expression}."""\n\nfrom ridecomfort.effects.contract import Effect, Parameter\n\n'
+        f'effect = Effect(\n    name="{name}",\n    sentence="A force that is looked for.",\n    source="none",\n'
+        f'    port="{seen.port}",\n    parameters=(\n{parameters}\n    ),\n)\n\n\n'
+        f"def act({ARGUMENTS[seen.port]}, {', '.join(own)}):\n    x = {seen.expression}\n{body}\n"
+    )
