@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -11,7 +12,10 @@ from scipy.ndimage import gaussian_filter1d
 
 from ridecomfort import simulate
 from ridecomfort.calibrate import BOUNDS
+from ridecomfort.discrepancy import car as cars
+from ridecomfort.drive import align
 from ridecomfort.effects import library
+from ridecomfort.effects.contract import COMPILED
 from ridecomfort.calibrated import with_values
 from ridecomfort.vocabulary import DRIVE, SIGNALS
 from tests.vehicle.roads import rough
@@ -24,6 +28,12 @@ ACCELEROMETER, GYROSCOPE = 0.006, 0.0004
 
 PATH_ERROR, PATH_LENGTH = 0.02, 30.0
 """m by which the recorded path is wrong (rms), and over which length."""
+
+BACKGROUND = 0.1
+"""kappa of every effect of the background."""
+
+SHAPES = Path(__file__).parent / "shapes"
+"""Effects that only a truth has."""
 
 SENSOR = (-0.1, 0.05, 0.6)
 
@@ -58,11 +68,27 @@ def a_road(rng) -> xr.Dataset:
     )
 
 
-def make(seed: int, car, effects: Mapping[str, Mapping[str, float]], kappa: float = 1.0, *, step: float = 0.0005, clock: float = 0.0) -> Trial:
+def make(
+    seed: int,
+    car,
+    effects: Mapping[str, Mapping[str, float]],
+    kappa: float = 1.0,
+    *,
+    step: float = 0.0005,
+    clock: float = 0.0,
+    gain: float = 0.0,
+    scanner: float = 0.0,
+    path_error: float = PATH_ERROR,
+    background: Sequence[str] = (),
+    aligned: bool = False,
+) -> Trial:
     """Three repeats and a slower drive of a car that has ``effects``, scaled to ``kappa``.
 
     kappa is the rms of what the effects change and calibration cannot take up, over the rms of the noise floor, in the
-    worst channel. ``effects`` give the direction: sizes are scaled from neutral, within what is plausible.
+    worst channel and the band that ride is judged in. ``effects`` give the direction: sizes are scaled from
+    neutral, within what is plausible; shapes of ``tests/blind/shapes`` may be among them. ``clock`` (s) and ``gain`` spoil the
+    record, ``scanner`` (m rms) the road that is handed over, ``path_error`` (m rms) the recorded path; each effect of
+    the ``background`` is there at a kappa of BACKGROUND. ``aligned``: drives are handed over as alignment leaves them.
     """
     rng = np.random.default_rng(seed)
     road = a_road(rng)
@@ -70,15 +96,22 @@ def make(seed: int, car, effects: Mapping[str, Mapping[str, float]], kappa: floa
     hidden = {name: float(rng.uniform(lower + 0.2 * (upper - lower), upper - 0.2 * (upper - lower))) for name, (lower, upper) in BOUNDS.items()}
     true_car, _ = with_values(car, {}, hidden)
     demands = [_demand(rng, road.u.values, speed) for speed in (SPEED, SPEED, SPEED, SLOWER * SPEED)]
-    drive = lambda vehicle, sizes, demand: simulate.run(course, vehicle, effects=sizes, sensor=SENSOR, step=step, **demand)
-    noises = [_noise(rng, drive, true_car, demand) for demand in demands]
+    every = tuple(effects) + tuple(background)
+    drive = lambda vehicle, sizes, demand: simulate.run(
+        course, vehicle, effects={**_quiet(every), **sizes}, effects_folder=SHAPES, sensor=SENSOR, step=step, **demand
+    )
+    noises = [_noise(rng, drive, true_car, demand, path_error) for demand in demands]
     scale, reached = _scale(drive, true_car, effects, kappa, demands[0], noises[0][0]) if effects else (0.0, 0.0)
     sizes = scaled(effects, scale)
+    known = library.find(SHAPES)
+    for name in background:
+        one = {name: known[name].effect.values()}
+        sizes |= scaled(one, _scale(drive, true_car, one, BACKGROUND, demands[0], noises[0][0])[0])
     drives = []
     for k, (demand, (noise, error)) in enumerate(zip(demands, noises)):
         record = drive(true_car, sizes, demand)
         for channel, name in enumerate(SIGNALS):
-            record[name] = record[name] + noise[channel][: record.sizes["time"]]
+            record[name] = (1 + gain) * record[name] + noise[channel][: record.sizes["time"]]
         record["e"] = record["e"] + np.interp(record["s"], road.u.values, error)
         record = record[list(DRIVE)].isel(time=slice(200, None)).assign_attrs(
             name=f"drive_{k + 1}", role="check" if k == 3 else "fit", gravity=0, cut_off=45.0, place_measured=1,
@@ -87,12 +120,24 @@ def make(seed: int, car, effects: Mapping[str, Mapping[str, float]], kappa: floa
         if clock:
             record["s"] = record["s"] + clock * record["v_x"]
         drives.append(record)
-    return Trial({"trial": (road, drives)}, {"effects": sizes, "scale": scale, "car": hidden, "kappa": kappa, "reached": reached})
+    if scanner:
+        road = road.assign(elevation=road["elevation"] + scanner * rng.standard_normal(road["elevation"].shape))
+    if aligned:
+        scanned = simulate.prepare(road)
+        drives = [align.align(record, scanned, car, simulate=simulate.run) for record in drives]
+    truth = {"effects": sizes, "scale": scale, "car": hidden, "kappa": kappa, "reached": reached}
+    return Trial({"trial": (road, drives)}, truth)
+
+
+def _quiet(names: Sequence[str]) -> dict[str, dict[str, float]]:
+    """Effects that do nothing, so that one compiled kernel serves for all simulations of a trial."""
+    known = library.find(SHAPES)
+    return {name: dict(known[name].effect.neutral) for name in names if known[name].effect.port in COMPILED}
 
 
 def scaled(effects, factor: float) -> dict[str, dict[str, float]]:
     """Sizes at ``factor`` of the way from neutral to those given, within what is plausible."""
-    known, sizes = library.find(), {}
+    known, sizes = library.find(SHAPES), {}
     for name, given in effects.items():
         sizes[name] = {}
         for parameter in known[name].effect.parameters:
@@ -112,18 +157,23 @@ def _demand(rng, u, speed) -> dict:
     return {"speed": xr.DataArray(target, **over_u), "lateral": xr.DataArray(path, **over_u)}
 
 
-def _noise(rng, drive, vehicle, demand):
+def _noise(rng, drive, vehicle, demand, path_error):
     """Noise (6, time) with which a drive is recorded, what a wrong path makes of it included, and the error of the path over u."""
     u = demand["lateral"].u.values
     error = gaussian_filter1d(rng.standard_normal(u.size), PATH_LENGTH / 0.1)
-    error *= PATH_ERROR / error.std()
+    error *= path_error / error.std()
     record = drive(vehicle, {}, demand)
     white = rng.standard_normal((6, record.sizes["time"] + 500))
     return white * np.array([ACCELEROMETER] * 3 + [GYROSCOPE] * 3)[:, None], error
 
 
 def _signals(record) -> np.ndarray:
-    return np.stack([record[name].values for name in SIGNALS])
+    """Signals (6, time) in the band that is judged."""
+    values = np.stack([record[name].values for name in SIGNALS])
+    bins = np.fft.rfft(values - values.mean(axis=1, keepdims=True), axis=1)
+    frequency = np.fft.rfftfreq(values.shape[1], 0.01)
+    lowest = np.array([cars.LOWEST_OF_DRIVER.get(name, cars.LOWEST) for name in SIGNALS])
+    return np.fft.irfft(np.where(frequency > lowest[:, None], bins, 0.0), values.shape[1], axis=1)
 
 
 def _scale(drive, vehicle, effects, kappa, demand, noise) -> tuple[float, float]:
@@ -135,8 +185,10 @@ def _scale(drive, vehicle, effects, kappa, demand, noise) -> tuple[float, float]
     count = min(base.shape[1], lost.shape[1])
     floor = np.sqrt((lost[:, 200:count] - base[:, 200:count]).var(axis=1) + noise[:, :count].var(axis=1))
     columns = []
-    for name, (lower, upper) in BOUNDS.items():
-        moved = _signals(drive(with_values(vehicle, {}, {name: vehicle[name] + 0.02 * (upper - lower)})[0], {}, demand))
+    steps = {name: 0.02 * (upper - lower) for name, (lower, upper) in BOUNDS.items()}
+    steps |= {name: 0.01 * vehicle[name] for name in cars.UNCERTAIN}
+    for name, change in steps.items():
+        moved = _signals(drive(with_values(vehicle, {}, {name: vehicle[name] + change})[0], {}, demand))
         columns.append(((moved[:, 200:count] - base[:, 200 : moved.shape[1]][:, : count - 200]) / floor[:, None]).ravel())
     matrix = np.stack(columns, axis=1)
     factor, found = 1.0, 0.0
@@ -144,7 +196,7 @@ def _scale(drive, vehicle, effects, kappa, demand, noise) -> tuple[float, float]
         changed = _signals(drive(vehicle, scaled(effects, factor), demand))
         span = min(count, changed.shape[1])
         change = (changed[:, 200:span] - base[:, 200:span]) / floor[:, None]
-        rows = matrix.reshape(6, -1, len(BOUNDS))[:, : span - 200].reshape(-1, len(BOUNDS))
+        rows = matrix.reshape(6, -1, len(steps))[:, : span - 200].reshape(-1, len(steps))
         left = change.ravel() - rows @ np.linalg.lstsq(rows, change.ravel(), rcond=None)[0]
         found = np.sqrt(np.mean(left.reshape(6, -1) ** 2, axis=1)).max()
         if turn < 3:

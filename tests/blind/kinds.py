@@ -1,0 +1,95 @@
+"""The kinds of blind trials, each drawn from its seed: what is hidden, how the data are spoilt, what the search is left with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ridecomfort.discrepancy import car as cars
+from ridecomfort.effects import library
+
+KAPPAS = (0.05, 0.1, 0.3, 1.0, 3.0)
+
+STRONG = (0.3, 1.0, 3.0)
+
+SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee"}
+"""Truths of another shape, and what the library has of their kind."""
+
+
+@dataclass(frozen=True)
+class Draw:
+    """What a trial is made of. ``right``: the names that a verdict may give; ``missing``: what the library is left without;
+    ``spoilt``: further arguments of ``trials.make``."""
+
+    hidden: tuple[str, ...]
+    kappa: float
+    right: frozenset[str]
+    missing: tuple[str, ...] = ()
+    spoilt: Mapping[str, object] = field(default_factory=dict)
+
+
+def of_the_vehicle() -> list[str]:
+    """Effects of the library that are none of an instrument or of the road's file."""
+    return [name for name, entry in library.find().items() if not cars.candidate(entry.effect).instrument]
+
+
+def _clean(rng, names: Sequence[str], number: int) -> Draw:
+    name = names[number % len(names)]
+    return Draw((name,), float(rng.choice(KAPPAS)), frozenset({name}))
+
+
+def _messy(rng, names, number) -> Draw:
+    name, *background = (str(one) for one in rng.choice(names, 3, replace=False))
+    spoilt = {
+        "background": background, "clock": float(rng.normal(0, 0.005)), "gain": float(rng.normal(0, 0.003)),
+        "scanner": 0.0001, "aligned": True,
+    }  # fmt: skip
+    return Draw((name,), float(rng.choice(STRONG)), frozenset({name}), spoilt=spoilt)
+
+
+def _shaped(rng, names, number) -> Draw:
+    name = list(SHAPED)[number % len(SHAPED)]
+    return Draw((name,), float(rng.choice(STRONG)), frozenset({SHAPED[name]}))
+
+
+def _several(count: int) -> Callable:
+    def draw(rng, names, number) -> Draw:
+        hidden = tuple(str(name) for name in rng.choice(names, count, replace=False))
+        return Draw(hidden, float(rng.choice(STRONG[1:])), frozenset(hidden))
+
+    return draw
+
+
+def _outside(rng, names, number) -> Draw:
+    name = str(rng.choice(names))
+    return Draw((name,), float(rng.choice(STRONG[1:])), frozenset(), missing=(name,))
+
+
+def _null(**spoilt) -> Callable:
+    return lambda rng, names, number: Draw((), 0.0, frozenset(), spoilt=spoilt)
+
+
+KINDS: Mapping[str, Callable] = {
+    "clean": _clean,
+    "messy": _messy,
+    "another shape": _shaped,
+    "two": _several(2),
+    "three": _several(3),
+    "outside": _outside,
+    "nothing": _null(),
+    "path error": _null(path_error=0.06, aligned=True),
+    "clock error, aligned": _null(clock=0.008, aligned=True),
+    "clock error, left": _null(clock=0.008),
+    "gain error": _null(gain=0.03),
+    "scanner noise": _null(scanner=0.001),
+}
+
+SUSPECT = ("clock error, left", "gain error", "scanner noise")
+"""Kinds in which the data are wrong and should be called so."""
+
+
+def draw(kind: str, seed: int, number: int) -> Draw:
+    """The trial ``number`` of its kind; effects take turns, the rest is drawn."""
+    return KINDS[kind](np.random.default_rng([seed, number, 9]), of_the_vehicle(), number)

@@ -1,0 +1,95 @@
+"""A verdict against the truth, and figures of many of them with their uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from scipy.stats import binomtest
+
+from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy import floor
+from ridecomfort.discrepancy import experiment as exp
+
+from .kinds import SUSPECT, Draw
+
+VISIBLE = 0.8
+"""Share of the wanted kappa that a plausible size must reach for a trial to count as one of that kappa."""
+
+
+def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
+    """What a verdict got right, as a row of trials.csv."""
+    found = [effect.name for effect in verdict.effects]
+    likely = set(found).union(*(effect.like for effect in verdict.effects))
+    sizes = [
+        size["interval"][0] <= truth["effects"][effect.name][size["parameter"]] <= size["interval"][1]
+        for effect in verdict.effects
+        if effect.name in truth["effects"]
+        for size in effect.sizes
+    ]
+    return {
+        "verdict": verdict.verdict, "found": "+".join(found), "likely": "+".join(sorted(likely)),
+        "first_right": bool(found) and found[0] in draw.right, "in_cluster": bool(likely & draw.right),
+        "wrong_named": verdict.verdict == "named" and not set(found) <= draw.right, "exact": set(found) == set(draw.right),
+        "covered": sum(sizes), "sizes": len(sizes), "share": verdict.share, "held_out_share": verdict.held_out_share,
+    }  # fmt: skip
+
+
+def against_oracle(trial, vehicle, effects_folder, table) -> float:
+    """Fall of the held-out error relative to that of who knows the effects and all parameters; nan where there is none."""
+    sizes = trial.truth["effects"]
+    true_vehicle, _ = cars.with_values(vehicle, {}, trial.truth["car"])
+    knowing = cars.car(
+        cars.sites_of(trial.measured), true_vehicle, effects=sizes, effects_folder=effects_folder, library_names=[]
+    )
+    held_out = [index for index, record in enumerate(knowing.records) if record.role != "fit"]
+    values = cars.start_values(knowing)
+    residuals = exp.simulate(knowing, values, held_out)
+    frame = exp.frame(knowing, residuals, {index: knowing.nuisances(values, index) for index in held_out})
+    oracle = floor.squares(knowing, {index: frame.cleaned(index, residuals[index]) for index in held_out})
+    first, last = (table["held_out_mean_square"].isel(model=k).values for k in (0, -1))
+    possible = np.sum((first - oracle) / first)
+    return float(np.sum((first - last) / first) / possible) if possible > floor.LEAST else float("nan")
+
+
+def summary(rows: Sequence[Mapping]) -> list[str]:
+    """Lines of a Markdown table: each figure with its 95 % interval (Wilson) and the number of trials."""
+    lines = ["| figure | reached (95 % interval) | trials |", "|---|---|---|"]
+
+    def line(what, chosen, hit):
+        chosen = list(chosen)
+        hits = sum(bool(hit(row)) for row in chosen)
+        if chosen:
+            lower, upper = binomtest(hits, len(chosen)).proportion_ci(method="wilson")
+            share = f"{100 * hits / len(chosen):.0f} % ({100 * lower:.0f}-{100 * upper:.0f} %)"
+        lines.append(f"| {what} | {share if chosen else '-'} | {len(chosen)} |")
+
+    of = lambda *kinds: [row for row in rows if row["kind"] in kinds]
+    seen = [row for row in rows if row["hidden"] and row["reached"] >= VISIBLE * row["kappa"]]
+    strong = [row for row in seen if row["kappa"] >= 0.3]
+    single = lambda kind, chosen: [row for row in chosen if row["kind"] == kind]
+    for kind in ("clean", "messy", "another shape"):
+        line(f"first name right, {kind}, kappa >= 0.3", single(kind, strong), lambda row: row["first_right"])
+    one = [row for row in strong if row["kind"] in ("clean", "messy", "another shape")]
+    line("true effect named or in the named cluster, kappa >= 0.3", one, lambda row: row["in_cluster"])
+    for kappa in sorted({row["kappa"] for row in single("clean", seen)}):
+        at = [row for row in single("clean", seen) if row["kappa"] == kappa]
+        line(f"found, clean, kappa {kappa:g}", at, lambda row: row["in_cluster"])
+    for kind in ("nothing", "path error", "clock error, aligned"):
+        line(f"an effect named where nothing is missing: {kind}", of(kind), lambda row: row["found"])
+    line("wrong effect named with confidence", rows, lambda row: row["wrong_named"])
+    line('"outside the library" said when it is', single("outside", seen), lambda row: row["verdict"] == "outside")
+    line("exact set of 2 effects", single("two", seen), lambda row: row["exact"])
+    line("exact set of 3 effects", single("three", seen), lambda row: row["exact"])
+    for kind in SUSPECT:
+        line(f"suspect data flagged: {kind}", of(kind), lambda row: row["verdict"] == "suspect")
+    covered, sizes = (sum(row[key] for row in seen) for key in ("covered", "sizes"))
+    lines.append(f"| 90 % interval of a size covers the truth | {100 * covered / sizes if sizes else 0:.0f} % | {sizes} sizes |")
+    falls = [row["against_oracle"] for row in one if row["in_cluster"] and np.isfinite(row["against_oracle"])]
+    if falls:
+        median, tenth = np.median(falls), np.quantile(falls, 0.1)
+        lines.append(f"| held-out error removed, relative to the oracle, median (10th percentile) | {median:.2f} ({tenth:.2f}) | {len(falls)} |")
+    small = sum(bool(row["hidden"]) for row in rows) - len(seen)
+    lines.append(f"| hidden effect too small at any plausible size (left out above) | {small} | {len(rows)} |")
+    lines.append(f"| CPU seconds of a search, median | {np.median([row['cpu_seconds'] for row in rows]):.0f} | {len(rows)} |")
+    return lines
