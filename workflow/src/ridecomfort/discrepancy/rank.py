@@ -141,6 +141,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
         remaining=selection.remaining,
         remaining_z=selection.remaining_z,
         shared_gone=selection.shared_gone,
+        shared_z=selection.shared_z,
     )
 
 

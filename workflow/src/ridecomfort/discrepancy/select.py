@@ -50,6 +50,9 @@ CYCLES = 8
 ALIAS = 0.1
 """Share of a candidate's power that nuisances must leave; below it it is one of them under another name."""
 
+AT_BOUND = 1e-3
+"""Share of the width of its bounds within which a parameter lies at one of them."""
+
 DECOYS = 6
 """Columns with the spectrum of a candidate and random phases that must never rank."""
 
@@ -190,7 +193,7 @@ class _Search:
         return {job: found for job, found in kept.items() if self.frame.own_shares(list(found.values())).max() > ALIAS}
 
     def _round(self, base: Fit, check, number: int) -> tuple[Round, Fit]:
-        free = self.frame.flats([self.raw[size.key] for size in self._sizes()])
+        free = self.frame.flats([self.raw[size.key] for size in self._sizes() if _is_within(size, base.values)])
         jobs = [job for job in self.columns if job[0] not in self.accepted]
         if not jobs:
             return Round.empty(), base
@@ -328,13 +331,20 @@ class _Search:
             return f"removes {100 * trial.share:.1f} % of the explainable error"
         return ""
 
-    def _remaining(self, first: Fit, final: Fit) -> tuple[float, float, float]:
-        """Of what all repeats share: the share of the error that it still is, its z, and the share of it that is gone."""
+    def _remaining(self, first: Fit, final: Fit) -> tuple[float, float, float, float]:
+        """Of what all repeats share: the share of the error that it still is, its z, the share of it that is gone, and the
+        z that it had at first."""
         if not self.repeats:
-            return float("nan"), float("nan"), float("nan")
+            return (float("nan"),) * 4
         share, z, power = floor.shared_error(self.frame, final.residuals)
-        before = floor.shared_error(self.frame, first.residuals)[2]
-        return share, z, 1.0 - power / before if before > 0 else float("nan")
+        _, first_z, before = floor.shared_error(self.frame, first.residuals)
+        return share, z, 1.0 - power / before if before > 0 else float("nan"), first_z
+
+
+def _is_within(size: exp.Size, values: Mapping[str, float]) -> bool:
+    """Whether a parameter can still move both ways; one at its bound takes nothing up any more."""
+    room = AT_BOUND * (size.upper - size.lower)
+    return size.lower + room < values.get(size.key, size.neutral) < size.upper - room
 
 
 def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:

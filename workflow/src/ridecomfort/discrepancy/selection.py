@@ -84,3 +84,5 @@ class Selection:
     """How surely that is more than nothing, as a z."""
     shared_gone: float
     """Share of what the repeats had in common before the first effect that is gone; nan without repeats."""
+    shared_z: float
+    """How surely repeats shared any error before the first effect, as a z; nan without repeats."""

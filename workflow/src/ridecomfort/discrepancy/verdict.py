@@ -21,6 +21,9 @@ SHARED_Z = 3.0
 SHARED = 0.2
 """Share of the white error in common between repeats below which it may be what alignment left; a fifth is kappa 0.5."""
 
+SURE = 0.005
+"""p-value that an effect must reach where repeats share no error for certain."""
+
 KINDS = ("named", "cluster", "outside", "nothing", "suspect")
 
 
@@ -93,13 +96,21 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
     effects = tuple(effect for effect in found if _is_certain(effect, by_name[effect.name]))
     reasons = [f"{e.name} helps, but its size may as well be none" for e in found if e not in effects]
+    if selection.repeats and not selection.shared_z > SHARED_Z:
+        sure = tuple(effect for effect in effects if effect.p_value <= SURE)
+        reasons += [f"{e.name} may be chance: repeats share no error for certain" for e in effects if e not in sure]
+        effects = sure
     first = selection.rounds[0] if selection.rounds else None
     left = selection.remaining_z > SHARED_Z and selection.remaining > SHARED
     ground = "the floor is known from repeats" if selection.repeats else "no drive was repeated: the floor is taken as nil"
-    wrong = [effect.name for effect in effects if by_name[effect.name].instrument]
+    wrong = [effect for effect in effects if by_name[effect.name].instrument]
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if wrong:
-        reasons.append(f"{', '.join(wrong)} is an error of the measurement, not of the vehicle")
+        names = ", ".join(effect.name for effect in wrong)
+        reasons.append(f"{names} is an error of the measurement, not of the vehicle")
+        vehicle = [effect for effect in effects if effect not in wrong]
+        if sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
+            effects, wrong = tuple(vehicle), []
     if decoys:
         reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
     if wrong or decoys or suspicions:
@@ -116,8 +127,9 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
     reasons.append(f"{_percent(share)} of the explainable error is removed on the fitted drives")
     if np.isfinite(held_out):
         reasons.append(f"{_percent(held_out)} on drives held out")
-    if selection.repeats and selection.remaining_z > SHARED_Z and max(share, selection.shared_gone) < ENOUGH:
-        reasons.append(f"that is less than half, and repeats still share an error (z = {selection.remaining_z:.1f})")
+    explained = max(share, selection.shared_gone) if selection.repeats else share
+    if explained < ENOUGH and (selection.shared_z > SHARED_Z or not selection.repeats):
+        reasons.append("that is less than half" + (" of what repeats share" if selection.repeats else ""))
         return Verdict("outside", effects, (*reasons, ground), share, held_out)
     for effect in effects:
         if effect.like:
