@@ -21,7 +21,7 @@ _CURVED = 20
 """Points from which the curvature of the cell is fitted too."""
 
 _PIVOT = 5e-4
-"""Least weighted variance, in the fourth power of the cell's size, that leaves a curvature to be told from a slope."""
+"""Least weighted variance of a term, in cells, that tells it from those before it: curvature from slope and level."""
 
 
 @njit(cache=True)
@@ -109,10 +109,10 @@ def _least_squares(du, dv, z, chosen, used):
 
 @njit(cache=True)
 def _quadratic(du, dv, z, chosen, kept, size, level, normal, right):
-    """Height at the origin of the quadratic through the kept points; ``level`` where they do not determine it.
+    """Height at the origin of the quadratic through the kept points, less the terms that they do not determine.
 
     Weighted by Tukey's biweight in each direction, 1 in the middle and 0 at the border of the cell. By Cholesky's
-    method, whose pivots are the variances of each term that those before it leave over.
+    method, whose pivots are the variances of each term that those before it leave over; an infinite one drops it.
     """
     normal[:], right[:] = 0.0, 0.0
     total = 0.0
@@ -134,7 +134,7 @@ def _quadratic(du, dv, z, chosen, kept, size, level, normal, right):
             if i > j:
                 normal[i, j] = left / normal[j, j]
             elif left <= total * _PIVOT:
-                return level
+                normal[i, i] = np.inf
             else:
                 normal[i, i] = np.sqrt(left)
         for k in range(i):
