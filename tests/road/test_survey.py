@@ -186,7 +186,7 @@ def test_a_scanner_that_stands_still_adds_nothing(road):
     for name in survey.POSE:
         still[name][:] = measured[name].values[0]
     still["x"] = still.x + np.where(np.arange(still.time.size) > 200, np.arange(still.time.size) - 200, 0) * 0.1
-    report = survey.grid(iter([first, first]), still)[1]
+    report = survey.grid(iter([first, first._replace(time=first.time + 0.2)]), still)[1]
     assert report.profiles == 200 and report.points <= 2 * SCANNER.points
 
 
@@ -202,9 +202,34 @@ def test_equal_seeds_make_equal_scans(road):
         (lambda t: t.isel(time=slice(None, None, -1)), "trajectory.time: expected at least 10 equal steps forward"),
         (lambda t: t.assign(z=t.z.where(t.time != t.time[7])), "trajectory.z: nan at 0.035 s"),
         (lambda t: t.isel(time=slice(0, 50)), "trajectory"),
+        (lambda t: t.assign(heading=t.heading + 1.0), "trajectory.heading: .* degrees off .*azimuth"),
     ],
 )
 def test_unusable_trajectories_are_refused(road, spoil, message):
     true, measured = trajectory(road, 5, SCANNER)
     with pytest.raises(InputError, match=message):
         survey.grid(profiles(road, true, 5, SCANNER), spoil(measured))
+
+
+@pytest.mark.parametrize(
+    "spoil, message",
+    [
+        (lambda b: b._replace(time=b.time[::-1]), "profiles.time: .* after .*, expected times that rise"),
+        (lambda b: b._replace(time=np.where(b.time > 1, np.nan, b.time)), "profiles.time: nan"),
+        (lambda b: b._replace(time=b.time + 100), "profiles.time: from 100 .* trajectory from 0"),
+        (lambda b: b._replace(across=b.across * np.nan), "profiles.across: not a number"),
+        (lambda b: b._replace(height=b.height * np.nan), "no point lies within the grid"),
+        (lambda b: b._replace(time=b.time[:2], height=b.height[:2]), "profiles: 2 profiles reach over . cross sections"),
+    ],
+)
+def test_unusable_profiles_are_refused(road, spoil, message):
+    true, measured = trajectory(road, 5, SCANNER)
+    with pytest.raises(InputError, match=message):
+        survey.grid((spoil(block) for block in profiles(road, true, 5, SCANNER, block=10_000)), measured)
+
+
+def test_profiles_out_of_order_are_refused_across_blocks_too(road):
+    true, measured = trajectory(road, 5, SCANNER)
+    blocks = list(profiles(road, true, 5, SCANNER))
+    with pytest.raises(InputError, match="profiles.time: 0 s after .* expected times that rise"):
+        survey.grid(iter([blocks[1], blocks[0]]), measured)
