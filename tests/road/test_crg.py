@@ -247,6 +247,12 @@ REFUSALS = {
     "a length that is none": (
         "handmade_straight", lambda text: text.replace("END_U     = 22.0", "END_U     = ab"), "expected a number",
     ),
+    "an end before the start": (
+        "handmade_straight", lambda text: text.replace("END_U     = 22.0", "END_U     = -3.0"), "expected more than 0 m",
+    ),
+    "a spacing without end": (
+        "handmade_straight_minimalist", lambda text: text.replace("INCREMENT = 1.0", "INCREMENT = 1e999"), "finite number",
+    ),
     "a length in words": ("handmade_curved", lambda text: text.replace("START_PHI = 0.0", "START_PHI = ab"), "'ab', expected"),
     "no spacing along": (
         "handmade_straight_minimalist", lambda text: text.replace("REFERENCE_LINE_INCREMENT = 1.0", ""), "length of the road",
@@ -258,7 +264,7 @@ REFUSALS = {
         "handmade_straight_minimalist", lambda text: text.replace("INCREMENT = 1.0", "INCREMENT = 0"), "positions that rise",
     ),
     "a spacing to the right": (
-        "handmade_straight_minimalist", lambda text: text.replace("MENT = 0.50", "MENT = -0.5"), "v = 0, -0.5, -1, ... m",
+        "handmade_straight_minimalist", lambda text: text.replace("MENT = 0.50", "MENT = -0.5"), "long_section_v_increment: -0.5 m, expected",
     ),
     "a position that is no number": (
         "handmade_sloped", lambda text: text.replace("v = -1.250,m", "v = nan,m"), "expected a position",

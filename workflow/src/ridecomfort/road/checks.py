@@ -76,6 +76,19 @@ def numbers(found: list[pycrg.CrgHeader]) -> None:
         for key, value in {**head.road, **(head.options or {}), **(head.modifiers or {})}.items():
             if isinstance(value, str):
                 raise InputError(f"{value!r}, expected a number", file=head.path, place=key)
+            if not np.isfinite(value):
+                raise InputError(f"{value:g}, expected a finite number", file=head.path, place=key)
+
+
+def extent(head: pycrg.CrgHeader) -> None:
+    """InputError for a length, width or spacing in the header that is not positive: some make the library crash."""
+    road = head.road
+    for key in ("reference_line_increment", "long_section_v_increment"):
+        if road.get(key, 1.0) <= 0.0:
+            raise InputError(f"{road[key]:g} m, expected positions that rise", file=head.path, place=key)
+    for low, high in (("reference_line_start_u", "reference_line_end_u"), ("long_section_v_right", "long_section_v_left")):
+        if high in road and road[high] <= road.get(low, 0.0 if low.endswith("u") else -np.inf):
+            raise InputError(f"{road[high]:g} m, expected more than {road.get(low, 0.0):g} m", file=head.path, place=high)
 
 
 def payload(head: pycrg.CrgHeader, cross_sections: int) -> None:

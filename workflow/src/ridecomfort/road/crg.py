@@ -88,6 +88,7 @@ def read(path, **options: str) -> xr.Dataset:
     headers = checks.headers(path)
     checks.numbers(headers)
     head = headers[-1]
+    checks.extent(head)
     stated = any(found.modifiers is not None for found in headers)
     names = " by way of ".join(Path(found.path).name for found in headers[::-1])
     treatment = [f"read from {names} ({head.data_format})"]
