@@ -72,8 +72,11 @@ def test_file_references_are_followed_from_the_file_that_names_them(shared, tmp_
     assert f"read from {target} by way of {name}.crg" in road.treatment
 
 
-def random_file(path, rng):
-    """A file with random grid, reference line, options and modifiers, in a random format."""
+def random_file(path, rng, even=False):
+    """A file with random grid, reference line, options and modifiers, in a random format.
+
+    A third has long sections at uneven positions.
+    """
     nu, nv = rng.integers(8, 60), rng.integers(3, 12)
     z = rng.normal(0, 0.05, (nu, nv))
     if rng.random() < 0.6:
@@ -86,16 +89,18 @@ def random_file(path, rng):
 
     options = some(
         border_mode_u=int(rng.integers(0, 5)), border_mode_v=int(rng.integers(0, 5)), border_offset_u=0.3,
-        border_offset_v=0.2, border_smooth_ubeg=0.7, border_smooth_uend=0.4,
+        border_offset_v=0.2, border_smooth_ubeg=rng.choice([0.7, 5.0]), border_smooth_uend=rng.choice([0.4, 5.0]),
     )  # fmt: skip
     modifiers = some(
         grid_nan_mode=int(rng.integers(0, 3)), scale_z_grid=2.0, scale_slope=0.5, scale_banking=0.5,
         scale_length=1.5, scale_width=0.5, scale_curvature=0.5,
     )  # fmt: skip
-    if rng.random() < 0.5:
+    even = even or rng.random() < 0.6
+    v = np.linspace(-2, 2, nv) if even else 0.1 * np.sort(rng.choice(np.arange(-20, 21), nv, replace=False))
+    if even and rng.random() < 0.5:  # at uneven positions the reference point may have no height that could be moved
         modifiers |= dict(refpoint_u=0.6, refpoint_v=0.0, refpoint_x=5.0, refpoint_y=1.0, refpoint_z=0.4)
     pycrg.write(
-        path, z, 0.25, np.linspace(-2, 2, nv), np.cumsum(rng.normal(0, 0.002, nu)), u0=rng.choice([0.0, 100.0]),
+        path, z, 0.25, v, np.cumsum(rng.normal(0, 0.002, nu)), u0=rng.choice([0.0, 100.0]),
         x0=10.0, y0=5.0, z0=2.0, slope=rng.normal(0, 0.05, nu), banking=rng.normal(0, 0.03, nu),
         fmt=rng.choice(crg.FORMATS), opts=rng.choice([None, options]), mods=rng.choice([None, {}, modifiers]),
     )  # fmt: skip
@@ -111,6 +116,23 @@ def test_random_files_agree_with_asams_library_inside_and_beyond_the_grid(tmp_pa
     v = rng.uniform(-1, 2, 2000) * float(road.v[-1] - road.v[0]) + float(road.v[0])
     with pycrg.RoadSurface.open(path) as asam:
         np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("mode", range(5))
+@pytest.mark.parametrize("named", [False, True])
+def test_bank_beyond_the_borders_is_that_of_asams_library(tmp_path, mode, named):
+    """It depends on whether the file names the positions of its long sections, also where these are even."""
+    rng = np.random.default_rng(mode)
+    path, v = tmp_path / "road.crg", np.linspace(-1, 2, 5)
+    small(path, v=v, fmt="LDFI", banking=rng.normal(0, 0.03, 30), opts={"border_mode_v": mode, "border_offset_v": 0.2})
+    if named:
+        text = path.read_text()
+        for k, at in enumerate(v, start=1):
+            text = text.replace(f"long section {k},", f"long section at v = {at},")
+        path.write_text(re.sub("long_section_v_increment.*\n", "", text))
+    u, v = rng.uniform(0, 2.9, 2000), rng.uniform(-7, 8, 2000)
+    with pycrg.RoadSurface.open(path) as asam:
+        np.testing.assert_allclose(surface.height(crg.read(path), u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
 
 
 @pytest.mark.parametrize("format", crg.FORMATS)
@@ -132,7 +154,7 @@ def test_a_climb_of_140_m_survives_writing(tmp_path, alpine, format):
 @pytest.mark.parametrize("seed", range(20))
 def test_a_road_that_was_read_and_written_is_the_same_road_beyond_its_borders_too(tmp_path, seed):
     rng = np.random.default_rng(seed)
-    random_file(tmp_path / "road.crg", rng)
+    random_file(tmp_path / "road.crg", rng, even=True)
     road = crg.read(tmp_path / "road.crg")
     crg.write(tmp_path / "again.crg", road, format="KDBI")
     again = crg.read(tmp_path / "again.crg")
@@ -225,6 +247,45 @@ REFUSALS = {
     "a length that is none": (
         "handmade_straight", lambda text: text.replace("END_U     = 22.0", "END_U     = ab"), "expected a number",
     ),
+    "an end before the start": (
+        "handmade_straight", lambda text: text.replace("END_U     = 22.0", "END_U     = -3.0"), "expected more than 0 m",
+    ),
+    "a spacing without end": (
+        "handmade_straight_minimalist", lambda text: text.replace("INCREMENT = 1.0", "INCREMENT = 1e999"), "finite number",
+    ),
+    "a length in words": ("handmade_curved", lambda text: text.replace("START_PHI = 0.0", "START_PHI = ab"), "'ab', expected"),
+    "no spacing along": (
+        "handmade_straight_minimalist", lambda text: text.replace("REFERENCE_LINE_INCREMENT = 1.0", ""), "length of the road",
+    ),
+    "no spacing across": (
+        "handmade_straight_minimalist", lambda text: text.replace("LONG_SECTION_V_INCREMENT = 0.50", ""), "width of the road",
+    ),
+    "a spacing of zero": (
+        "handmade_straight_minimalist", lambda text: text.replace("INCREMENT = 1.0", "INCREMENT = 0"), "positions that rise",
+    ),
+    "a spacing to the right": (
+        "handmade_straight_minimalist", lambda text: text.replace("MENT = 0.50", "MENT = -0.5"), "long_section_v_increment: -0.5 m, expected",
+    ),
+    "a position that is no number": (
+        "handmade_sloped", lambda text: text.replace("v = -1.250,m", "v = nan,m"), "expected a position",
+    ),
+    "a height that is no number": (
+        "handmade_straight", lambda text: " 0.00O0000".join(text.rsplit(" 0.0000000", 1)),
+        "data line 23: '0.00O0000' in columns 61 to 70",
+    ),
+    "an end elsewhere than the headings lead": (
+        "handmade_curved",
+        lambda text: text.replace("$ROAD_CRG ", "$ROAD_CRG\nREFERENCE_LINE_END_X = 20\nREFERENCE_LINE_END_Y = 9\n* "),
+        "contradict its headings",
+    ),
+    "a modifier in words": (
+        "handmade_curved", lambda text: text.replace("$ROAD_CRG ", "$ROAD_CRG_MODS\nscale_z_grid = big\n$\n$ROAD_CRG "),
+        "scale_z_grid: 'big', expected a number",
+    ),
+    "a modifier out of reason": (
+        "handmade_curved", lambda text: text.replace("$ROAD_CRG ", "$ROAD_CRG_MODS\nscale_z_grid = 1e9\n$\n$ROAD_CRG "),
+        "modifiers: take heights out of reason",
+    ),
     "no OpenCRG at all": ("handmade_straight", lambda text: "nothing of the kind\n", "not an OpenCRG file"),
     "an unknown format": ("handmade_straight", lambda text: text.replace("#:LRFI", "#:XRFI"), "road.crg"),
 }  # fmt: skip
@@ -269,6 +330,34 @@ def test_a_single_wild_height_can_be_blanked_by_name(tmp_path):
     assert int(road.elevation.isnull().sum()) == 1
     with pytest.raises(ValueError, match="holes"):
         surface.grid(road)
+
+
+@pytest.mark.parametrize("mode", [0, 1, 2])
+def test_a_wild_height_at_the_edge_is_blanked_with_what_the_library_drew_from_it(tmp_path, mode):
+    z = np.zeros((30, 5))
+    z[12, 3:] = 50.0, np.nan
+    road = crg.read(small(tmp_path / "road.crg", z=z, mods={"grid_nan_mode": mode}), heights="blank")
+    np.testing.assert_array_equal(road.elevation[12], [0, 0, 0, np.nan, np.nan])
+    assert "1 heights out of reason, the first 50 m at u = 1.2 m, v = 1 m: blanked" in road.treatment
+    assert np.nanmax(np.abs(surface.height(road, 1.2, np.linspace(-2, 2, 50)))) == 0.0
+
+
+def test_unsorted_long_sections_are_refused_or_sorted(tmp_path):
+    z, v = np.random.default_rng(5).normal(0, 0.01, (30, 5)), np.array([-2, -1, 0, 0.5, 2.0])
+    sorted_ = crg.read(small(tmp_path / "sorted.crg", z=z, v=v, fmt="LDFI"))
+    path = small(tmp_path / "road.crg", z=z[:, [0, 2, 1, 3, 4]], v=v, fmt="LDFI")
+    text = path.read_text().replace("v = -1.0,", "v = x,").replace("v = 0.0,", "v = -1.0,").replace("v = x,", "v = 0.0,")
+    path.write_text(text)
+    with pytest.raises(InputError, match="v = -1 m follows v = 0 m.*long_sections: sort"):
+        crg.read(path)
+    road = crg.read(path, long_sections="sort")
+    np.testing.assert_array_equal(road.elevation, sorted_.elevation)
+    assert "long sections sorted" in road.treatment
+
+
+def test_channels_that_are_left_out_are_named(shared, tmp_path):
+    path = edited(shared / "data/opencrg/handmade_banked.crg", tmp_path / "road.crg", ("line banking", "line camber"))
+    assert "left out: 'reference line camber'" in crg.read(path).treatment
 
 
 def test_missing_files_and_missing_includes_are_named(shared, tmp_path):

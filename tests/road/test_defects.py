@@ -7,6 +7,8 @@ import pytest
 import xarray as xr
 
 from ridecomfort.road import clean, defects
+from ridecomfort.standin import defects as planting
+from ridecomfort.standin import texture
 
 U, V = np.arange(2000) * 0.1, np.linspace(-2.0, 2.0, 41)
 
@@ -47,9 +49,43 @@ def test_neighbours_are_told_apart_and_stand_in_order(road):
     assert found["kind"].values.tolist() == ["bump", "dip"]
 
 
-def test_a_joint_across_the_road_is_one_dip(road):
-    found = defects.find(changed(road, np.s_[700:702, :], -0.01))
-    assert found.sizes["defect"] == 1 and found.width.item() == pytest.approx(4.1)
+@pytest.mark.parametrize("height", [-0.01, -0.002, 0.002])
+def test_a_joint_across_the_road_is_one_joint_also_where_it_is_low(road, height):
+    found = defects.find(changed(road, np.s_[700:702, :], height))
+    assert found["kind"].values.tolist() == ["joint"] and found.width.item() == pytest.approx(4.1)
+    assert found.u_middle.item() == pytest.approx(70.05) and found.length.item() == pytest.approx(0.2)
+    assert found.height.item() == pytest.approx(height, abs=2e-4)
+
+
+def test_a_pothole_in_a_joint_is_found_beside_it(road):
+    joint = changed(road, np.s_[700:702, :], -0.006)
+    found = defects.find(changed(joint, np.s_[699:704, 8:13], -0.03))
+    assert sorted(found["kind"].values.tolist()) == ["dip", "joint"]
+
+
+def test_what_crosses_less_than_half_of_the_road_is_no_joint(road):
+    found = defects.find(changed(road, np.s_[700:702, :18], -0.01))
+    assert found["kind"].values.tolist() == ["dip"]
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("unevenness, joints_found", [(16e-6, 0.9), (64e-6, 0.6)])
+def test_potholes_and_joints_of_a_rough_road_are_found(seed, unevenness, joints_found):
+    """Of class A and B (ISO 8608), waviness 2.1, with potholes and joints of the sizes that stand-in roads have."""
+    rng = np.random.default_rng(seed)
+    u, v = np.arange(10_000) * 0.1, np.linspace(-2, 2, 41)
+    unit = texture.fields(rng, u.size, 0.1, v, wavinesses=[2.1], wavenumber_minimum=0.01, wavenumber_maximum=5.0)[0]
+    elevation = np.sqrt(unevenness / texture.UNIT_DENSITY) * unit
+    planted = [planting.draw(rng, kind, at, 4.0) for at, kind in zip(np.arange(20.0, 980, 20), 24 * ["pothole", "joint"])]
+    for defect in planted:
+        planting.add(elevation, u, v, defect)
+    found = defects.find(xr.Dataset({"elevation": (("u", "v"), elevation), "bank": ("u", 0 * u)}, {"u": u, "v": v}))
+    near = np.abs(found.u_middle.values - np.array([[one.u] for one in planted])) < 1.0
+    for kind, seen, least in (("pothole", "dip", 0.9), ("joint", "joint", joints_found)):
+        which = [one.kind == kind for one in planted]
+        assert (near & (found["kind"].values == seen)).any(axis=1)[which].mean() >= least
+    false = ~near.any(axis=0) & (found["kind"].values == "joint")
+    assert false.sum() <= 5
 
 
 def test_treated_cells_are_listed_by_what_was_done(road):

@@ -52,6 +52,12 @@ def test_a_trajectory_that_cannot_be_used_is_refused_in_one_line(tmp_path, data,
     assert "\n" not in str(refusal.value) and "t.csv" in str(refusal.value)
 
 
+def test_a_trajectory_without_time_is_refused(tmp_path):
+    xr.Dataset({name: ("record", values) for name, values in POSE.items()}).to_netcdf(tmp_path / "t.nc")
+    with pytest.raises(InputError, match="t.nc: expected every variable over a dimension time"):
+        recording.trajectory(tmp_path / "t.nc")
+
+
 def test_profiles_with_other_dimensions_are_refused(tmp_path):
     xr.Dataset({"height": (("a", "b"), np.zeros((3, 4))), "time": ("a", np.zeros(3)), "across": ("b", np.zeros(4))}).to_netcdf(
         tmp_path / "p.nc"

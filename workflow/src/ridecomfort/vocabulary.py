@@ -51,7 +51,7 @@ VARIABLES = _table(
     ("waviness", "1", "exponent with which the fitted spectral density falls with wavenumber"),
     ("coherence", "1", "coherence of the heights of two tracks"),
     ("support", "1", "laser points that agree on the height of the cell"),
-    ("kind", "1", "what the place is: dip, bump, or how it was treated"),
+    ("kind", "1", "what the place is: dip, bump, joint, or how it was treated"),
     ("u_middle", "m", "middle of the place along the reference line"),
     ("v_middle", "m", "middle of the place to the left of the reference line"),
     ("length", "m", "extent of the place along the reference line"),

@@ -142,7 +142,7 @@ def views_caption(site: str) -> str:
     """Caption of a site's views of its road."""
     return (
         f"{label(site)}: plan, height, slope, curvature and bank of the reference line, and the height of every cell "
-        "above the median of 5 m of its track, with the dips, bumps, outliers and holes that were found."
+        "above the median of 5 m of its track, with the dips, bumps, joints, outliers and holes that were found."
     )
 
 

@@ -20,8 +20,8 @@ _SPREAD = 0.3
 _CURVED = 20
 """Points from which the curvature of the cell is fitted too."""
 
-_PIVOT = 2e-3
-"""Least variance, in the fourth power of the cell's size, that leaves a curvature to be told from a slope."""
+_PIVOT = 5e-4
+"""Least weighted variance of a term, in cells, that tells it from those before it: curvature from slope and level."""
 
 
 @njit(cache=True)
@@ -31,8 +31,9 @@ def fit(points, first, end, size, heights, support, counts):
     ``points`` (5, n) holds cross section, column, place u and v in the cell in m
     from its middle, and height. The height of a cell is that at its middle of a
     quadratic through its points (a plane, or their mean, where they are few or
-    in line), so that a narrow dip is not averaged away. Outliers are dropped
-    twice before: points far from the median, then points far from a plane
+    in line), the nearest of which weigh most: that of the road at the node, not
+    its average over the cell, so that a narrow dip keeps its depth. Outliers are
+    dropped twice before: points far from the median, then points far from a plane
     through the others. ``counts[2]`` gains their number. ``support`` is the number
     of points left, 0 where they lie within `_SPREAD` of the cell along u.
     """
@@ -108,21 +109,23 @@ def _least_squares(du, dv, z, chosen, used):
 
 @njit(cache=True)
 def _quadratic(du, dv, z, chosen, kept, size, level, normal, right):
-    """Height at the origin of the quadratic through the kept points; ``level`` where they do not determine it.
+    """Height at the origin of the quadratic through the kept points, less the terms that they do not determine.
 
-    By Cholesky's method, whose pivots are the variances of each term that those before it leave over.
+    Weighted by Tukey's biweight in each direction, 1 in the middle and 0 at the border of the cell. By Cholesky's
+    method, whose pivots are the variances of each term that those before it leave over; an infinite one drops it.
     """
     normal[:], right[:] = 0.0, 0.0
-    n = 0
+    total = 0.0
     for k, point in enumerate(chosen):
         if kept[k]:
-            n += 1
             a, b = du[point] / size[0], dv[point] / size[1]
+            weight = ((1.0 - 4.0 * a * a) * (1.0 - 4.0 * b * b)) ** 2
+            total += weight
             terms = (1.0, a, b, a * b, a * a, b * b)
             for i in range(6):
                 for j in range(i + 1):
-                    normal[i, j] += terms[i] * terms[j]
-                right[i] += terms[i] * (z[point] - level)
+                    normal[i, j] += weight * terms[i] * terms[j]
+                right[i] += weight * terms[i] * (z[point] - level)
     for i in range(6):
         for j in range(i + 1):
             left = normal[i, j]
@@ -130,8 +133,8 @@ def _quadratic(du, dv, z, chosen, kept, size, level, normal, right):
                 left -= normal[i, k] * normal[j, k]
             if i > j:
                 normal[i, j] = left / normal[j, j]
-            elif left < n * _PIVOT:
-                return level
+            elif left <= total * _PIVOT:
+                normal[i, i] = np.inf
             else:
                 normal[i, i] = np.sqrt(left)
         for k in range(i):

@@ -20,6 +20,12 @@ STEP_LIMIT = 10.0
 _TEXT_FIELD = {"LRFI": (10, 8), "LDFI": (20, 4)}
 """Characters a value and values a line (OpenCRG 1.2, data formats)."""
 
+_NO_VALUE = re.compile(rb"\*.*|nan", re.IGNORECASE)
+"""What stands in a text field without a value: asterisks, or a word that begins with one."""
+
+_SPACING_TOLERANCE = 0.03
+"""Of the reference line's points; what the ASAM library grants where a file gives x and y (crgLoader.c)."""
+
 _BINARY_VALUE = {"KRBI": 4, "KDBI": 8}
 """Bytes a value."""
 
@@ -39,7 +45,7 @@ def headers(path: Path) -> list[pycrg.CrgHeader]:
         if not path.is_file():
             if found:
                 raise InputError(f"refers to {path}, which does not exist", file=found[-1].path, place="$ROAD_CRG_FILE")
-            raise InputError("no such file", file=path)
+            raise InputError("a folder, expected a file" if path.is_dir() else "no such file", file=path)
         if any(path.samefile(head.path) for head in found):
             raise InputError(f"refers back to {path}", file=found[-1].path, place="$ROAD_CRG_FILE")
         try:
@@ -62,6 +68,27 @@ def _expand(reference: str, path: Path) -> str:
     if name not in os.environ:
         raise InputError(f"environment variable {name} is not set", file=path, place="$ROAD_CRG_FILE")
     return f"{os.environ[name]}/{rest}"
+
+
+def numbers(found: list[pycrg.CrgHeader]) -> None:
+    """InputError for a word where a parameter, option or modifier has its number; the library reads it as zero."""
+    for head in found:
+        for key, value in {**head.road, **(head.options or {}), **(head.modifiers or {})}.items():
+            if isinstance(value, str):
+                raise InputError(f"{value!r}, expected a number", file=head.path, place=key)
+            if not np.isfinite(value):
+                raise InputError(f"{value:g}, expected a finite number", file=head.path, place=key)
+
+
+def extent(head: pycrg.CrgHeader) -> None:
+    """InputError for a length, width or spacing in the header that is not positive: some make the library crash."""
+    road = head.road
+    for key in ("reference_line_increment", "long_section_v_increment"):
+        if road.get(key, 1.0) <= 0.0:
+            raise InputError(f"{road[key]:g} m, expected positions that rise", file=head.path, place=key)
+    for low, high in (("reference_line_start_u", "reference_line_end_u"), ("long_section_v_right", "long_section_v_left")):
+        if high in road and road[high] <= road.get(low, 0.0 if low.endswith("u") else -np.inf):
+            raise InputError(f"{road[high]:g} m, expected more than {road.get(low, 0.0):g} m", file=head.path, place=high)
 
 
 def payload(head: pycrg.CrgHeader, cross_sections: int) -> None:
@@ -105,6 +132,7 @@ def _text(head: pycrg.CrgHeader, cross_sections: int, channels: int, width: int,
                 file=head.path,
                 place=f"data line {number + 1} of {len(lines)}",
             )
+        _fields(head, line, width, number)
     if len(lines) != cross_sections * lines_each:
         raise InputError(
             f"lines for {len(lines) / lines_each:g} cross sections, of which {cross_sections} are whole:"
@@ -114,12 +142,36 @@ def _text(head: pycrg.CrgHeader, cross_sections: int, channels: int, width: int,
         )
 
 
+def _fields(head: pycrg.CrgHeader, line: bytes, width: int, number: int) -> None:
+    """Every field of a line of data holds a number or says that there is none; the library takes the rest for none."""
+    for start in range(0, len(line), width):
+        field = line[start : start + width].strip()
+        try:
+            float(field)
+        except ValueError:
+            if not (_NO_VALUE.fullmatch(field) or _fortran(field)):
+                text = field.decode("latin-1")
+                problem = f"{text!r} in columns {start + 1} to {start + width}, expected a number"
+                raise InputError(problem, file=head.path, place=f"data line {number + 1}") from None
+
+
+def _fortran(field: bytes) -> bool:
+    """Whether a field is a number with D for its exponent."""
+    return re.fullmatch(rb"[+-]?(\d+\.?\d*|\.\d+)[dD][+-]?\d+", field) is not None
+
+
 def size(head: pycrg.CrgHeader, u: np.ndarray, v: np.ndarray) -> None:
-    """InputError when the grid that was read contradicts the length or width in the header."""
+    """InputError when the grid that was read has no extent, or contradicts the length or width in the header."""
     road = head.road
-    for key, value in road.items():
-        if isinstance(value, str):
-            raise InputError(f"{value!r}, expected a number", file=head.path, place=key)
+    names = [channel.name.lower() for channel in head.channels if channel.kind == "D"]
+    if "reference_line_increment" not in road and not {"reference line x", "reference line u"} & set(names):
+        raise InputError("missing, so that the length of the road is unknown", file=head.path, place="reference_line_increment")
+    if not any(key.startswith("long_section_v") for key in road) and not positions(head):
+        raise InputError("missing, so that the width of the road is unknown", file=head.path, place="long_section_v_increment")
+    for axis, at, place in (("u", u, "reference_line_increment"), ("v", v, "long sections")):
+        if not (np.isfinite(at).all() and (np.diff(at) > 0).all()):
+            listed = ", ".join(f"{value:g}" for value in at[:3])
+            raise InputError(f"{axis} = {listed}, ... m, expected positions that rise", file=head.path, place=place)
     if "reference_line_end_u" in road:
         start, end = road.get("reference_line_start_u", 0.0), road["reference_line_end_u"]
         wanted = (end - start) / (u[1] - u[0]) + 1
@@ -147,6 +199,24 @@ def size(head: pycrg.CrgHeader, u: np.ndarray, v: np.ndarray) -> None:
             )
 
 
+def reference_line(grid: pycrg.CrgGrid, path) -> None:
+    """InputError unless every point, slope and bank of the line is finite and its points lie as far apart as u says."""
+    line = np.stack([grid.x, grid.y, grid.phi, grid.ref_z, grid.bank])
+    wrong = ~np.isfinite(line).all(axis=0) | (np.abs(line[3]) > HEIGHT_LIMIT)
+    if wrong.any():
+        problem = f"not finite, or higher than any road, at u = {grid.u[wrong.argmax()]:g} m"
+        raise InputError(problem, file=path, place="reference line")
+    du = grid.u[1] - grid.u[0]
+    step = np.hypot(np.diff(grid.x), np.diff(grid.y))
+    worst = int(np.abs(step - du).argmax())
+    if abs(step[worst] - du) > _SPACING_TOLERANCE * du:
+        raise InputError(
+            f"points {step[worst]:.4g} m apart at u = {grid.u[worst]:g} m, expected {du:g}: do its ends contradict its headings?",
+            file=path,
+            place="reference line",
+        )
+
+
 def positions(head: pycrg.CrgHeader) -> list[float]:
     """Lateral positions in m that the channels of the file name, in its order; empty if they name none."""
     at = []
@@ -154,10 +224,19 @@ def positions(head: pycrg.CrgHeader) -> list[float]:
         if match := re.match(r"long section at v\s*=(.*)", channel.name, re.I):
             try:
                 at.append(float(match[1]))
+                if not np.isfinite(at[-1]):
+                    raise ValueError
             except ValueError:
                 problem = f"{channel.name!r}, expected a position in m"
                 raise InputError(problem, file=head.path, place="$KD_DEFINITION") from None
     return at
+
+
+def strange(head: pycrg.CrgHeader) -> list[str]:
+    """Names of data channels that are neither of the reference line nor a long section: the library leaves them out."""
+    names = [channel.name for channel in head.channels if channel.kind == "D"]
+    known = re.compile(r"long section|reference line (u|x|y|z|phi|slope|banking)\b", re.IGNORECASE)
+    return [name for name in names if not known.match(name)]
 
 
 def order(head: pycrg.CrgHeader) -> None:

@@ -86,10 +86,14 @@ def read(path, **options: str) -> xr.Dataset:
     path = Path(path)
     chosen = _choose(options)
     headers = checks.headers(path)
+    checks.numbers(headers)
     head = headers[-1]
+    checks.extent(head)
     stated = any(found.modifiers is not None for found in headers)
     names = " by way of ".join(Path(found.path).name for found in headers[::-1])
     treatment = [f"read from {names} ({head.data_format})"]
+    if strange := checks.strange(head):
+        treatment.append(f"channels that are none of OpenCRG's, left out: {', '.join(map(repr, strange))}")
     if chosen["long_sections"] == "refuse":
         checks.order(head)
     elif (at := checks.positions(head)) != sorted(at):
@@ -99,18 +103,25 @@ def read(path, **options: str) -> xr.Dataset:
             stored = data.grid()
             checks.payload(head, len(stored.u))
             checks.size(head, stored.u, stored.v)
-            measured = _measured(path, stored, chosen["heights"], treatment)
+            wild = _wild(path, stored, chosen["heights"], treatment)
+            checks.reference_line(stored, path)
             _apply(data, stated, chosen["modifiers"], treatment)
             grid = data.grid()
             attributes = _evaluation(data, treatment)
+            if checks.positions(head):
+                # The library folds v for the heights of sections named by their position, but not for their bank.
+                attributes["border_bank"] = "held"
+                if not {"long_section_v_right", "long_section_v_left"} <= head.road.keys():
+                    treatment.append("borders at the outermost long sections: the header, where ASAM's library looks, has none")
     except (pycrg.OpenCRGError, OSError) as problem:
         raise InputError(str(problem).replace("\n", " "), file=path) from None
     if warnings:
         treatment.append(f"ASAM's library warns: {'; '.join(warnings)}")
-    reference = np.stack([grid.x, grid.y, grid.phi, grid.ref_z])
-    if not (np.isfinite(reference).all() and np.abs(grid.ref_z).max() <= checks.HEIGHT_LIMIT):
-        raise InputError("not finite, or higher than any road", file=path, place="reference line")
-    elevation = _edges(path, grid, measured, chosen["holes"], attributes, treatment)
+    measured = np.isfinite(stored.z) & ~wild
+    if not (np.abs(np.where(measured, grid.elevation, 0.0)) <= checks.HEIGHT_LIMIT).all():
+        problem = "take heights out of reason: does their reference point lie on the road? (or modifiers: ignore)"
+        raise InputError(problem, file=path, place="modifiers")
+    elevation = _edges(path, grid, measured, wild, chosen["holes"], attributes, treatment)
     _folds(path, grid, elevation, chosen["folds"], treatment)
     v, elevation = _equidistant(path, grid, elevation, chosen["lateral_grid"], treatment)
     for line in treatment:
@@ -157,7 +168,7 @@ def write(path, road: xr.Dataset, *, format: str = "KRBI", comment: str = "") ->
     carries slope and bank, so that long climbs cost no precision. The heading
     channel leads through ``x`` and ``y``, which must be du apart along the
     line. What the attributes say of borders and edges becomes options and
-    modifiers. NaN is allowed outside the edges of the road only. Nothing is left
+    modifiers (``border_bank`` has none). NaN is allowed outside the edges of the road only. Nothing is left
     behind when writing fails. Raises InputError where the format cannot hold the
     road.
     """
@@ -214,8 +225,8 @@ def _choose(options: dict) -> dict:
     return {name: options.get(name, values[0]) for name, values in CHOICES.items()}
 
 
-def _measured(path, stored: pycrg.CrgGrid, choice: str, treatment: list[str]) -> np.ndarray:
-    """True for cells (u, v) whose height the file gives, and which is within reason."""
+def _wild(path, stored: pycrg.CrgGrid, choice: str, treatment: list[str]) -> np.ndarray:
+    """True for cells (u, v) whose height in the file is out of reason, where these are to be blanked."""
     wild = checks.unreasonable(stored.elevation)
     if wild.any():
         i, j = np.argwhere(wild)[0]
@@ -228,7 +239,7 @@ def _measured(path, stored: pycrg.CrgGrid, choice: str, treatment: list[str]) ->
                 place=f"u = {stored.u[i]:g} m, v = {stored.v[j]:g} m",
             )
         treatment.append(f"{found} at u = {stored.u[i]:g} m, v = {stored.v[j]:g} m: blanked")
-    return np.isfinite(stored.z) & ~wild
+    return wild
 
 
 def _apply(data: pycrg.DataSet, stated: bool, choice: str, treatment: list[str]) -> None:
@@ -303,7 +314,7 @@ def _options(attrs) -> dict[str, float] | None:
     return options or None
 
 
-def _edges(path, grid, measured, choice, attributes, treatment) -> np.ndarray:
+def _edges(path, grid, measured, wild, choice, attributes, treatment) -> np.ndarray:
     """Heights (u, v) without those that the library put into holes and beyond the edges."""
     known = np.where(measured, 1.0, np.nan)
     beyond, hole = edges.outside(known), edges.holes(known)
@@ -317,15 +328,17 @@ def _edges(path, grid, measured, choice, attributes, treatment) -> np.ndarray:
             place=f"u = {grid.u[i]:g} m, v = {grid.v[j]:g} m",
         )
     elevation = np.array(grid.elevation)
-    elevation[hole] = np.nan
-    unset = beyond & ~np.isfinite(elevation)
+    # Beyond a blanked edge the library holds the height that was blanked.
+    spoilt = beyond & wild.any(axis=1)[:, None]
+    elevation[hole | spoilt] = np.nan
+    unset = beyond & ~spoilt & ~np.isfinite(elevation)
     attributes["edges"] = "none" if unset.any() else "keep"
     if hole.any():
         treatment.append(f"{hole.sum()} holes inside the road kept")
     if not beyond.any():
         return elevation
     share = f"{beyond.mean():.2%} of the grid lies outside the edges of the road"
-    set_by_file = beyond & ~unset
+    set_by_file = beyond & ~spoilt & ~unset
     if set_by_file.any():
         relative = elevation - grid.ref_z[:, None] - grid.bank[:, None] * grid.v
         held = edges.extend(np.where(measured, relative, np.nan), grid.v, np.zeros(len(grid.u)))

@@ -65,7 +65,10 @@ def trajectory(path) -> xr.Dataset:
     """
     path = Path(path)
     if path.suffix.lower() != ".csv":
-        return store.read(path, POSE)
+        recorded = store.read(path, POSE)
+        if "time" not in recorded.coords or any(recorded[name].dims != ("time",) for name in POSE):
+            raise InputError("expected every variable over a dimension time that has values", file=path)
+        return recorded
     if not path.is_file():
         raise InputError("no such file", file=path)
     try:

@@ -27,6 +27,9 @@ FOLLOWED = 20.0
 _CARRIED = 10
 """Cross sections behind the latest profile that may still gain points."""
 
+_ASKEW = np.radians(30.0)
+"""rad that the heading may lie off the motion on the whole: no vehicle drives so, but an azimuth taken for it does."""
+
 _STEP = 0.002
 """m that the scanner must have moved for another profile to count: standing adds nothing."""
 
@@ -153,10 +156,12 @@ def grid(
     the points that agree on the height of a cell, none where they are those of a
     single profile: `clean.clean` keeps the dips that many points saw, however
     small. Height, slope and bank follow the trajectory; ``u`` starts where the
-    first points lie. Raises InputError for a trajectory that cannot be used or
-    that does not span the profiles.
+    first points lie. Raises InputError for a trajectory that cannot be used, that
+    heads elsewhere than it moves or does not span the profiles, and for profiles
+    out of order or too few.
     """
     smoothed, choices = smooth_trajectory(trajectory)
+    _check_heading(smoothed)
     line = reference_line(smoothed, spacing=spacing[0])
     pose = CubicSpline(smoothed.time.values, np.stack([smoothed[name].values for name in POSE], axis=1))
     half = round(0.5 * width / spacing[1])
@@ -166,13 +171,11 @@ def grid(
     counts = np.zeros(5, dtype=np.int64)
     held = np.empty((5, 0))
     finished, guess, last = 0, 0, np.array([np.inf, np.inf])
+    first, final = smoothed.time.values[[0, -1]]
+    latest = -np.inf
     for block in profiles:
-        first, final = smoothed.time.values[[0, -1]]
-        if block.time[0] < first or block.time[-1] > final:
-            raise InputError(
-                f"from {block.time[0]:g} to {block.time[-1]:g} s, trajectory from {first:g} to {final:g} s",
-                place="profiles.time",
-            )
+        _check_block(block, latest, first, final)
+        latest = block.time[-1]
         poses = pose(block.time)
         moving = _moving(poses, last, _STEP)
         counts[0] += len(block.time)
@@ -190,6 +193,8 @@ def grid(
     if not seen.size:
         raise InputError("no point lies within the grid around the trajectory", place="profiles")
     part = slice(seen[0], seen[-1] + 1)
+    if seen[-1] - seen[0] < 2:
+        raise InputError(f"{counts[0]} profiles reach over {seen[-1] - seen[0] + 1} cross sections, expected 3", place="profiles")
     report = Report(*(int(n) for n in counts), int(np.isnan(heights[part]).sum()))
     elevation = heights + line.z[:, None] + line.bank[:, None] * v
     lambdas = ", ".join(f"{name} {choices[name].wavelength:.3g} s" for name in ("x", "y", "z"))
@@ -209,6 +214,36 @@ def grid(
     )
     road = road.isel(u=part)
     return describe(road.assign_coords(u=road.u - road.u[0])), report
+
+
+def _check_heading(trajectory: xr.Dataset) -> None:
+    """InputError where the heading is not the direction of motion, within `_ASKEW`."""
+    motion = np.arctan2(np.gradient(trajectory.y.values), np.gradient(trajectory.x.values))
+    moving = np.hypot(np.gradient(trajectory.x.values), np.gradient(trajectory.y.values)) > _STEP
+    off = np.angle(np.exp(1j * (trajectory.heading.values - motion)))[moving]
+    if off.size and np.median(np.abs(off)) > _ASKEW:
+        raise InputError(
+            f"{np.degrees(np.median(np.abs(off))):.0f} degrees off the direction of motion, expected radians"
+            " counterclockwise from x (or is it an azimuth?)",
+            place="trajectory.heading",
+        )
+
+
+def _check_block(block: Profiles, latest: float, first: float, final: float) -> None:
+    """InputError unless the profiles follow one another from ``latest`` within the trajectory, at known places across."""
+    steps = np.diff(block.time, prepend=latest)
+    if not (steps >= 0).all():
+        k = int(np.flatnonzero(~(steps >= 0))[0])
+        before = block.time[k - 1] if k else latest
+        after = f" after {before:g} s" if np.isfinite(before) else ""
+        raise InputError(f"{block.time[k]:g} s{after}, expected times that rise", place="profiles.time")
+    if not (first <= block.time[0] and block.time[-1] <= final):
+        raise InputError(
+            f"from {block.time[0]:g} to {block.time[-1]:g} s, trajectory from {first:g} to {final:g} s",
+            place="profiles.time",
+        )
+    if not np.isfinite(block.across).all():
+        raise InputError("not a number at every point", place="profiles.across")
 
 
 def _settle(held: np.ndarray, first: int, end: int, size: tuple, heights, support, counts) -> np.ndarray:

@@ -16,8 +16,9 @@ def main(scan, trajectory, config, output, gridded=None):
             road, _ = survey.grid(profiles, path, spacing=(spacing, spacing), width=config.get("width", 4.0))
         cleaned, _ = clean.clean(road, outliers="repair", holes="fill")
     except InputError as problem:
-        where = str(scan)
-        raise problem if str(problem).startswith(where) else InputError(str(problem), file=scan) from None
+        if str(problem).startswith(str(scan)):
+            raise
+        raise InputError(str(problem), file=trajectory if str(problem).startswith("trajectory") else scan) from None
     print(cleaned.treatment, file=sys.stderr)
     title = config.get("title", f"Scanned road {scan.stem}")
     if gridded is not None:

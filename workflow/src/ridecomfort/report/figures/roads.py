@@ -51,6 +51,7 @@ STRIP = 1000.0
 MARKS = {
     "dip": ("v", style.LINES[0][0]),
     "bump": ("^", style.LINES[5][0]),
+    "joint": ("|", style.LINES[2][0]),
     "outlier kept": ("x", style.LINES[3][0]),
     "outlier repaired": ("x", "#000000"),
     "hole filled": ("s", "#000000"),
@@ -134,10 +135,10 @@ def _map(figure, site, strips) -> None:
         here = found.isel(defect=(found["u_middle"].values >= first) & (found["u_middle"].values <= last))
         for kind, (marker, colour) in MARKS.items():
             which = here["kind"].values == kind
-            face = colour if marker == "x" else "none"
+            face = colour if marker in "x|" else "none"
             axes.scatter(
                 here["u_middle"].values[which], here["v_middle"].values[which], s=16, marker=marker, c=face,
-                edgecolors=None if marker == "x" else colour, linewidths=0.8, label=kind,
+                edgecolors=None if marker in "x|" else colour, linewidths=0.8, label=kind,
             )  # fmt: skip
         axes.set(xlim=(first, last), ylim=(v[0], v[-1]))
         axes.set_ylabel("$v$ [m]")
