@@ -14,7 +14,7 @@ PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "numba", "pandas", "matplotli
 
 
 def main(results, config, output):
-    study = study_results.load(results, config, software())
+    study = study_results.whole(results, config, software())
     made = tables.make(study)
     made["claims"] = claims.table(study, made)
     made |= differing.tables(study.difference) if study.difference else {}

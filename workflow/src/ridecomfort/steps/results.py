@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from .. import store
@@ -11,7 +12,7 @@ from ..report.study import Compared, Diagnosis, Difference, Site, Study
 
 
 def load(results: Path, config: dict, software: dict | None = None) -> Study:
-    """Every dataset that tables, figures and page are made from, read from the folder of results."""
+    """Every dataset that tables and figures of the study are made from, read from the folder of results."""
     model = config["model"]
     calibrations = {name: results / name / model / "calibration.nc" for name in calibrated_on(config["sites"])}
     assessment = results / "comfort" / model / "agreement.nc"
@@ -24,6 +25,13 @@ def load(results: Path, config: dict, software: dict | None = None) -> Study:
         model=model,
         settings=config,
         software=software or {},
+    )
+
+
+def whole(results: Path, config: dict, software: dict) -> Study:
+    """As ``load``, with the comparison with measured drives and the diagnosis."""
+    return replace(
+        load(results, config, software),
         difference=difference(results, config) if with_drives(config["sites"]) else None,
         diagnosis=diagnosis(results, config),
     )

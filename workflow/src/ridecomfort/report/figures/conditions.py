@@ -33,7 +33,7 @@ def conditions(study: Difference, site: str) -> Figure:
     """Error above the floor over the power measured under the same condition, a panel for each condition, a line for each signal."""
     found = next(each for each in study.sites if each.name == site).comparison
     names = [name for name in AXES if name in found["condition"].values]
-    drawn = style.figure(style.DOUBLE, 4.9)
+    drawn = style.figure(style.DOUBLE, 5.0)
     panels = drawn.subplots(2, 3, sharey=True).ravel()
     shown = []
     for axes, name in zip(panels, names):
@@ -56,7 +56,7 @@ def conditions(study: Difference, site: str) -> Figure:
     for axes in panels[len(names) :]:
         axes.set_axis_off()
     for axes in (panels[0], panels[3]):
-        axes.set_ylabel("error above the floor [% of the power]")
+        axes.set_ylabel("error above floor [% of power]")
     handles, labels = panels[0].get_legend_handles_labels()
     panels[-1].legend(handles, labels, loc="center", ncols=2, title="signal")
     return drawn
