@@ -35,3 +35,17 @@ def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_com
 def test_without_repeats_the_floor_is_said_to_be_taken_as_nil():
     found = explain(comparison(repeats=1)[1])
     assert "nil" in found.attrs["floor"] and float(found["floor_rmse"].max()) == 0.0
+
+
+def test_without_repeats_it_may_be_assumed_from_the_instruments():
+    """White noise of a density d up to 50 Hz: a mean square of 50 d^2 (accelerometer), where the error is larger than that."""
+    compared = comparison(repeats=1)[1].isel(signal=[0, 1]).assign_coords(drive=["one"], signal=["a_z", "roll_rate"])
+    found = explain(compared, {"one": {"accelerometer": 0.01, "gyroscope": 0.002}})
+    assert found["floor_rmse"].values.ravel() == pytest.approx([0.01 * np.sqrt(50), 0.002 * np.sqrt(50)], rel=0.01)
+    assert "assumed from the noise densities" in found.attrs["floor"] and "no drive was repeated" in found.attrs["floor"]
+
+
+def test_repeats_know_better_than_a_data_sheet():
+    compared = comparison()[1].assign_coords(drive=["one", "two", "three"])
+    found = explain(compared, {"one": {"accelerometer": 10.0, "gyroscope": 10.0}})
+    assert found.attrs["floor"] == "from repeats"

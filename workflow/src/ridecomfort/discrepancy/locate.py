@@ -195,8 +195,9 @@ def _conditions(drives: Sequence[Drive], bands):
                 for i, row in enumerate(_band(series, drive.rate, band) ** 2):
                     for n, classes in enumerate(which):
                         power[source, n, :, i, k] += np.bincount(classes, row, minlength=CLASSES)
+    levels = np.where(samples > 0, levels / np.maximum(samples, 1), np.nan)
     samples = np.maximum(samples, 1)
-    return names, edges, levels / samples, power / samples[None, :, :, None, None]
+    return names, edges, levels, power / samples[None, :, :, None, None]
 
 
 def _condition_series(drive: Drive) -> dict[str, np.ndarray]:

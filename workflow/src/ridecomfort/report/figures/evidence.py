@@ -25,7 +25,7 @@ def evidence(found: Diagnosis) -> Figure:
     ranking = found.ranking
     rounds = ranking["round"].values
     shown = min(SHOWN, ranking.sizes["effect"])
-    drawn = style.figure(style.DOUBLE, 0.7 + (0.5 + 0.155 * shown) * max(len(rounds), 1))
+    drawn = style.figure(style.DOUBLE, 0.9 + (0.5 + 0.155 * shown) * max(len(rounds), 1))
     if not len(rounds) or not shown:
         axes = drawn.subplots()
         axes.set_axis_off()
@@ -67,5 +67,5 @@ def evidence(found: Diagnosis) -> Figure:
         Line2D([], [], marker="o", linestyle="", color=style.CALIBRATED, markersize=4.5, label="on fitted drives"),
         Line2D([], [], marker="D", linestyle="", color=style.REFERENCE, markeredgecolor="black", markeredgewidth=0.4, markersize=4.5, label="on drives held out"),
     ]
-    drawn.legend(handles=handles, loc="outside upper center", ncols=5, columnspacing=1.0, handletextpad=0.4)
+    drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
