@@ -28,29 +28,35 @@ def error_ladder(study: Difference) -> Figure:
     rows = len(groups) + 1
     drawn = style.figure(style.DOUBLE, 1.1 + 2.0 * rows)
     panels = drawn.subplots(rows, len(sites), sharex=True, sharey="row", squeeze=False)
-    places = np.arange(found.sizes["rung"])
+    places, blank = np.arange(found.sizes["rung"]), []
     for column, site in enumerate(sites):
         for axes, group in zip(panels[:, column], groups):
             chosen = found.sel(site=site, group=group)
-            axes.set_title(f"{catalogue.label(site)}, {TITLES[group]}")
             if np.isfinite(chosen["rmse"]).any():
+                axes.set_title(f"{catalogue.label(site)}, {TITLES[group]}")
                 _left(axes, chosen, places)
             else:
-                axes.text(0.5, 0.5, "none", transform=axes.transAxes, ha="center", color=style.FAINT)
+                axes.set_axis_off()
+                blank.append(axes)
         _sections(panels[-1, column], found.sel(site=site), groups, places)
         panels[-1, column].set_title(f"{catalogue.label(site)}, all drives")
         panels[-1, column].set_xticks(places, [_wrapped(rung_title(str(name))) for name in found["rung"].values], rotation=30, ha="right", rotation_mode="anchor")
         panels[-1, column].set_xlim(-0.3, places[-1] + 0.3)
-    for axes in panels[:-1, 0]:
-        axes.set_ylabel("explainable error left [%]")
-        axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+    for row in panels[:-1]:
+        first = next(axes for axes in row if axes.axison)
+        first.set_ylabel("explainable error left [%]")
+        first.tick_params(labelleft=True)
+        first.set_ylim(bottom=min(0.0, first.get_ylim()[0]))
     panels[-1, 0].set_ylabel("sections unlike measured [%]")
     panels[-1, 0].set_ylim(bottom=0.0)
     lines = [Line2D([], [], color=colour, marker=marker, markersize=3.5, label=symbol(signal)) for signal, (colour, marker) in style.SIGNAL_LINES.items()]
     lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals"))
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor (repeats)"))
     lines += [Line2D([], [], color=colour, marker=marker, markersize=4, label=METHODS[name]) for name, (colour, marker) in COLOURS.items()]
-    drawn.legend(handles=lines, loc="outside upper center", ncols=6)
+    if blank:
+        blank[0].legend(handles=lines, loc="center left", ncols=2).set_in_layout(False)
+    else:
+        drawn.legend(handles=lines, loc="outside upper center", ncols=6)
     return drawn
 
 

@@ -29,7 +29,7 @@ def located(study: Difference, site: str) -> Figure:
     brightest = np.nanpercentile(np.stack(list(maps.values())), BRIGHTEST)
     drawn = style.figure(style.DOUBLE, 9.2)
     panels = drawn.subplots(
-        len(SIGNALS) + 2, 2, width_ratios=(3.2, 1.0), height_ratios=(0.08, *[1.0] * len(SIGNALS), 0.85), squeeze=False
+        len(SIGNALS) + 2, 2, width_ratios=(3.2, 1.0), height_ratios=(0.08, *[1.0] * len(SIGNALS), 1.05), squeeze=False
     )
     top, panels = panels[0], panels[1:]
     place, frequency = found["s_map"].values / 1000, found["frequency_map"].values

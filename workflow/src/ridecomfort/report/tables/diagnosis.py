@@ -31,7 +31,7 @@ def verdict(found: Diagnosis) -> Table:
     said = found.verdict
     names = ", ".join(_alike(effect) for effect in said["effects"])
     keys = ", ".join(effect["name"] for effect in said["effects"])
-    rows = [("verdict", f"{said['verdict']}: {SAID[said['verdict']].format(names=names)}")]
+    rows = [("verdict", f"{SAID[said['verdict']].format(names=names)} ({said['verdict']})")]
     rows += [("reason", _sentence(reason)) for reason in said["reasons"]]
     proposal = said.get("proposal") or {}
     if proposal.get("form"):
