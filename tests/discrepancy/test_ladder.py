@@ -15,7 +15,7 @@ def comparison(*squares, floor=1.0, states=("reference", "calibrated")):
     values = np.sqrt(np.array(squares))[:, None, None] * np.ones((1, 2, 1))
     return xr.Dataset(
         {
-            "rmse": (("state", "drive", "signal"), values),
+            "explainable_rmse": (("state", "drive", "signal"), np.sqrt(values**2 - floor)),
             "nrmse": (("state", "drive", "signal"), 0.1 * values),
             "floor_rmse": (("drive", "signal"), np.full((2, 1), np.sqrt(floor))),
             "role": ("drive", ["fit", "check"]),

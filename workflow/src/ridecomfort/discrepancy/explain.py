@@ -15,6 +15,9 @@ from .floor import deviations
 SAME_SPEED = 0.05
 """Relative difference of mean speeds within which drives repeat one another."""
 
+SLOWEST = 0.8
+"""Hz below which an error is not the vehicle's to explain: drifts of instruments and what the driver makes of the path."""
+
 REPEATS = "from repeats"
 NIL = "taken as nil: no drive was repeated"
 ASSUMED = "assumed from the noise densities of the instruments: no drive was repeated; errors of path and road are not in it"
@@ -26,7 +29,7 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 @dataclass(frozen=True)
 class OwnNoise:
-    """What a repeat has of its own: ``noise`` (signal, sample) in the units of the signals, at ``place`` (sample,) in m."""
+    """What a repeat has of its own from SLOWEST on: ``noise`` (signal, sample) in the units of the signals, at ``place`` in m."""
 
     place: np.ndarray
     noise: np.ndarray
@@ -35,9 +38,9 @@ class OwnNoise:
 def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, float]] | None = None) -> xr.Dataset:
     """A comparison (``compare.compare``) with its floor and its explainable error.
 
-    Added, in the unit of the signal: ``floor_rmse(drive, signal)``, what no model of this road and car could explain, from
-    the differences of repeats at equal place in the best state; ``explainable_rmse(state, drive, signal)``, the root of mean
-    square less floor; and ``explained_share(state, drive, signal)``, the share of the first
+    Added, from SLOWEST (Hz) on and in the unit of the signal: ``floor_rmse(drive, signal)``, what no model of this road and car
+    could explain, from the differences of repeats at equal place in the best state; ``explainable_rmse(state, drive, signal)``,
+    the root of mean square less floor; and ``explained_share(state, drive, signal)``, the share of the first
     state's explainable mean square that is gone. Without repeats the floor is that of the instruments
     alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz), "gyroscope": rad/s/sqrt(Hz)}, one-sided), or nil;
     attribute ``floor`` says which.
@@ -46,7 +49,7 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
     for state, name in enumerate(comparison["state"].values):
         for drive, own in own_noise(comparison, name).items():
             floors[state, drive] = np.mean(own.noise**2, axis=1)
-    square = comparison["residual"].var("time").transpose("state", "drive", "signal").values
+    square = _squares(comparison)
     if np.isfinite(floors).any():
         ground, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
     elif noise_density:
@@ -74,12 +77,25 @@ def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
             kept = np.isfinite(residual).all(axis=0)
             place = row["s"].values[kept]
             records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
-            residuals.append(residual[:, kept] - residual[:, kept].mean(axis=1, keepdims=True))
+            residuals.append(from_slowest(residual[:, kept], _rate(comparison)))
         start, end = max(record.place[0] for record in records), min(record.place[-1] for record in records)
         for drive, record, part in zip(group, records, deviations(records, residuals)):
             inside = (record.place >= start) & (record.place <= end)
             found[drive] = OwnNoise(record.place[inside], part)
     return found
+
+
+def from_slowest(series: np.ndarray, rate: float) -> np.ndarray:
+    """Series (..., sample) at ``rate`` Hz without what is slower than SLOWEST."""
+    return band(series, rate, (SLOWEST, rate))
+
+
+def band(series: np.ndarray, rate: float, edges: tuple[float, float]) -> np.ndarray:
+    """Series (..., sample) at ``rate`` Hz with nothing left outside of a band (Hz)."""
+    bins = np.fft.rfft(series, axis=-1)
+    frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
+    kept = (frequency >= edges[0]) & (frequency < edges[1])
+    return np.fft.irfft(np.where(kept, bins, 0.0), series.shape[-1], axis=-1)
 
 
 def repeats(comparison: xr.Dataset) -> list[list[int]]:
@@ -95,10 +111,25 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
     return [own for _, own in groups if len(own) > 1]
 
 
-def _of_instruments(comparison: xr.Dataset, density: Mapping[str, Mapping[str, float]]) -> np.ndarray:
-    """Mean square (drive, signal) of white noise of these densities up to half the rate of the records."""
+def _squares(comparison: xr.Dataset) -> np.ndarray:
+    """Mean squares (state, drive, signal) of the residuals from SLOWEST on."""
+    residual = comparison["residual"].transpose("state", "drive", "signal", "time").values
+    found = np.empty(residual.shape[:-1])
+    for state, drive in np.ndindex(found.shape[:2]):
+        kept = np.isfinite(residual[state, drive]).all(axis=0)
+        found[state, drive] = np.mean(from_slowest(residual[state, drive][:, kept], _rate(comparison)) ** 2, axis=1)
+    return found
+
+
+def _rate(comparison: xr.Dataset) -> float:
+    """Records per second."""
     time = comparison["time"].values
-    bandwidth = 0.5 * (len(time) - 1) / (time[-1] - time[0])
+    return float((len(time) - 1) / (time[-1] - time[0]))
+
+
+def _of_instruments(comparison: xr.Dataset, density: Mapping[str, Mapping[str, float]]) -> np.ndarray:
+    """Mean square (drive, signal) of white noise of these densities from SLOWEST up to half the rate of the records."""
+    bandwidth = 0.5 * _rate(comparison) - SLOWEST
     instruments = [INSTRUMENT[VARIABLES[str(signal)].unit] for signal in comparison["signal"].values]
     return np.array(
         [

@@ -33,9 +33,9 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     """The ladder of ``models`` (the first without effects) over sites, their later rungs called ``titles``.
 
     Returns over ``rung`` (uncalibrated, calibrated, then the models with effects), ``site``, ``group`` (fitted, held out) and
-    ``signal``: ``rmse`` and ``nrmse`` (mean over drives of the square, as root), ``floor_rmse``, the least that is known from any rung,
-    and ``left``, the mean square error above the floor over that of the reference rung (attribute ``reference``), nan where the
-    signal had nothing above the floor; ``left_overall`` weighs each signal by what was explainable of its own error. Over
+    ``signal``: ``nrmse`` of the whole error; of the error from ``explain.SLOWEST`` (Hz) on ``rmse`` and ``floor_rmse``, the least
+    that is known from any rung (mean over drives of the square, as root), and ``left``, the mean square above the floor
+    over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor; ``left_overall`` weighs each signal by what was explainable of its own error. Over
     ``method`` in place of signal: numbers of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade
     as measured), ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
     Nan where there is no such drive, rung or repeat.
@@ -58,7 +58,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
                 if state is None:
                     continue
                 rows = site.comparisons[model].sel(state=state).isel(drive=drives)
-                squares[r, k, g] = (rows["rmse"] ** 2).mean("drive").values
+                squares[r, k, g] = (rows["explainable_rmse"] ** 2 + rows["floor_rmse"] ** 2).mean("drive").values
                 relative[r, k, g] = (rows["nrmse"] ** 2).mean("drive").values
                 before = _count(site.sections[model].isel(drive=drives), state, before, counts, (r, k, g))
             repeated[k, g] = _repeats(site.sections[models[0]].isel(drive=drives))

@@ -12,8 +12,8 @@ from scipy.signal import stft
 from . import explain
 from .response import responses
 
-BANDS = ((0.3, 1.0), (1.0, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
-"""Hz; body modes lie in the second, seat and hands feel the next two, wheels hop in the fifth."""
+BANDS = ((explain.SLOWEST, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
+"""Hz; body modes lie in the first, seat and hands feel the next two, wheels hop in the fourth."""
 
 STRETCH = 100.0
 """m of road that are told apart in words."""
@@ -73,7 +73,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
         own, length = _by_stretch([(d.own.place, d.own.noise) for d in drives if d.own], edges, bands, rate)
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
         floor = np.where(length[:, None] > 0, own, mean)
-    measured = np.mean([[np.var(_band(d.measured, rate, band), axis=1) for band in bands] for d in drives], axis=0).T
+    measured = np.mean([[np.var(explain.band(d.measured, rate, band), axis=1) for band in bands] for d in drives], axis=0).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
     whole = above.sum(axis=(1, 2), keepdims=True)
     conditions, condition_edges, levels, by_condition = _conditions(drives, bands)
@@ -139,7 +139,7 @@ def _by_stretch(parts, edges: np.ndarray, bands, rate: float) -> tuple[np.ndarra
         where = np.clip(np.digitize(place, edges) - 1, 0, count - 1)
         seconds += np.bincount(where, minlength=count) / rate
         for k, band in enumerate(bands):
-            for i, row in enumerate(_band(series, rate, band) ** 2):
+            for i, row in enumerate(explain.band(series, rate, band) ** 2):
                 power[i, :, k] += np.bincount(where, row, minlength=count) / rate
     return power / np.maximum(seconds, 1e-9)[None, :, None], seconds
 
@@ -148,7 +148,7 @@ def _density(rows: xr.Dataset, rate: float) -> np.ndarray:
     """One-sided power density (signal,) of a white floor, from the ``floor_rmse`` of the comparison; nil without one."""
     if "floor_rmse" not in rows:
         return np.zeros(rows.sizes["signal"])
-    return (rows["floor_rmse"] ** 2).mean("drive").values / (0.5 * rate)
+    return (rows["floor_rmse"] ** 2).mean("drive").values / (0.5 * rate - explain.SLOWEST)
 
 
 def _white_floor(rows: xr.Dataset, bands, rate: float) -> np.ndarray:
@@ -171,7 +171,7 @@ def _map(parts, rate: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         rows.append(np.array(one).transpose(0, 2, 1))
     known = np.isfinite(rows)
     total = np.where(known, rows, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
-    inside = (frequency > 0.0) & (frequency <= BANDS[-1][1])
+    inside = (frequency >= BANDS[0][0]) & (frequency <= BANDS[-1][1])
     return grid, frequency[inside], np.where(known.any(axis=0), total, np.nan)[:, :, inside]
 
 
@@ -192,7 +192,7 @@ def _conditions(drives: Sequence[Drive], bands):
             levels[n] += np.bincount(classes, own[names[n]], minlength=CLASSES)
         for k, band in enumerate(bands):
             for source, series in enumerate((drive.residual, drive.measured)):
-                for i, row in enumerate(_band(series, drive.rate, band) ** 2):
+                for i, row in enumerate(explain.band(series, drive.rate, band) ** 2):
                     for n, classes in enumerate(which):
                         power[source, n, :, i, k] += np.bincount(classes, row, minlength=CLASSES)
     levels = np.where(samples > 0, levels / np.maximum(samples, 1), np.nan)
@@ -219,12 +219,6 @@ def _slow(series: np.ndarray, rate: float) -> np.ndarray:
     count = max(1, int(rate / SLOW))
     weight = np.convolve(np.ones(len(series)), np.ones(count), "same")
     return np.convolve(series, np.ones(count), "same") / weight
-
-
-def _band(series: np.ndarray, rate: float, band: tuple[float, float]) -> np.ndarray:
-    bins = np.fft.rfft(series, axis=-1)
-    frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
-    return np.fft.irfft(np.where((frequency >= band[0]) & (frequency < band[1]), bins, 0.0), series.shape[-1], axis=-1)
 
 
 def _positive(values: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from ...discrepancy import findings
+from ...discrepancy.locate import BANDS
 from ...vocabulary import SIGNALS
 from .. import style
 from ..notation import symbol
@@ -39,15 +40,15 @@ def located(study: Difference, site: str) -> Figure:
             rasterized=True,
         )  # fmt: skip
         left.set_yscale("log")
-        left.set_ylim(frequency[0], frequency[-1])
-        left.set_yticks([0.5, 1, 2, 5, 10, 20, 40], ["0.5", "1", "2", "5", "10", "20", "40"])
+        left.set_ylim(BANDS[0][0], BANDS[-1][1])
+        left.set_yticks([1, 2, 5, 10, 20, 40], ["1", "2", "5", "10", "20", "40"])
         left.minorticks_off()
         left.set_ylabel(f"{symbol(signal)}\nfrequency [Hz]")
         _boxes(left, errors, signal, place)
         _spectra(right, found.sel(signal=signal), signal)
         right.set_yscale("log")
         right.set_ylim(left.get_ylim())
-        right.set_yticks([0.5, 1, 2, 5, 10, 20, 40], [""] * 7)
+        right.set_yticks([1, 2, 5, 10, 20, 40], [""] * 6)
         right.minorticks_off()
         left.tick_params(labelbottom=signal == SIGNALS[-1])
     panels[len(SIGNALS) - 1][0].set_xlabel("distance along the road [km]")
@@ -95,7 +96,7 @@ def _spectra(axes, found: xr.Dataset, signal: str) -> None:
     """Densities of signal, error and floor over frequency, which runs upwards as on the map."""
     factor, unit = printed(signal)
     frequency = found["frequency"].values
-    kept = (frequency > 0) & (frequency <= found["frequency_map"].values[-1])
+    kept = (frequency >= BANDS[0][0]) & (frequency <= BANDS[-1][1])
     densities = (("measured", "measured_density", style.MEASURED), ("error", "error_density", style.ERROR))
     for label, name, colour in densities:
         axes.plot(factor**2 * found[name].values[kept], frequency[kept], color=colour, label=label)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...discrepancy import explain
 from ...discrepancy import findings as located
 from ...discrepancy import ladder
 from ...vocabulary import SIGNALS
@@ -109,8 +110,8 @@ def explainable(study: Difference) -> Table:
         sources.append(Source(site.label, site.files.get("comparison", ""), names, "root of the mean square over the drives"))
         notes.append(f"{site.label}: {floor_note(site)}")
     notes.append(
-        "NRMSE: RMSE over the range of the measured signal. The floor is what no model of this road and car could explain; the "
-        "error above it is taken about its mean."
+        "NRMSE: RMSE over the range of the measured signal. The floor is what no model of this road and car could explain; it and the "
+        f"error above it are from {explain.SLOWEST:g} Hz on: slower errors are drifts of instruments and what the driver makes of the path."
     )
     return _table(study, "explainable", columns, rows, sources, notes, breaks[1:])
 
