@@ -7,7 +7,8 @@ import pytest
 import xarray as xr
 
 from ridecomfort.discrepancy import car
-from ridecomfort.discrepancy.explain import SLOWEST, explain, from_slowest
+from ridecomfort.discrepancy.explain import explain
+from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, judged
 
 from .coloured import coloured
 
@@ -28,7 +29,7 @@ def comparison(repeats=3):
 def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_common_error():
     noise, compared = comparison()
     found = explain(compared)
-    assert np.asarray(found["floor_rmse"]).mean() == pytest.approx(from_slowest(noise, 100.0).std(axis=-1).mean(), rel=0.06)
+    assert np.asarray(found["floor_rmse"]).mean() == pytest.approx(judged(noise, 100.0, ["a_z"] * noise.shape[1]).std(axis=-1).mean(), rel=0.06)
     assert float(found["explained_share"].sel(state="calibrated").mean()) == pytest.approx(0.75, abs=0.06)
     assert found.attrs["floor"] == "from repeats"
 
@@ -61,4 +62,4 @@ def test_errors_that_are_slower_than_the_vehicle_are_not_its_to_explain():
 
 
 def test_what_is_explained_is_judged_in_the_band_that_effects_are_searched_in():
-    assert SLOWEST == car.LOWEST
+    assert (LOWEST, LOWEST_OF_DRIVER) == (car.LOWEST, car.LOWEST_OF_DRIVER)

@@ -52,7 +52,7 @@ def test_the_floor_is_what_a_drive_has_of_its_own(comparison):
     noisy = comparison.copy(deep=True)
     noise = 0.1 * rng.standard_normal(noisy["residual"].shape)
     noisy["residual"] = noisy["residual"] + noise
-    found = locate.locate(noisy).sel(signal="a_x")
+    found = locate.locate(noisy).sel(signal="a_y")
     expected = 0.01 * (found["band_upper"] - found["band_lower"]) / 50.0
     np.testing.assert_allclose(found["band_floor"], expected, rtol=0.15)
     assert float(found["floor_density"].mean()) == pytest.approx(0.01 / 50.0, rel=0.15)

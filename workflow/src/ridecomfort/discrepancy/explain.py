@@ -11,12 +11,10 @@ import xarray as xr
 from ..vocabulary import VARIABLES
 from .experiment import Record
 from .floor import deviations
+from .judged import LOWEST, judged
 
 SAME_SPEED = 0.05
 """Relative difference of mean speeds within which drives repeat one another."""
-
-SLOWEST = 0.8
-"""Hz below which an error is not the vehicle's to explain: drifts of instruments and what the driver makes of the path."""
 
 REPEATS = "from repeats"
 NIL = "taken as nil: no drive was repeated"
@@ -29,7 +27,7 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 @dataclass(frozen=True)
 class OwnNoise:
-    """What a repeat has of its own from SLOWEST on: ``noise`` (signal, sample) in the units of the signals, at ``place`` in m."""
+    """What a repeat has of its own of what is judged: ``noise`` (signal, sample) in the units of the signals, at ``place`` in m."""
 
     place: np.ndarray
     noise: np.ndarray
@@ -38,7 +36,7 @@ class OwnNoise:
 def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, float]] | None = None) -> xr.Dataset:
     """A comparison (``compare.compare``) with its floor and its explainable error.
 
-    Added, from SLOWEST (Hz) on and in the unit of the signal: ``floor_rmse(drive, signal)``, what no model of this road and car
+    Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no model of this road and car
     could explain, from the differences of repeats at equal place in the best state; ``explainable_rmse(state, drive, signal)``,
     the root of mean square less floor; and ``explained_share(state, drive, signal)``, the share of the first
     state's explainable mean square that is gone. Without repeats the floor is that of the instruments
@@ -68,7 +66,7 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
 
 def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
     """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise."""
-    found = {}
+    found, signals = {}, comparison["signal"].values
     for group in repeats(comparison):
         records, residuals = [], []
         for drive in group:
@@ -77,25 +75,12 @@ def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
             kept = np.isfinite(residual).all(axis=0)
             place = row["s"].values[kept]
             records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
-            residuals.append(from_slowest(residual[:, kept], _rate(comparison)))
+            residuals.append(judged(residual[:, kept], _rate(comparison), signals))
         start, end = max(record.place[0] for record in records), min(record.place[-1] for record in records)
         for drive, record, part in zip(group, records, deviations(records, residuals)):
             inside = (record.place >= start) & (record.place <= end)
             found[drive] = OwnNoise(record.place[inside], part)
     return found
-
-
-def from_slowest(series: np.ndarray, rate: float) -> np.ndarray:
-    """Series (..., sample) at ``rate`` Hz without what is slower than SLOWEST."""
-    return band(series, rate, (SLOWEST, rate))
-
-
-def band(series: np.ndarray, rate: float, edges: tuple[float, float]) -> np.ndarray:
-    """Series (..., sample) at ``rate`` Hz with nothing left outside of a band (Hz)."""
-    bins = np.fft.rfft(series, axis=-1)
-    frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
-    kept = (frequency >= edges[0]) & (frequency < edges[1])
-    return np.fft.irfft(np.where(kept, bins, 0.0), series.shape[-1], axis=-1)
 
 
 def repeats(comparison: xr.Dataset) -> list[list[int]]:
@@ -112,12 +97,13 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
 
 
 def _squares(comparison: xr.Dataset) -> np.ndarray:
-    """Mean squares (state, drive, signal) of the residuals from SLOWEST on."""
+    """Mean squares (state, drive, signal) of what is judged of the residuals."""
     residual = comparison["residual"].transpose("state", "drive", "signal", "time").values
     found = np.empty(residual.shape[:-1])
     for state, drive in np.ndindex(found.shape[:2]):
         kept = np.isfinite(residual[state, drive]).all(axis=0)
-        found[state, drive] = np.mean(from_slowest(residual[state, drive][:, kept], _rate(comparison)) ** 2, axis=1)
+        part = judged(residual[state, drive][:, kept], _rate(comparison), comparison["signal"].values)
+        found[state, drive] = np.mean(part**2, axis=1)
     return found
 
 
@@ -128,8 +114,8 @@ def _rate(comparison: xr.Dataset) -> float:
 
 
 def _of_instruments(comparison: xr.Dataset, density: Mapping[str, Mapping[str, float]]) -> np.ndarray:
-    """Mean square (drive, signal) of white noise of these densities from SLOWEST up to half the rate of the records."""
-    bandwidth = 0.5 * _rate(comparison) - SLOWEST
+    """Mean square (drive, signal) of white noise of these densities from LOWEST up to half the rate of the records."""
+    bandwidth = 0.5 * _rate(comparison) - LOWEST
     instruments = [INSTRUMENT[VARIABLES[str(signal)].unit] for signal in comparison["signal"].values]
     return np.array(
         [

@@ -33,7 +33,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     """The ladder of ``models`` (the first without effects) over sites, their later rungs called ``titles``.
 
     Returns over ``rung`` (uncalibrated, calibrated, then the models with effects), ``site``, ``group`` (fitted, held out) and
-    ``signal``: ``nrmse`` of the whole error; of the error from ``explain.SLOWEST`` (Hz) on ``rmse`` and ``floor_rmse``, the least
+    ``signal``: ``nrmse`` of the whole error; of what is judged (``judged.judged``) ``rmse`` and ``floor_rmse``, the least
     that is known from any rung (mean over drives of the square, as root), and ``left``, the mean square above the floor
     over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor; ``left_overall`` weighs each signal by what was explainable of its own error. Over
     ``method`` in place of signal: numbers of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade

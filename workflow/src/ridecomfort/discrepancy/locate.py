@@ -9,10 +9,10 @@ import numpy as np
 import xarray as xr
 from scipy.signal import stft
 
-from . import explain
+from . import explain, judged
 from .response import responses
 
-BANDS = ((explain.SLOWEST, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
+BANDS = ((judged.LOWEST, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
 """Hz; body modes lie in the first, seat and hands feel the next two, wheels hop in the fourth."""
 
 STRETCH = 100.0
@@ -33,12 +33,17 @@ SLOW = 1.0
 
 @dataclass(frozen=True)
 class Drive:
-    """One drive's samples that are compared: ``rate`` in Hz, series (signal, sample) and (sample,), own noise where known."""
+    """One drive's samples that are compared: ``rate`` in Hz, series (signal, sample) and (sample,), own noise where known.
+
+    ``error`` and ``signal`` are what is judged of ``residual`` and ``measured``.
+    """
 
     rate: float
     residual: np.ndarray
     measured: np.ndarray
     simulated: np.ndarray
+    error: np.ndarray
+    signal: np.ndarray
     series: Mapping[str, np.ndarray]
     own: explain.OwnNoise | None
 
@@ -51,7 +56,8 @@ class Drive:
 def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     """Power of the residuals of a comparison (``compare.compare``) by place, frequency and condition.
 
-    ``state``: whose residuals, by default the last. Powers are mean squares in the unit of the signal squared, over all drives:
+    ``state``: whose residuals, by default the last. Powers are mean squares, in the unit of the signal squared and over all
+    drives, of what is judged (``judged.judged``):
     ``error_power(signal, stretch, band)`` and ``floor_power`` of the floor there; ``power_share``, the error above the
     floor over the signal's measured power in all bands, and ``explainable_share``, over its own sum; ``error_map(signal, s_map,
     frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; by classes of equal duration
@@ -67,17 +73,17 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     bands = [band for band in BANDS if band[0] < 0.4 * rate]
     ground = _white_floor(rows, bands, rate)
     edges = _stretches(drives)
-    power, seconds = _by_stretch([(d.place, d.residual) for d in drives], edges, bands, rate)
+    power, seconds = _by_stretch([(d.place, d.error) for d in drives], edges, bands, rate)
     floor = np.broadcast_to(ground[:, None, :], power.shape).copy()
     if noise:
         own, length = _by_stretch([(d.own.place, d.own.noise) for d in drives if d.own], edges, bands, rate)
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
         floor = np.where(length[:, None] > 0, own, mean)
-    measured = np.mean([[np.var(explain.band(d.measured, rate, band), axis=1) for band in bands] for d in drives], axis=0).T
+    measured = np.mean([[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives], axis=0).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
     whole = above.sum(axis=(1, 2), keepdims=True)
     conditions, condition_edges, levels, by_condition = _conditions(drives, bands)
-    places, frequency, density = _map([(d.place, d.residual) for d in drives], rate)
+    places, frequency, density = _map([(d.place, d.error) for d in drives], rate)
     if noise:
         floor_density = np.nanmean(_map([(d.own.place, d.own.noise) for d in drives if d.own], rate)[2], axis=1)
     else:
@@ -121,7 +127,9 @@ def _drive(row: xr.Dataset, own: explain.OwnNoise | None) -> Drive:
     series = {str(name): row[name].values[kept] for name in row.data_vars if row[name].dims == ("time",)}
     signals = [row[name].transpose("signal", "time").values[:, kept] for name in ("measured", "simulated")]
     series |= {str(name): values for name, values in zip(row["signal"].values, signals[1])}
-    return Drive(float((len(time) - 1) / (time[-1] - time[0])), residual[:, kept], *signals, series, own)
+    rate = float((len(time) - 1) / (time[-1] - time[0]))
+    both = (judged.judged(each, rate, row["signal"].values) for each in (residual[:, kept], signals[0]))
+    return Drive(rate, residual[:, kept], *signals, *both, series, own)
 
 
 def _stretches(drives: Sequence[Drive]) -> np.ndarray:
@@ -139,7 +147,7 @@ def _by_stretch(parts, edges: np.ndarray, bands, rate: float) -> tuple[np.ndarra
         where = np.clip(np.digitize(place, edges) - 1, 0, count - 1)
         seconds += np.bincount(where, minlength=count) / rate
         for k, band in enumerate(bands):
-            for i, row in enumerate(explain.band(series, rate, band) ** 2):
+            for i, row in enumerate(judged.band(series, rate, band) ** 2):
                 power[i, :, k] += np.bincount(where, row, minlength=count) / rate
     return power / np.maximum(seconds, 1e-9)[None, :, None], seconds
 
@@ -148,7 +156,7 @@ def _density(rows: xr.Dataset, rate: float) -> np.ndarray:
     """One-sided power density (signal,) of a white floor, from the ``floor_rmse`` of the comparison; nil without one."""
     if "floor_rmse" not in rows:
         return np.zeros(rows.sizes["signal"])
-    return (rows["floor_rmse"] ** 2).mean("drive").values / (0.5 * rate - explain.SLOWEST)
+    return (rows["floor_rmse"] ** 2).mean("drive").values / (0.5 * rate - judged.LOWEST)
 
 
 def _white_floor(rows: xr.Dataset, bands, rate: float) -> np.ndarray:
@@ -191,8 +199,8 @@ def _conditions(drives: Sequence[Drive], bands):
             samples[n] += np.bincount(classes, minlength=CLASSES)
             levels[n] += np.bincount(classes, own[names[n]], minlength=CLASSES)
         for k, band in enumerate(bands):
-            for source, series in enumerate((drive.residual, drive.measured)):
-                for i, row in enumerate(explain.band(series, drive.rate, band) ** 2):
+            for source, series in enumerate((drive.error, drive.signal)):
+                for i, row in enumerate(judged.band(series, drive.rate, band) ** 2):
                     for n, classes in enumerate(which):
                         power[source, n, :, i, k] += np.bincount(classes, row, minlength=CLASSES)
     levels = np.where(samples > 0, levels / np.maximum(samples, 1), np.nan)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...discrepancy import explain
 from ...discrepancy import findings as located
-from ...discrepancy import ladder
+from ...discrepancy import judged, ladder
 from ...vocabulary import SIGNALS
 from .. import catalogue
 from ..notation import symbol
@@ -111,7 +110,7 @@ def explainable(study: Difference) -> Table:
         notes.append(f"{site.label}: {floor_note(site)}")
     notes.append(
         "NRMSE: RMSE over the range of the measured signal. The floor is what no model of this road and car could explain; it and the "
-        f"error above it are from {explain.SLOWEST:g} Hz on: slower errors are drifts of instruments and what the driver makes of the path."
+        f"error above it are from {judged.IN_WORDS}: slower errors are drifts of instruments and what the driver makes of the path."
     )
     return _table(study, "explainable", columns, rows, sources, notes, breaks[1:])
 

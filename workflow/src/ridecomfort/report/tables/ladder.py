@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from ...discrepancy import explain
+from ...discrepancy import judged
 from ...discrepancy import ladder as rungs
 from ...vocabulary import SIGNALS
 from .. import catalogue
@@ -53,7 +53,7 @@ def error_ladder(study: Difference) -> Table:
     )
     floors = [f"{catalogue.label(str(site))}: floor {known}" for site, known in zip(study.ladder["site"].values, study.ladder["floor_known"].values)]
     notes = (
-        f"RMSE: of the error from {explain.SLOWEST:g} Hz on; slower errors are drifts of instruments and what the driver makes of the path. "
+        f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
         "much as there was to explain of its own error.",
