@@ -27,7 +27,7 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 @dataclass(frozen=True)
 class OwnNoise:
-    """What a repeat has of its own of what is judged: ``noise`` (signal, sample) in the units of the signals, at ``place`` in m."""
+    """What a repeat has of its own, of what is judged: ``noise`` (signal, sample) in the units of the signals, ``place`` in m."""
 
     place: np.ndarray
     noise: np.ndarray
@@ -36,8 +36,8 @@ class OwnNoise:
 def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, float]] | None = None) -> xr.Dataset:
     """A comparison (``compare.compare``) with its floor and its explainable error.
 
-    Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no model of this road and car
-    could explain, from the differences of repeats at equal place in the best state; ``explainable_rmse(state, drive, signal)``,
+    Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no
+    model of this road and car could explain, from the differences of repeats at equal place in the best state; ``explainable_rmse(state, drive, signal)``,
     the root of mean square less floor; and ``explained_share(state, drive, signal)``, the share of the first
     state's explainable mean square that is gone. Without repeats the floor is that of the instruments
     alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz), "gyroscope": rad/s/sqrt(Hz)}, one-sided), or nil;

@@ -35,9 +35,10 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     Returns over ``rung`` (uncalibrated, calibrated, then the models with effects), ``site``, ``group`` (fitted, held out) and
     ``signal``: ``nrmse`` of the whole error; of what is judged (``judged.judged``) ``rmse`` and ``floor_rmse``, the least
     that is known from any rung (mean over drives of the square, as root), and ``left``, the mean square above the floor
-    over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor; ``left_overall`` weighs each signal by what was explainable of its own error. Over
-    ``method`` in place of signal: numbers of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade
-    as measured), ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
+    over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor;
+    ``left_overall`` weighs each signal by what was explainable of its own error. Over ``method`` in place of signal: numbers
+    of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
+    ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
     Nan where there is no such drive, rung or repeat.
     """
     first = next(iter(sites.values())).comparisons[models[0]]

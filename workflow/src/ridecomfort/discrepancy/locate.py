@@ -62,7 +62,8 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     floor over the signal's measured power in all bands, and ``explainable_share``, over its own sum; ``error_map(signal, s_map,
     frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; by classes of equal duration
     of a ``condition`` (SI units; edges in ``condition_edge``, means in ``condition_level``) ``condition_error`` and
-    ``condition_measured(condition, class, signal, band)``, the floor of which is ``band_floor(signal, band)``; and what ``response.responses`` says of transfer functions.
+    ``condition_measured(condition, class, signal, band)``, the floor of which is
+    ``band_floor(signal, band)``; and what ``response.responses`` says of transfer functions.
     Attribute ``located_state`` names the state, ``floor`` where the floor is known from.
     """
     name = str(comparison["state"].values[-1] if state is None else state)

@@ -75,7 +75,7 @@ def responses(drives: Sequence[Driven], signals: Sequence[str]) -> xr.Dataset:
             coherent.append(share)
         data["road_gain"] = (("source", *over), np.stack(gains))
         data["road_coherence"] = (("source", *over), np.stack(coherent), {"units": "1"})
-    return xr.Dataset(data, {"signal": list(signals), "source": ["measured", "simulated"], "frequency": ("frequency", frequency, {"units": "Hz"})})
+    return xr.Dataset(data, {"signal": list(signals), "source": ["measured", "simulated"], "frequency": frequency})
 
 
 def _positive(values: np.ndarray) -> np.ndarray:

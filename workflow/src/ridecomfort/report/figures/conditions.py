@@ -30,7 +30,7 @@ INPUTS = {"road_heave": "up and down", "road_tilt": "left against right"}
 
 
 def conditions(study: Difference, site: str) -> Figure:
-    """Error above the floor over the power measured under the same condition, a panel for each condition, a line for each signal."""
+    """Error above the floor over the power under the same condition, a panel for each condition, a line for each signal."""
     found = next(each for each in study.sites if each.name == site).comparison
     names = [name for name in AXES if name in found["condition"].values]
     drawn = style.figure(style.DOUBLE, 5.0)
@@ -97,6 +97,7 @@ def responses(study: Difference, site: str) -> Figure:
         axes.set_xlabel("frequency [Hz]")
     handles, labels = panels[0][2].get_legend_handles_labels()
     own = panels[0][0].get_legend_handles_labels()
-    drawn.legend([*own[0], *handles], [*own[1], *(f"coherence of {label}" for label in labels)], loc="outside upper right", ncols=3)
+    labels = [*own[1], *(f"coherence of {label}" for label in labels)]
+    drawn.legend([*own[0], *handles], labels, loc="outside upper right", ncols=3)
     drawn.align_ylabels(panels)
     return drawn

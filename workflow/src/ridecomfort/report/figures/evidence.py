@@ -19,6 +19,9 @@ LEVEL = 0.05
 
 SIGNIFICANT, OTHER, ACCEPTED = "#0072B2", "#C9D3DA", "#D55E00"
 
+DOT = {"marker": "o", "linestyle": "", "color": style.CALIBRATED, "markersize": 4.5}
+DIAMOND = {**DOT, "marker": "D", "color": style.REFERENCE, "markeredgecolor": "black", "markeredgewidth": 0.4}
+
 
 def evidence(found: Diagnosis) -> Figure:
     """Score test of the strongest effects (left) and, of those refitted, the explainable error removed (right), a row each round."""
@@ -41,7 +44,8 @@ def evidence(found: Diagnosis) -> Figure:
         for place, (k, name) in enumerate(zip(order, names)):
             colour = ACCEPTED if name == winner else SIGNIFICANT if p_value[k] <= LEVEL else OTHER
             left.barh(place, max(gain[k], 0.0), height=0.7, color=colour)
-            left.annotate(f"p = {p_value[k]:.2g}", (max(gain[k], 0.0), place), xytext=(3, 0), textcoords="offset points", va="center", fontsize=6)
+            end = max(gain[k], 0.0), place
+            left.annotate(f"p = {p_value[k]:.2g}", end, xytext=(3, 0), textcoords="offset points", va="center", fontsize=6)
         left.set_yticks(range(len(names)), [words(name) for name in names])
         left.invert_yaxis()
         left.margins(x=0.15)
@@ -54,8 +58,8 @@ def evidence(found: Diagnosis) -> Figure:
                 place = names.index(name)
                 shares = [100 * float(ranking[key].values[k]) for key in ("trial_share", "trial_held_out_share")]
                 right.plot(shares, [place, place], color=style.FAINT, linewidth=0.8, zorder=1)
-                right.plot(shares[0], place, "o", color=style.CALIBRATED, markersize=4.5)
-                right.plot(shares[1], place, "D", color=style.REFERENCE, markersize=4.5, markeredgecolor="black", markeredgewidth=0.4)
+                right.plot(shares[0], place, **DOT)
+                right.plot(shares[1], place, **DIAMOND)
         right.axvline(0.0, color=style.FLOOR, linewidth=0.7)
         right.tick_params(axis="y", length=0)
     panels[-1][0].set_xlabel("fall of twice the negative log-likelihood, score test [-]")
@@ -64,8 +68,8 @@ def evidence(found: Diagnosis) -> Figure:
         Patch(color=ACCEPTED, label="accepted"),
         Patch(color=SIGNIFICANT, label=f"significant over the library (p ≤ {LEVEL:g})"),
         Patch(color=OTHER, label="not significant"),
-        Line2D([], [], marker="o", linestyle="", color=style.CALIBRATED, markersize=4.5, label="on fitted drives"),
-        Line2D([], [], marker="D", linestyle="", color=style.REFERENCE, markeredgecolor="black", markeredgewidth=0.4, markersize=4.5, label="on drives held out"),
+        Line2D([], [], **DOT, label="on fitted drives"),
+        Line2D([], [], **DIAMOND, label="on drives held out"),
     ]
     drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn

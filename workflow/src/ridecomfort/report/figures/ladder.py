@@ -21,7 +21,7 @@ LONGEST = 16
 
 
 def error_ladder(study: Difference) -> Figure:
-    """Share of the explainable error left per rung, fitted and held out, a column a site; below, sections graded otherwise than measured."""
+    """Explainable error left on every rung, fitted and held out, a column a site; below, sections graded unlike measured."""
     found = study.ladder
     sites = [str(site) for site in found["site"].values]
     groups = [str(group) for group in found["group"].values if np.isfinite(found["rmse"].sel(group=group)).any()]
@@ -40,7 +40,8 @@ def error_ladder(study: Difference) -> Figure:
                 blank.append(axes)
         _sections(panels[-1, column], found.sel(site=site), groups, places)
         panels[-1, column].set_title(f"{catalogue.label(site)}, all drives")
-        panels[-1, column].set_xticks(places, [_wrapped(rung_title(str(name))) for name in found["rung"].values], rotation=30, ha="right", rotation_mode="anchor")
+        titles = [_wrapped(rung_title(str(name))) for name in found["rung"].values]
+        panels[-1, column].set_xticks(places, titles, rotation=30, ha="right", rotation_mode="anchor")
         panels[-1, column].set_xlim(-0.3, places[-1] + 0.3)
     for row in panels[:-1]:
         first = next(axes for axes in row if axes.axison)
@@ -49,10 +50,11 @@ def error_ladder(study: Difference) -> Figure:
         first.set_ylim(bottom=min(0.0, first.get_ylim()[0]))
     panels[-1, 0].set_ylabel("sections unlike measured [%]")
     panels[-1, 0].set_ylim(bottom=0.0)
-    lines = [Line2D([], [], color=colour, marker=marker, markersize=3.5, label=symbol(signal)) for signal, (colour, marker) in style.SIGNAL_LINES.items()]
+    key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
+    lines = [key(look, symbol(signal)) for signal, look in style.SIGNAL_LINES.items()]
     lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals"))
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor (repeats)"))
-    lines += [Line2D([], [], color=colour, marker=marker, markersize=4, label=METHODS[name]) for name, (colour, marker) in COLOURS.items()]
+    lines += [key(look, METHODS[name]) for name, look in COLOURS.items()]
     if blank:
         blank[0].legend(handles=lines, loc="center left", ncols=2).set_in_layout(False)
     else:

@@ -65,7 +65,8 @@ def located(study: Difference, site: str) -> Figure:
     text = below.text(-0.06, 0.95, "\n".join(words), fontsize=6.5, va="top", transform=below.transAxes, linespacing=1.5)
     text.set_in_layout(False)
     handles, labels = panels[0][1].get_legend_handles_labels()
-    top[1].legend(handles, labels, loc="center", ncols=3, columnspacing=0.7, handlelength=0.9, handletextpad=0.4).set_in_layout(False)
+    key = top[1].legend(handles, labels, loc="center", ncols=3, columnspacing=0.7, handlelength=0.9, handletextpad=0.4)
+    key.set_in_layout(False)
     drawn.align_ylabels([row[0] for row in panels])
     return drawn
 

@@ -19,7 +19,8 @@ SAID = {
 
 NEXT = {
     "named": "Switch them on, effects: [{keys}] in config/study.yaml, and compare again.",
-    "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell them apart.",
+    "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
+    "them apart.",
     "outside": "See the proposed form, and the effect file beside the verdict where there is one.",
     "nothing": "Nothing is to be switched on.",
     "suspect": "Put the data right first, then diagnose again.",
@@ -101,7 +102,8 @@ def evidence(found: Diagnosis) -> Table:
     for number, turn in enumerate(ranking["round"].values):
         breaks.append(len(rows))
         one = ranking.sel(round=turn)
-        trials = {str(name): k for k, name in enumerate(ranking["trial_effect"].values) if ranking["trial_round"].values[k] == turn}
+        refitted = np.flatnonzero(ranking["trial_round"].values == turn)
+        trials = {str(ranking["trial_effect"].values[k]): k for k in refitted}
         gain = one["gain"].values
         for place in sorted(range(len(gain)), key=lambda k: -np.nan_to_num(gain[k], nan=-np.inf)):
             name = str(ranking["effect"].values[place])

@@ -13,8 +13,6 @@ from ..study import Compared, Difference
 from ..table import Column, Source, Table
 from ..units import printed
 
-GROUPS = {ladder.FITTED: "fitted", ladder.HELD_OUT: "held out"}
-
 
 def alignment(study: Difference) -> Table:
     """What stood between each record and its road."""
@@ -82,7 +80,7 @@ def explainable(study: Difference) -> Table:
         Column("drives", ("", "Drives")),
         Column("signal", ("", "Signal")),
         Column("unit", ("", "Unit")),
-        *(Column(f"{key}_{state}", (title, word), form) for key, title, form in (("rmse", "RMSE", ".4f"), ("nrmse", "NRMSE [-]", ".4f"))
+        *(Column(f"{key}_{state}", (title, word), ".4f") for key, title in (("rmse", "RMSE"), ("nrmse", "NRMSE [-]"))
           for state, word in (("uncalibrated", "uncalibrated"), ("model", "this model"))),
         Column("floor_rmse", ("Floor", "RMSE"), ".4f"),
         Column("explainable_rmse", ("Above the floor", "RMSE, this model"), ".4f"),
@@ -102,7 +100,7 @@ def explainable(study: Difference) -> Table:
                 errors = [factor * mean("rmse", 0), factor * mean("rmse", -1), mean("nrmse", 0), mean("nrmse", -1)]
                 share = 100 * left / (left + floor**2) if left + floor**2 > 0 else None
                 rows.append(
-                    (site.label, GROUPS[group], symbol(signal), unit, *errors, factor * floor, factor * np.sqrt(left), share,
+                    (site.label, group, symbol(signal), unit, *errors, factor * floor, factor * np.sqrt(left), share,
                      100 * left / first if first > 0 else None)
                 )  # fmt: skip
         names = "rmse, nrmse, floor_rmse, explainable_rmse"
@@ -129,10 +127,12 @@ def _groups(study: Difference, site: Compared):
     fitted = site.comparison["role"].values == "fit"
     if not np.isfinite(study.ladder["rmse"].sel(site=site.name, group=ladder.FITTED)).any():
         fitted = np.zeros_like(fitted)
-    return [(name, np.flatnonzero(drives)) for name, drives in ((ladder.FITTED, fitted), (ladder.HELD_OUT, ~fitted)) if drives.any()]
+    groups = {ladder.FITTED: fitted, ladder.HELD_OUT: ~fitted}
+    return [(name, np.flatnonzero(drives)) for name, drives in groups.items() if drives.any()]
 
 
 def _table(study: Difference, name, columns, rows, sources, notes, breaks) -> Table:
     notes = [*notes, *filter(None, [study.standin_note()])]
-    caption = f"{catalogue.DIFFERENCE_TABLES[name]} Model: {study.model}." if name != "alignment" else catalogue.DIFFERENCE_TABLES[name]
+    caption = catalogue.DIFFERENCE_TABLES[name]
+    caption = caption if name == "alignment" else f"{caption} Model: {study.model}."
     return Table(name, caption, tuple(columns), tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks))

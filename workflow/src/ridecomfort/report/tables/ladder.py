@@ -29,7 +29,8 @@ def error_ladder(study: Difference) -> Table:
     for signal in SIGNALS:
         title = f"{symbol(signal)} [{printed(signal)[1]}]"
         unit = printed(signal)[1].replace("/", "_per_").replace("²", "2")
-        columns += [Column(f"{signal}_rmse_{unit}", (title, "RMSE"), ".4f"), Column(f"{signal}_left_pct", (title, "left [%]"), ".0f")]
+        columns.append(Column(f"{signal}_rmse_{unit}", (title, "RMSE"), ".4f"))
+        columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
     columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".0f"))
     rows, breaks, bold = [], [], set()
     for site, group, chosen in _groups(study.ladder):
@@ -49,9 +50,10 @@ def error_ladder(study: Difference) -> Table:
     file = study.ladder_file
     sources = (
         Source("RMSE", file, "rmse, floor_rmse", "root of the mean square over the drives"),
-        Source("left", file, "left, left_overall", f"mean square error above the floor over that of {study.ladder.attrs['reference']}"),
+        Source("left", file, "left, left_overall", f"mean square above the floor over that of {study.ladder.attrs['reference']}"),
     )
-    floors = [f"{catalogue.label(str(site))}: floor {known}" for site, known in zip(study.ladder["site"].values, study.ladder["floor_known"].values)]
+    known = zip(study.ladder["site"].values, study.ladder["floor_known"].values)
+    floors = [f"{catalogue.label(str(site))}: floor {how}" for site, how in known]
     notes = (
         f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
