@@ -47,6 +47,13 @@ def test_nothing_is_said_of_what_is_not_worth_a_sentence(located):
     assert findings.words(located * 0.0) == []
 
 
+def test_a_band_begins_where_its_signal_is_judged_from(located):
+    slow = located.copy(deep=True)
+    share = slow["power_share"]
+    share[dict(signal=0, band=0)] = 10 * float(share.max())
+    assert findings.words(slow)[0].startswith("a_x, 1.5-2.5 Hz")
+
+
 def test_every_condition_has_its_words():
     known = np.array(["speed", "curvature", "lateral_acceleration", "suspension_velocity", "tyre_velocity"])
     assert set(known) == set(findings.CONDITIONS)

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from .judged import LOWEST_OF_DRIVER
+
 NAMED = 0.01
 """Share of the signal's power below which a finding is not worth a sentence."""
 
@@ -78,6 +80,7 @@ def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
         explainable = float(located["explainable_share"][signal, :, band].sum())
         place = _stretch(located, np.maximum(share[signal, :, band], 0.0))
         name = str(located["signal"].values[signal])
+        lower = max(lower, LOWEST_OF_DRIVER.get(name, lower))
         found.append(Finding(name, lower, upper, place, _when(located, signal, band), float(whole[signal, band]), explainable))
     return found
 
