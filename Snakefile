@@ -11,7 +11,7 @@ sys.path.insert(0, str(PROJECT / "workflow" / "src"))
 from ridecomfort import config as configuration
 from ridecomfort.errors import InputError
 from ridecomfort.report import catalogue
-from ridecomfort.steps import modules, progress
+from ridecomfort.steps import models, modules, progress
 
 os.environ.update(
     PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),
@@ -75,11 +75,13 @@ for site in study.names:
 rule compare:
     input:
         expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
+        expand("results/tables/{name}.md", name=catalogue.DIFFERENCE_TABLES) if study.measured else [],
 
 
 rule diagnose:
     input:
         expand("results/diagnosis/{model}/{file}", model=study.model, file=["ranking.nc", "verdict.json"]) if study.diagnosed else [],
+        expand("results/tables/{name}.md", name=catalogue.DIAGNOSIS_TABLES) if study.diagnosed else [],
 
 
 report: "workflow/report/study.rst"

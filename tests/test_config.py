@@ -264,3 +264,26 @@ def assert_said(project, settings, said, file):
         config.load(settings, project)
     text = str(problem.value)
     assert said in text and text.startswith(f"{file}: ") and "\n" not in text, text
+
+
+def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
+    drive = {"file": "drive.csv", "columns": {}, "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
+    (project / "drive.csv").touch()
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [drive]})
+    study = config.load({**read(project), "sites": ["own"]}, project)
+    density = json.loads(study.config("compare", "own", "base"))["noise_density"]["drive"]
+    assert density == pytest.approx({"accelerometer": 100e-6 * 9.80665, "gyroscope": 0.01 * 3.141592653589793 / 180})
+    # Alignment does not depend on it.
+    assert "noise_density" not in study.config("measured", "own")
+
+
+def test_the_study_goes_forward_only_where_drives_are_diagnosed_and_is_scored_only_on_stand_ins(project):
+    paper = config.load({**read(project), "sites": ["ts1"]}, project)
+    assert paper.forward and paper.scored
+    bare = config.load({**read(project), "sites": ["own"]}, project)
+    assert not bare.forward and not bare.scored
+    (project / "drive.csv").touch()
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{"file": "drive.csv"}]})
+    own = config.load({**read(project), "sites": ["own"]}, project)
+    assert own.forward and not own.scored
+    assert not config.load({**read(project), "diagnosis": {"forward": False}}, project).forward

@@ -16,7 +16,7 @@ ORDER = [
     {"road", "vehicle", "effects", "drive"},
     {"simulate", "space", "sample", "calibrated", "problem", "identifiability", "calibrate", "standin"},
     {"comfort", "discrepancy"},
-    {"report", "config"},
+    {"report", "config", "stepsettings"},
     {"steps", "commands", "__main__"},
 ]
 """Rooms in the order in which data flows: a module imports from its own row and those above."""

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from ridecomfort.discrepancy import car
 from ridecomfort.discrepancy.explain import explain
+from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, judged
 
 from .coloured import coloured
 
@@ -27,7 +29,7 @@ def comparison(repeats=3):
 def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_common_error():
     noise, compared = comparison()
     found = explain(compared)
-    assert np.asarray(found["floor_rmse"]).mean() == pytest.approx(noise.std(axis=-1).mean(), rel=0.06)
+    assert np.asarray(found["floor_rmse"]).mean() == pytest.approx(judged(noise, 100.0, ["a_z"] * noise.shape[1]).std(axis=-1).mean(), rel=0.06)
     assert float(found["explained_share"].sel(state="calibrated").mean()) == pytest.approx(0.75, abs=0.06)
     assert found.attrs["floor"] == "from repeats"
 
@@ -35,3 +37,29 @@ def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_com
 def test_without_repeats_the_floor_is_said_to_be_taken_as_nil():
     found = explain(comparison(repeats=1)[1])
     assert "nil" in found.attrs["floor"] and float(found["floor_rmse"].max()) == 0.0
+
+
+def test_without_repeats_it_may_be_assumed_from_the_instruments():
+    """White noise of a density d from 0.8 to 50 Hz has a mean square of 49.2 d^2; the error is larger than that."""
+    compared = comparison(repeats=1)[1].isel(signal=[0, 1]).assign_coords(drive=["one"], signal=["a_z", "roll_rate"])
+    found = explain(compared, {"one": {"accelerometer": 0.01, "gyroscope": 0.002}})
+    assert found["floor_rmse"].values.ravel() == pytest.approx([0.01 * np.sqrt(49.2), 0.002 * np.sqrt(49.2)], rel=0.01)
+    assert "assumed from the noise densities" in found.attrs["floor"] and "no drive was repeated" in found.attrs["floor"]
+
+
+def test_repeats_know_better_than_a_data_sheet():
+    compared = comparison()[1].assign_coords(drive=["one", "two", "three"])
+    found = explain(compared, {"one": {"accelerometer": 10.0, "gyroscope": 10.0}})
+    assert found.attrs["floor"] == "from repeats"
+
+
+def test_errors_that_are_slower_than_the_vehicle_are_not_its_to_explain():
+    compared = comparison()[1]
+    slow = compared.copy(deep=True)
+    slow["residual"] = slow["residual"] + 5.0 * np.sin(2 * np.pi * 0.2 * slow["time"])
+    for name in ("floor_rmse", "explainable_rmse"):
+        np.testing.assert_allclose(explain(slow)[name], explain(compared)[name], rtol=0.01)
+
+
+def test_what_is_explained_is_judged_in_the_band_that_effects_are_searched_in():
+    assert (LOWEST, LOWEST_OF_DRIVER) == (car.LOWEST, car.LOWEST_OF_DRIVER)

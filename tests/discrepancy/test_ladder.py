@@ -1,4 +1,4 @@
-"""The ladder starts with all of the explainable error and ends at the floor."""
+"""The ladder starts with all of the explainable error and ends at the floor; sections are counted as they are graded."""
 
 from __future__ import annotations
 
@@ -6,24 +6,89 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy.ladder import ladder, table
+from ridecomfort.discrepancy import critical
+from ridecomfort.discrepancy.ladder import Measured, ladder, rung_titles
 
 
-def test_shares_left_fall_from_one_to_nought():
-    squares = np.array([[[5.0]], [[3.0]], [[1.0]]])
-    rungs = ladder(
-        xr.Dataset(
-            {
-                "mean_square": (("model", "drive", "signal"), squares),
-                "held_out_mean_square": (("model", "held_out", "signal"), squares + 1.0),
-                "floor_mean_square": (("drive", "signal"), [[1.0]]),
-                "held_out_floor_mean_square": (("held_out", "signal"), [[1.0]]),
-            },
-            {"model": ["calibrated", "one", "two"], "signal": ["a_z"]},
-            {"floor": "from repeats"},
-        )
+def comparison(*squares, floor=1.0, states=("reference", "calibrated")):
+    """A comparison of a fitted and a check drive of one signal with these mean squares by state."""
+    values = np.sqrt(np.array(squares))[:, None, None] * np.ones((1, 2, 1))
+    return xr.Dataset(
+        {
+            "explainable_rmse": (("state", "drive", "signal"), np.sqrt(values**2 - floor)),
+            "nrmse": (("state", "drive", "signal"), 0.1 * values),
+            "floor_rmse": (("drive", "signal"), np.full((2, 1), np.sqrt(floor))),
+            "role": ("drive", ["fit", "check"]),
+        },
+        {"state": list(states), "drive": ["one", "slow"], "signal": ["a_z"]},
+        {"floor": "from repeats"},
     )
-    assert rungs["left"].values.ravel() == pytest.approx([1.0, 0.5, 0.0])
-    assert rungs["held_out_left"].values.ravel() == pytest.approx([1.0, 0.6, 0.2])
-    assert [row["model"] for row in table(rungs)] == ["calibrated", "one", "two"]
-    assert table(rungs)[0]["rmse"] == pytest.approx(np.sqrt(5.0))
+
+
+def sections(*simulated, measured=(0, 1, 2, 0), groups=(0, 1)):
+    """Graded sections; ``simulated`` by state."""
+    grade = np.array([measured, *simulated], np.int8)[:, None, None, :] * np.ones((1, 2, 2, 1), np.int8)
+    return xr.Dataset(
+        {"grade": (("source", "method", "drive", "window"), grade), "repeat_group": ("drive", list(groups))},
+        {"source": ["measured", "reference", "calibrated"], "method": list(critical.METHODS), "drive": ["one", "slow"]},
+    )
+
+
+@pytest.fixture(scope="module")
+def found():
+    comparisons = {"base": comparison(9.0, 5.0), "one": comparison(9.0, 3.0), "one+two": comparison(9.0, 1.0)}
+    graded = {
+        "base": sections((0, 0, 0, 0), (1, 0, 0, 0)),
+        "one": sections((0, 0, 0, 0), (0, 1, 0, 0)),
+        "one+two": sections((0, 0, 0, 0), (0, 1, 2, 0)),
+    }
+    return ladder({"ts1": Measured(comparisons, graded, True)}, list(comparisons), ["+ one", "+ two"])
+
+
+def test_shares_left_fall_from_one_to_nought(found):
+    assert list(found["rung"].values) == ["uncalibrated", "calibrated", "+ one", "+ two"]
+    for group in ("fitted", "held out"):
+        chosen = found.sel(site="ts1", group=group)
+        assert chosen["left"].sel(signal="a_z").values == pytest.approx([2.0, 1.0, 0.5, 0.0])
+        assert chosen["left_overall"].values == pytest.approx([2.0, 1.0, 0.5, 0.0])
+    assert found["rmse"].sel(site="ts1", group="fitted", signal="a_z").values == pytest.approx(np.sqrt([9.0, 5.0, 3.0, 1.0]))
+
+
+def test_sections_are_compared_with_the_measured_and_with_the_rung_before(found):
+    chosen = found.sel({"site": "ts1", "group": "fitted", "method": "thresholds"})
+    assert chosen["compared"].values.tolist() == [4, 4, 4, 4]
+    assert chosen["critical_measured"].values.tolist() == [2, 2, 2, 2]
+    assert chosen["critical_simulated"].values.tolist() == [0, 1, 1, 2]
+    assert chosen["agreeing"].values.tolist() == [2, 1, 3, 4]
+    assert np.isnan(chosen["changed"].values[0]) and chosen["changed"].values[1:].tolist() == [1, 2, 1]
+
+
+def test_the_floor_is_the_least_that_any_rung_shows():
+    base, better = comparison(5.0, 5.0, floor=2.0), comparison(5.0, 1.0, floor=0.5)
+    graded = {name: sections((0, 0, 0, 0), (0, 0, 0, 0)) for name in ("base", "one")}
+    found = ladder({"ts1": Measured({"base": base, "one": better}, graded, True)}, ["base", "one"], ["+ one"])
+    assert found["floor_rmse"].sel(site="ts1", group="fitted").item() == pytest.approx(np.sqrt(0.5))
+
+
+def test_drives_of_a_site_that_was_not_fitted_are_all_held_out():
+    graded = {"base": sections((0, 0, 0, 0), (0, 0, 0, 0))}
+    found = ladder({"ts2": Measured({"base": comparison(9.0, 5.0)}, graded, False)}, ["base"], [])
+    assert found["rmse"].sel(group="fitted").isnull().all() and found["rmse"].sel(group="held out").notnull().all()
+
+
+def test_a_signal_at_its_floor_has_nothing_left_to_tell():
+    graded = {"base": sections((0, 0, 0, 0), (0, 0, 0, 0))}
+    found = ladder({"ts1": Measured({"base": comparison(1.01, 1.01)}, graded, True)}, ["base"], [])
+    assert found["left"].isnull().all()
+
+
+def test_repeats_say_how_well_a_perfect_model_could_agree():
+    one = sections((0, 0, 0, 0), (0, 0, 0, 0), groups=(2, 2))
+    one["grade"][0, 0, 1, 0] = 1  # the second repeat is graded otherwise by thresholds in one section of four
+    same = comparison(9.0, 5.0).assign(role=("drive", ["fit", "fit"]))
+    found = ladder({"ts1": Measured({"base": same}, {"base": one}, True)}, ["base"], [])
+    assert found["repeats_agreeing"].sel(site="ts1", group="fitted").values == pytest.approx([0.75, 1.0])
+
+
+def test_rungs_of_a_cluster_are_called_by_all_names():
+    assert rung_titles(["one", "two"], {"one": ["other"]}) == ["+ one or other", "+ two"]

@@ -8,8 +8,8 @@ import pytest
 from ridecomfort import store
 from ridecomfort.errors import InputError
 from ridecomfort.report import catalogue, style, table
-from ridecomfort.steps import figures, report, results, tables
-from tests.report import synthetic
+from ridecomfort.steps import compared, diagnosed, figures, report, results, tables
+from tests.report import differing, synthetic
 
 
 @pytest.fixture(scope="module")
@@ -21,10 +21,16 @@ def written(tmp_path_factory):
     config["sites"]["home"] |= {"has_drives": False, "calibrated_on": None}
     for site in study.sites:
         for key, file in site.files.items():
-            if key != "comparison" or site.name == "ts1":
+            if key != "comparison":
                 title = f"{key} of {site.name}"
                 store.write(getattr(site, key), folder / file, title=title, configuration=config, seed=1)
     store.write(study.assessment, folder / study.assessment_file, title="agreement", configuration=config, seed=1)
+    difference, diagnosis = differing.difference(("ts1",)), differing.diagnosis()
+    store.write(difference.sites[0].comparison, folder / "ts1" / "base" / "comparison.nc", title="comparison of ts1")
+    store.write(difference.sites[0].measured, folder / "ts1" / "measured.nc", title="measured on ts1")
+    store.write(difference.ladder, folder / "ladder" / "base.nc", title="ladder")
+    store.write(diagnosis.ranking, folder / "diagnosis" / "base" / "ranking.nc", title="ranking")
+    (folder / "diagnosis" / "base" / "verdict.json").write_text(json.dumps(differing.VERDICT))
     store.write(study.calibrations["ts1"], folder / "ts1" / "base" / "calibration.nc", title="calibration", seed=1)
     return folder, config
 
@@ -34,12 +40,19 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     folder, config = written
     tables.main(folder, config, folder / "tables")
     figures.main(folder, config, folder / "figures")
-    report.main(folder, config, folder / "report.html")
-    expected = {f"{name}{suffix}" for name in catalogue.tables(config["sites"]) for suffix in table.WRITERS}
+    looped = {**config, "diagnosed": ["ts1"], "scored": False}
+    compared.main(folder, {**config, "sites": {"ts1": config["sites"]["ts1"]}}, folder)
+    diagnosed.main(folder, looped, folder)
+    report.main(folder, looped, folder / "report.html")
+    names = [*catalogue.tables(config["sites"]), *catalogue.DIFFERENCE_TABLES, *catalogue.DIAGNOSIS_TABLES]
+    expected = {f"{name}{suffix}" for name in names for suffix in table.WRITERS}
     assert {file.name for file in (folder / "tables").iterdir()} == expected
-    expected = {f"{name}{suffix}" for name in catalogue.figures(config["sites"]) for suffix in (".png", ".pdf")}
+    names = [*catalogue.figures(config["sites"]), *catalogue.difference_figures(["ts1"]), *catalogue.DIAGNOSIS_FIGURES]
+    expected = {f"{name}{suffix}" for name in names for suffix in (".png", ".pdf")}
     assert {file.name for file in (folder / "figures").iterdir()} == expected
-    assert (folder / "report.html").read_text(encoding="utf-8").rstrip().endswith("</html>")
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert page.rstrip().endswith("</html>")
+    assert all(f'id="{place}"' in page for place in ("fig-located_ts1", "tab-verdict", "fig-error_ladder", "tab-error_ladder"))
 
 
 def test_traces_name_files_that_exist(written):

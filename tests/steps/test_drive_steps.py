@@ -67,9 +67,17 @@ def test_records_are_aligned_fitted_and_compared(files, car_file):
     assert list(found["parameter"].values) == list(CALIBRATED) and found.attrs["calibrated_on"] == "here"
     assert float(found["value"][0]) == pytest.approx(22000.0, rel=0.03)
 
+    model |= {"noise_density": {}}
     compare.main(**common, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc")
-    nrmse = store.read(files / "comparison.nc")["nrmse"].sel(signal="pitch_rate")
+    compared = store.read(files / "comparison.nc")
+    nrmse = compared["nrmse"].sel(signal="pitch_rate")
     assert (nrmse.sel(state="calibrated") < 0.3 * nrmse.sel(state="reference")).all()
+    assert compared.attrs["located_state"] == "calibrated" and "words" in compared.attrs
+
+    # Without a calibration the effects of a model are compared as they are, beside the vehicle without them.
+    friction = model | {"effects": {"suspension_friction": {}}}
+    compare.main(**common, calibration=None, config=friction, output=files / "comparison.nc")
+    assert list(store.read(files / "comparison.nc")["state"].values) == ["reference", "with_effects"]
 
 
 def test_a_bad_record_ends_the_step_with_one_line_and_no_file(files, car_file, tmp_path):

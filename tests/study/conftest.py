@@ -38,8 +38,8 @@ class Answer:
 
 
 RULES = (
-    "road measured calibrate sample simulate space thresholds iso2631 iri agreement maps comparison "
-    "tables figures report"
+    "road measured calibrate sample simulate space thresholds iso2631 iri agreement maps comparison critical ladder compared "
+    "diagnosis diagnosed standin_score tables figures report"
 ).split()
 
 

@@ -61,3 +61,10 @@ def test_a_car_of_others_is_calibrated_and_compared(project, shared):
     assert np.isfinite(nrmse).all()
     fitted = nrmse.sel(state="calibrated").isel(drive=0) / nrmse.sel(state="reference").isel(drive=0)
     assert float(fitted.mean()) < 1
+    # No drive was repeated, and it is said so; the ladder has the rungs that there are.
+    assert "no drive was repeated" in found.attrs["floor"] and found.attrs["words"]
+    ladder = (project.folder / "results/tables/error_ladder.csv").read_text()
+    assert "realcar,fitted,calibrated" in ladder and "realcar,held out,uncalibrated" in ladder
+    assert (project.folder / "results/figures/located_realcar.png").stat().st_size > 10_000
+    again = project.snakemake("--dry-run", "compare", "--config", "sites=[realcar]", "calibration={restarts: 0}")
+    assert "Nothing to be done" in again.text

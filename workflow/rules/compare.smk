@@ -23,3 +23,79 @@ rule comparison:
         "python -m ridecomfort.steps.compare --road {input.road:q} --measured {input.measured:q}"
         " --vehicle {input.vehicle:q} --calibration {input.calibration:q}"
         " --config {params.config:q} --output {output:q} 2> {log:q}"
+
+
+# What that does to comfort: sections of the measured drives, and of the model on the same path.
+rule critical:
+    input:
+        code=modules.of_step("critical"),
+        comparison="results/{site}/{model}/comparison.nc",
+    output:
+        "results/{site}/{model}/critical.nc",
+    params:
+        config=lambda wildcards: study.config("critical", wildcards.site),
+    log:
+        "results/logs/critical/{site}/{model}.log",
+    benchmark:
+        "results/benchmarks/critical/{site}/{model}.tsv"
+    shell:
+        "python -m ridecomfort.steps.critical --comparison {input.comparison:q}"
+        " --config {params.config:q} --output {output:q} 2> {log:q}"
+
+
+# The error of one model after another, down to the floor. Models of earlier calls are not computed again.
+rule ladder:
+    input:
+        code=modules.of_step("ladder"),
+        comparisons=lambda wildcards: models.known(study).files(study, "comparison.nc"),
+        critical=lambda wildcards: models.known(study).files(study, "critical.nc"),
+    output:
+        f"results/ladder/{study.model}.nc",
+    params:
+        config=lambda wildcards: models.ladder_settings(study, models.known(study)),
+    log:
+        f"results/logs/ladder/{study.model}.log",
+    benchmark:
+        f"results/benchmarks/ladder/{study.model}.tsv"
+    shell:
+        "python -m ridecomfort.steps.ladder --comparisons {input.comparisons:q} --sections {input.critical:q}"
+        " --config {params.config:q} --output {output:q} 2> {log:q}"
+
+
+# Tables and figures of all that.
+rule compared:
+    input:
+        code=modules.of_step("compared"),
+        measured=expand("results/{site}/measured.nc", site=study.measured),
+        comparisons=expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
+        ladder=rules.ladder.output,
+    output:
+        expand("results/tables/{name}.{suffix}", name=catalogue.DIFFERENCE_TABLES, suffix=["csv", "md", "tex", "trace.csv"]),
+        expand("results/figures/{name}.pdf", name=catalogue.difference_figures(study.measured)),
+        html=[
+            report(
+                f"results/tables/{name}.html",
+                caption="../report/table.rst",
+                category="Model and measurement",
+                labels={"table": name, "shows": caption},
+            )
+            for name, caption in catalogue.DIFFERENCE_TABLES.items()
+        ],
+        png=[
+            report(
+                f"results/figures/{name}.png",
+                caption="../report/figure.rst",
+                category="Model and measurement",
+                labels={"figure": name, "shows": caption},
+            )
+            for name, caption in catalogue.difference_figures(study.measured).items()
+        ],
+    params:
+        config=study.config("compared", model=study.model),
+    log:
+        "results/logs/compared/study.log",
+    benchmark:
+        "results/benchmarks/compared/study.tsv"
+    shell:
+        "python -m ridecomfort.steps.compared --results results"
+        " --config {params.config:q} --output results 2> {log:q}"

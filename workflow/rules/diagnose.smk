@@ -1,5 +1,6 @@
 # Which physical effect the model lacks, from the drives measured on all sites of the calibrated vehicle.
-rule diagnosis:
+# What it names decides which models the study goes on with.
+checkpoint diagnosis:
     input:
         code=modules.of_step("diagnose"),
         effects=lambda wildcards: study.library_files(),
@@ -25,3 +26,41 @@ rule diagnosis:
         "python -m ridecomfort.steps.diagnose --roads {input.roads:q} --measured {input.measured:q}"
         " --vehicle {input.vehicle:q} --calibration {input.calibration:q} --config {params.config:q}"
         " --ranking {output.ranking:q} --verdict {output.verdict:q} 2> {log:q}"
+
+
+# The evidence as tables and figures.
+rule diagnosed:
+    input:
+        code=modules.of_step("diagnosed"),
+        ranking=f"results/diagnosis/{study.model}/ranking.nc",
+        verdict=f"results/diagnosis/{study.model}/verdict.json",
+    output:
+        expand("results/tables/{name}.{suffix}", name=catalogue.DIAGNOSIS_TABLES, suffix=["csv", "md", "tex", "trace.csv"]),
+        expand("results/figures/{name}.pdf", name=catalogue.DIAGNOSIS_FIGURES),
+        html=[
+            report(
+                f"results/tables/{name}.html",
+                caption="../report/table.rst",
+                category="Missing effects",
+                labels={"table": name, "shows": caption},
+            )
+            for name, caption in catalogue.DIAGNOSIS_TABLES.items()
+        ],
+        png=[
+            report(
+                f"results/figures/{name}.png",
+                caption="../report/figure.rst",
+                category="Missing effects",
+                labels={"figure": name, "shows": caption},
+            )
+            for name, caption in catalogue.DIAGNOSIS_FIGURES.items()
+        ],
+    params:
+        config=study.config("diagnosed", model=study.model),
+    log:
+        "results/logs/diagnosed/study.log",
+    benchmark:
+        "results/benchmarks/diagnosed/study.tsv"
+    shell:
+        "python -m ridecomfort.steps.diagnosed --results results"
+        " --config {params.config:q} --output results 2> {log:q}"

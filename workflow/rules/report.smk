@@ -67,11 +67,18 @@ rule figures:
         " --config {params.config:q} --output results/figures 2> {log:q}"
 
 
+# The page needs the verdict first: what it names decides which models stand on the error ladder.
 rule report:
     input:
         results,
         rules.tables.output,
         rules.figures.output,
+        lambda wildcards: [
+            *(checkpoints.diagnosis.get(model=study.model).output if study.forward else []),
+            *(rules.diagnosed.output if study.forward else []),
+            *(rules.standin_score.output if study.scored else []),
+            *(rules.compared.output if study.measured else []),
+        ],
         code=modules.of_step("report"),
     output:
         "results/report.html",

@@ -63,3 +63,36 @@ for site in study.made:
                 "python -m ridecomfort.steps.standin_drives --road {input.road:q}"
                 " --vehicle {input.vehicle:q} --config {params.config:q}"
                 " --output {output.drives:q} --truth {output.truth:q} 2> {log:q}"
+
+
+# What was hidden against what was found. The only rule that reads the truth; nothing but the page reads its result.
+if study.scored:
+
+    rule standin_score:
+        input:
+            code=modules.of_step("standin_score"),
+            effects=study.library_files(),
+            truth=expand("data/{site}/truth/drives.json", site=study.diagnosed),
+            ranking=f"results/diagnosis/{study.model}/ranking.nc",
+            verdict=f"results/diagnosis/{study.model}/verdict.json",
+        output:
+            expand("results/tables/{name}.{suffix}", name=catalogue.SCORE_TABLES, suffix=["csv", "md", "tex", "trace.csv"]),
+            score=f"results/diagnosis/{study.model}/score.json",
+            html=[
+                report(
+                    f"results/tables/{name}.html",
+                    caption="../report/table.rst",
+                    category="Missing effects",
+                    labels={"table": name, "shows": caption},
+                )
+                for name, caption in catalogue.SCORE_TABLES.items()
+            ],
+        params:
+            config=study.config("standin_score", model=study.model),
+        log:
+            "results/logs/standin_score/study.log",
+        benchmark:
+            "results/benchmarks/standin_score/study.tsv"
+        shell:
+            "python -m ridecomfort.steps.standin_score --truth {input.truth:q} --verdict {input.verdict:q}"
+            " --ranking {input.ranking:q} --config {params.config:q} --output {output.score:q} --tables results/tables 2> {log:q}"

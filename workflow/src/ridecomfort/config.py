@@ -10,6 +10,7 @@ from pathlib import Path
 
 import yaml
 
+from . import stepsettings
 from .comfort import bands
 from .effects import library
 from .errors import InputError
@@ -30,7 +31,8 @@ JOIN = "+"
 
 TAKEN = frozenset(
     "all compare diagnose report blind survey road inspect measured calibrate sample simulate space thresholds iso2631 iri "
-    "comparison agreement maps comfort tables figures diagnosis logs benchmarks bench none".split()
+    "comparison agreement maps comfort tables figures diagnosis critical ladder compared diagnosed score logs benchmarks bench "
+    "none".split()
 )
 """Names of targets and of folders in results/, which no site may have."""
 
@@ -82,7 +84,7 @@ class Study:
 
     def effect_files(self, model: str) -> list[str]:
         """The files of a model's effects."""
-        known = effect_files(self._effects_folder)
+        known = effect_files(self.effects_folder)
         return [os.path.relpath(known[name], self.folder) for name in self.effects(model) if name in known]
 
     def vehicle(self, site: str) -> str:
@@ -139,7 +141,7 @@ class Study:
 
     def library_files(self) -> list[str]:
         """The file of every effect that may be missing."""
-        return [os.path.relpath(path, self.folder) for path in effect_files(self._effects_folder).values()]
+        return [os.path.relpath(path, self.folder) for path in effect_files(self.effects_folder).values()]
 
     @property
     def made(self) -> list[str]:
@@ -147,111 +149,28 @@ class Study:
         return [site for site in self.sites if self.sites[site]["standin"]]
 
     @property
-    def _effects_folder(self) -> Path | None:
+    def forward(self) -> bool:
+        """Whether the study goes on with the effects that its diagnosis names."""
+        return bool(self.diagnosed) and self.settings["diagnosis"]["forward"]
+
+    @property
+    def scored(self) -> bool:
+        """Whether the truth is known of all drives that are diagnosed, and the whole study scores the verdict against it."""
+        return self.forward and all(self.sites[site]["standin"] for site in self.diagnosed)
+
+    @property
+    def effects_folder(self) -> Path | None:
+        """Folder with effects of the user's own, None without one."""
         named = self.settings["effects_folder"]
         return None if named is None else self.folder / named
 
     def config(self, step: str, site: str | None = None, model: str | None = None) -> str:
         """Exactly the settings that a step uses, as JSON: when they change, and only then, it runs again."""
-        return json.dumps(self._config(step, site, model))
-
-    def _config(self, step: str, site: str | None, model: str | None) -> dict:
-        study = self.settings
-        own = {} if site is None else self.sites[site]
-        at = {} if site is None else {"site": site}
-        simulation = {key: study["simulation"][key] for key in ("step", "rate")}
-        simulated = {
-            **at,
-            "effects": self.effects(model),
-            "effects_folder": study["effects_folder"],
-            "simulation": simulation,
-        }
-        comfort = study["comfort"]
-        sections = {**at, **{key: comfort[key] for key in ("critical_length", "sections")}}
-        match step:
-            case "standin_road":
-                surface = {key: value for key, value in self.standin.items() if key not in ("measurement", "scanner")}
-                return {**surface, **at, "sites": {site: self.standin["sites"][site]}}
-            case "standin_drives":
-                speed = {site: {"speed": self.standin["sites"][site]["speed"]}}
-                keys = ("file", "columns", "sensor", "role")
-                drives = [{key: drive[key] for key in keys if key in drive} for drive in own["drives"]]
-                return {**at, **{key: self.standin[key] for key in ("seed", "measurement")}, "sites": speed, "drives": drives}
-            case "standin_scan":
-                return {**at, "seed": self.standin["seed"], "scanner": self.standin["scanner"]}
-            case "survey":
-                grid = {key: own["road"]["scan"][key] for key in ("spacing", "width")}
-                return {**at, "title": own["title"], **grid}
-            case "road":
-                return {**at, "title": own["title"], "standin": own["standin"], "options": own["road"]["options"]}
-            case "inspect":
-                road = {"title": own["title"], "options": own["road"]["options"]}
-                return {**at, **road, "speed": own["speed"], "simulation": simulation}
-            case "measured":
-                return {**at, "drives": own["drives"], "alignment": study["alignment"], "simulation": simulation}
-            case "calibrate":
-                return {**simulated, "calibration": study["calibration"]}
-            case "compare":
-                return simulated
-            case "diagnose":
-                return {
-                    **simulated,
-                    "sites": self.diagnosed,
-                    "fitted_on": self.diagnosed[:1],
-                    "bounds": study["calibration"]["bounds"],
-                    "seed": study["seed"],
-                    "workers": None,
-                    "among": None,
-                }
-            case "sample":
-                return {
-                    **at,
-                    "runs": study["runs"],
-                    "seed": study["seed"],
-                    "method": study["sampling_method"],
-                    "sampling": own["sampling"],
-                }
-            case "simulate":
-                return {**simulated, "speed": own["speed"]}
-            case "space":
-                weighted = {key: value for key, value in comfort["iso2631"].items() if key not in ("bands", "label")}
-                return {**at, "space": study["space"], "iso2631": weighted}
-            case "thresholds":
-                return {**sections, **{key: comfort[key] for key in ("thresholds", "jerk")}}
-            case "iso2631":
-                banded = {key: value for key, value in comfort["iso2631"].items() if key != "label"}
-                return {**sections, "iso2631": banded}
-            case "iri":
-                return {**sections, "iri": comfort["iri"]}
-            case "agreement":
-                return {"sites": self.names, "seed": study["seed"], "label": comfort["iso2631"]["label"]}
-            case "maps":
-                place = {"geo_reference": own["road"]["geo_reference"]}
-                return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"], **place}
-            case "tables" | "figures" | "report":
-                keys = ("runs", "seed", "sampling_method", "space", "calibration", "comfort")
-                return {
-                    **simulated,
-                    "sites": self.summary(),
-                    "model": model,
-                    **{key: study[key] for key in keys},
-                }
-        raise KeyError(step)
+        return json.dumps(stepsettings.of_step(self, step, site, model))
 
     def summary(self) -> dict[str, dict]:
         """What tables and figures say of each configured site."""
-        return {
-            site: {
-                "title": self.sites[site]["title"],
-                "standin": self.sites[site]["standin"],
-                "has_drives": bool(self.sites[site]["drives"]),
-                "calibrated_on": self.calibrated_on(site),
-                "speed": self.sites[site]["speed"],
-                "sampling": self.sites[site]["sampling"],
-                "vehicle": self.vehicle(site),
-            }
-            for site in self.names
-        }
+        return {site: stepsettings.summary(self, site) for site in self.names}
 
 
 def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ()) -> Study:
@@ -383,7 +302,7 @@ def _has_fit(site: Mapping) -> bool:
 
 
 def _check_effects(study: Study, given: list[str]) -> None:
-    folder = study._effects_folder
+    folder = study.effects_folder
     if folder is not None and not folder.is_dir():
         raise InputError(f"no such folder {str(folder)!r}", file=_source("effects_folder", given), place="effects_folder")
     if study.effects():

@@ -15,9 +15,14 @@ from ..drive.record import unstack
 from ..drive.replay import CLOCK_LEFT, Replay, replay
 from ..vocabulary import SIGNALS
 from .explain import explain
+from .wheels import wheels
 
 CLOCK_STEPS = 2
 """Gauss-Newton steps; the second changes a clock within CLOCK_LEFT by less than 0.01 ms."""
+
+DRIVEN = ("v_x", "s", "e")
+BELOW = ("suspension_velocity", "tyre_velocity", "road_heave", "road_tilt")
+"""Series of a comparison over drive and time beside the signals: how the drive went, and what went on below the body."""
 
 
 def rmse(residual: np.ndarray) -> np.ndarray:
@@ -38,6 +43,7 @@ def compare(
     *,
     simulate: Callable[..., xr.Dataset],
     options: Mapping | None = None,
+    noise_density: Mapping[str, Mapping[str, float]] | None = None,
 ) -> xr.Dataset:
     """The model driven over every measured path, state by state, beside what was measured there.
 
@@ -49,7 +55,8 @@ def compare(
     Returns over drive, time, signal, state: ``measured`` and ``simulated`` (unit by signal in
     ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
     recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``,
-    and the floor and the explainable error (``explain.explain``).
+    of the last state ``suspension_velocity``, ``tyre_velocity``, ``road_heave`` and ``road_tilt`` (``wheels.wheels``), and
+    the floor and the explainable error (``explain.explain``, which ``noise_density`` is for).
     """
     drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
     length = max(drive.sizes["time"] for drive in drives)
@@ -58,17 +65,19 @@ def compare(
     simulated = np.full((len(states), *shape), np.nan)
     residual = np.full((len(states), *shape), np.nan)
     clock = np.zeros((len(states), len(drives)))
-    series = {name: np.full((len(drives), length), np.nan) for name in ("v_x", "s", "e")}
+    series = {name: np.full((len(drives), length), np.nan) for name in (*DRIVEN, *BELOW)}
     for i, drive in enumerate(drives):
         count = drive.sizes["time"]
         again = replay(drive, road, simulate, options=options)
         measured[i, :, :count] = again.measured()
-        for name, values in series.items():
-            values[i, :count] = drive[name].values
+        for name in DRIVEN:
+            series[name][i, :count] = drive[name].values
         for j, (vehicle, effects) in enumerate(states.values()):
             clock[j, i], difference = _at_best_clock(again, vehicle, effects)
             residual[j, i, :, :count] = difference
             simulated[j, i, :, :count] = again.measured() + difference
+        for name, values in zip(BELOW, _below(again, vehicle, simulated[-1, i, :, :count])):
+            series[name][i, :count] = values
     longest = max(drives, key=lambda drive: drive.sizes["time"])
     result = xr.Dataset(
         {
@@ -89,7 +98,26 @@ def compare(
             "time": longest["time"].values,
         },
     )
-    return explain(result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal"))
+    result = result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal")
+    return explain(result, noise_density)
+
+
+def _below(again: Replay, vehicle, simulated: np.ndarray) -> np.ndarray:
+    """The series BELOW of a drive, (4, time), from its simulated signals (6, time); NaN in the run-in."""
+    kept = again.compared
+    drive = again.drive
+    rate = (len(again.time) - 1) / (again.time[-1] - again.time[0])
+    aside = drive["e"].values
+    if not np.isfinite(aside).all():
+        aside = np.full(len(again.time), np.nan_to_num(float(drive.attrs.get("lateral_position", 0.0))))
+    signal = {name: values[kept] for name, values in zip(SIGNALS, simulated)}
+    found = wheels(
+        getattr(again.road, "road", again.road), vehicle, again.place[kept], aside[kept], rate,
+        signal["a_z"], signal["roll_rate"], signal["pitch_rate"], again.demand["sensor"],
+    )  # fmt: skip
+    series = np.full((len(BELOW), len(kept)), np.nan)
+    series[:, kept] = found.suspension_velocity, found.tyre_velocity, found.heave(), found.tilt()
+    return series
 
 
 def _at_best_clock(again: Replay, vehicle, effects) -> tuple[float, np.ndarray]:

@@ -2,45 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+
 import numpy as np
 import xarray as xr
 
+from ..vocabulary import VARIABLES
 from .experiment import Record
 from .floor import deviations
+from .judged import LOWEST, judged
 
 SAME_SPEED = 0.05
 """Relative difference of mean speeds within which drives repeat one another."""
 
+REPEATS = "from repeats"
+NIL = "taken as nil: no drive was repeated"
+ASSUMED = "assumed from the noise densities of the instruments: no drive was repeated; errors of path and road are not in it"
+"""What a floor is known from, as in the attribute ``floor``."""
 
-def explain(comparison: xr.Dataset) -> xr.Dataset:
+INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
+"""Instrument that a signal of this unit is recorded with."""
+
+
+@dataclass(frozen=True)
+class OwnNoise:
+    """What a repeat has of its own, of what is judged: ``noise`` (signal, sample) in the units of the signals, ``place`` in m."""
+
+    place: np.ndarray
+    noise: np.ndarray
+
+
+def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, float]] | None = None) -> xr.Dataset:
     """A comparison (``compare.compare``) with its floor and its explainable error.
 
-    Added, in the unit of the signal: ``floor_rmse(drive, signal)``, what no model of this road and car could explain, from
-    the differences of repeats at equal place in the best state; ``explainable_rmse(state, drive, signal)``, the root of mean
-    square less floor; and ``explained_share(state, drive, signal)``, the share of the first
-    state's explainable mean square that is gone.
-    Without repeats the floor is taken as nil; attribute ``floor`` says which.
+    Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no
+    model of this road and car could explain, from the differences of repeats at equal place in the best state; ``explainable_rmse(state, drive, signal)``,
+    the root of mean square less floor; and ``explained_share(state, drive, signal)``, the share of the first
+    state's explainable mean square that is gone. Without repeats the floor is that of the instruments
+    alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz), "gyroscope": rad/s/sqrt(Hz)}, one-sided), or nil;
+    attribute ``floor`` says which.
     """
-    states, signals = comparison.sizes["state"], comparison.sizes["signal"]
-    floors = np.full((states, comparison.sizes["drive"], signals), np.nan)
-    for group in _repeats(comparison):
-        for state in range(states):
-            records, residuals = [], []
-            for drive in group:
-                row = comparison.isel(state=state, drive=drive)
-                kept = np.isfinite(row["residual"].values).all(axis=0)
-                place = row["s"].values[kept]
-                records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
-                part = row["residual"].values[:, kept]
-                residuals.append(part - part.mean(axis=1, keepdims=True))
-            parts = deviations(records, residuals)
-            floors[state, group] = np.mean([np.mean(part**2, axis=1) for part in parts], axis=0)
-    repeated = np.isfinite(floors).any()
-    ground = np.nanmin(floors, axis=0) if repeated else np.zeros(floors.shape[1:])
-    # A drive of its own speed has no repeats: its floor is taken from those that have.
-    alone = ~np.isfinite(ground).all(axis=1)
-    ground[alone] = ground[~alone].mean(axis=0) if (~alone).any() else 0.0
-    square = comparison["residual"].var("time").transpose("state", "drive", "signal").values
+    floors = np.full((comparison.sizes["state"], comparison.sizes["drive"], comparison.sizes["signal"]), np.nan)
+    for state, name in enumerate(comparison["state"].values):
+        for drive, own in own_noise(comparison, name).items():
+            floors[state, drive] = np.mean(own.noise**2, axis=1)
+    square = _squares(comparison)
+    if np.isfinite(floors).any():
+        ground, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
+    elif noise_density:
+        ground, known_from = _filled(_of_instruments(comparison, noise_density)), ASSUMED
+    else:
+        ground, known_from = np.zeros(floors.shape[1:]), NIL
     ground = np.minimum(ground, square.min(axis=0))
     above = square - ground
     share = 1.0 - above / np.where(above[:1] > 0, above[:1], np.nan)
@@ -48,10 +61,29 @@ def explain(comparison: xr.Dataset) -> xr.Dataset:
         floor_rmse=(("drive", "signal"), np.sqrt(ground)),
         explainable_rmse=(("state", "drive", "signal"), np.sqrt(above)),
         explained_share=(("state", "drive", "signal"), share, {"units": "1"}),
-    ).assign_attrs(floor="from repeats" if repeated else "taken as nil: no drive was repeated")
+    ).assign_attrs(floor=known_from)
 
 
-def _repeats(comparison: xr.Dataset) -> list[list[int]]:
+def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
+    """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise."""
+    found, signals = {}, comparison["signal"].values
+    for group in repeats(comparison):
+        records, residuals = [], []
+        for drive in group:
+            row = comparison.sel(state=state).isel(drive=drive)
+            residual = row["residual"].transpose("signal", "time").values
+            kept = np.isfinite(residual).all(axis=0)
+            place = row["s"].values[kept]
+            records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
+            residuals.append(judged(residual[:, kept], _rate(comparison), signals))
+        start, end = max(record.place[0] for record in records), min(record.place[-1] for record in records)
+        for drive, record, part in zip(group, records, deviations(records, residuals)):
+            inside = (record.place >= start) & (record.place <= end)
+            found[drive] = OwnNoise(record.place[inside], part)
+    return found
+
+
+def repeats(comparison: xr.Dataset) -> list[list[int]]:
     """Numbers of the drives that repeat one another, at least two in each list."""
     groups: list[tuple[float, list[int]]] = []
     for number, speed in enumerate(comparison["v_x"].mean("time").values):
@@ -62,3 +94,39 @@ def _repeats(comparison: xr.Dataset) -> list[list[int]]:
         else:
             groups.append((float(speed), [number]))
     return [own for _, own in groups if len(own) > 1]
+
+
+def _squares(comparison: xr.Dataset) -> np.ndarray:
+    """Mean squares (state, drive, signal) of what is judged of the residuals."""
+    residual = comparison["residual"].transpose("state", "drive", "signal", "time").values
+    found = np.empty(residual.shape[:-1])
+    for state, drive in np.ndindex(found.shape[:2]):
+        kept = np.isfinite(residual[state, drive]).all(axis=0)
+        part = judged(residual[state, drive][:, kept], _rate(comparison), comparison["signal"].values)
+        found[state, drive] = np.mean(part**2, axis=1)
+    return found
+
+
+def _rate(comparison: xr.Dataset) -> float:
+    """Records per second."""
+    time = comparison["time"].values
+    return float((len(time) - 1) / (time[-1] - time[0]))
+
+
+def _of_instruments(comparison: xr.Dataset, density: Mapping[str, Mapping[str, float]]) -> np.ndarray:
+    """Mean square (drive, signal) of white noise of these densities from LOWEST up to half the rate of the records."""
+    bandwidth = 0.5 * _rate(comparison) - LOWEST
+    instruments = [INSTRUMENT[VARIABLES[str(signal)].unit] for signal in comparison["signal"].values]
+    return np.array(
+        [
+            [density.get(str(drive), {}).get(instrument, np.nan) ** 2 * bandwidth for instrument in instruments]
+            for drive in comparison["drive"].values
+        ]
+    )
+
+
+def _filled(ground: np.ndarray) -> np.ndarray:
+    """The floor (drive, signal) of every drive: one that is not known is the mean of those that are, else nil."""
+    known = np.isfinite(ground)
+    mean = np.where(known.any(axis=0), np.where(known, ground, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1), 0.0)
+    return np.where(known, ground, mean)

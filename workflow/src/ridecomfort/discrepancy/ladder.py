@@ -1,41 +1,153 @@
-"""The error ladder: how far the error falls with each effect that is added, down to the floor."""
+"""The error ladder: how far the error falls with each effect that is added, down to the floor, and what comfort makes of it."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
+from . import critical
 
-def ladder(ranking: xr.Dataset) -> xr.Dataset:
-    """Rows of the error ladder from a ranking (``rank``): calibrated, then with every effect that was found.
+UNCALIBRATED, CALIBRATED = "uncalibrated", "calibrated"
+"""The first rungs: the nominal vehicle, and the base model with its calibration."""
 
-    Over ``model`` and ``signal``: ``rmse`` on fitted and ``held_out_rmse`` on held-out drives, ``floor`` and
-    ``held_out_floor``, and the share of the explainable error that is left, ``left`` and ``held_out_left`` (1 for the
-    first model, 0 at the floor; nan where nothing was explainable). Each model is calibrated anew.
+FITTED, HELD_OUT = "fitted", "held out"
+"""Drives that the model was fitted to, and those that nothing was fitted to."""
+
+VISIBLE = 0.05
+"""Share of the mean square error above the floor below which a signal has nothing left to explain."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A site's comparisons and graded sections (``critical.critical``) by model, and whether its own drives were fitted."""
+
+    comparisons: Mapping[str, xr.Dataset]
+    sections: Mapping[str, xr.Dataset]
+    fitted: bool
+
+
+def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequence[str]) -> xr.Dataset:
+    """The ladder of ``models`` (the first without effects) over sites, their later rungs called ``titles``.
+
+    Returns over ``rung`` (uncalibrated, calibrated, then the models with effects), ``site``, ``group`` (fitted, held out) and
+    ``signal``: ``nrmse`` of the whole error; of what is judged (``judged.judged``) ``rmse`` and ``floor_rmse``, the least
+    that is known from any rung (mean over drives of the square, as root), and ``left``, the mean square above the floor
+    over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor;
+    ``left_overall`` weighs each signal by what was explainable of its own error. Over ``method`` in place of signal: numbers
+    of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
+    ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
+    Nan where there is no such drive, rung or repeat.
     """
-    data = {}
-    for prefix, drive in (("", "drive"), ("held_out_", "held_out")):
-        square = ranking[f"{prefix}mean_square"].mean(drive)
-        ground = ranking[f"{prefix}floor_mean_square"].mean(drive)
-        explainable = square.isel(model=0) - ground
-        data[f"{prefix}rmse"] = np.sqrt(square)
-        data[f"{prefix}floor"] = np.sqrt(ground)
-        data[f"{prefix}left"] = (square - ground) / explainable.where(explainable > 0)
-    return xr.Dataset(data).assign_attrs(floor=ranking.attrs["floor"])
+    first = next(iter(sites.values())).comparisons[models[0]]
+    signals = [str(name) for name in first["signal"].values]
+    rungs = [UNCALIBRATED, CALIBRATED, *titles]
+    sizes = len(rungs), len(sites), 2
+    squares, relative = np.full((2, *sizes, len(signals)), np.nan)
+    ground = np.full((len(sites), 2, len(signals)), np.nan)
+    counts = {name: np.full((*sizes, len(critical.METHODS)), np.nan) for name in COUNTS}
+    repeated = np.full((len(sites), 2, len(critical.METHODS)), np.nan)
+    for k, site in enumerate(sites.values()):
+        for g, drives in enumerate(_groups(site, models[0])):
+            if not drives.any():
+                continue
+            ground[k, g] = _ground(site, drives)
+            before = None
+            for r, (model, state) in enumerate(_rungs(site, models)):
+                if state is None:
+                    continue
+                rows = site.comparisons[model].sel(state=state).isel(drive=drives)
+                squares[r, k, g] = (rows["explainable_rmse"] ** 2 + rows["floor_rmse"] ** 2).mean("drive").values
+                relative[r, k, g] = (rows["nrmse"] ** 2).mean("drive").values
+                before = _count(site.sections[model].isel(drive=drives), state, before, counts, (r, k, g))
+            repeated[k, g] = _repeats(site.sections[models[0]].isel(drive=drives))
+    ground = np.fmin(ground, np.fmin.reduce(squares, axis=0))
+    reference = 1 if np.isfinite(squares[1]).any() else 0
+    above = squares - ground
+    start = np.where(np.isfinite(above[reference]), above[reference], above[0])
+    visible = start > VISIBLE * (start + ground)
+    share = start / (start + ground)
+    left = np.where(visible, above / np.where(visible, start, 1.0), np.nan)
+    weight = np.where(np.isfinite(share), share, 0.0)
+    total = weight.sum(axis=-1)
+    overall = np.sum(weight * above / np.where(start > 0, start, np.inf), axis=-1) / np.where(total > 0, total, np.nan)
+    over = ("rung", "site", "group")
+    return xr.Dataset(
+        {
+            "rmse": ((*over, "signal"), np.sqrt(squares)),
+            "nrmse": ((*over, "signal"), np.sqrt(relative)),
+            "floor_rmse": (("site", "group", "signal"), np.sqrt(ground)),
+            "left": ((*over, "signal"), left),
+            "left_overall": (over, overall),
+            **{name: ((*over, "method"), values) for name, values in counts.items()},
+            "repeats_agreeing": (("site", "group", "method"), repeated),
+            "floor_known": ("site", np.array([site.comparisons[models[0]].attrs["floor"] for site in sites.values()])),
+        },
+        {
+            "rung": rungs,
+            "site": list(sites),
+            "group": [FITTED, HELD_OUT],
+            "signal": signals,
+            "method": list(critical.METHODS),
+        },
+        {"reference": rungs[reference], "models": " ".join(models)},
+    )
 
 
-def table(rungs: xr.Dataset) -> list[dict[str, object]]:
-    """The ladder as rows for a table: model, signal, errors in the unit of the signal, shares left in percent."""
-    rows = []
-    for model in rungs["model"].values:
-        for signal in rungs["signal"].values:
-            row = rungs.sel(model=model, signal=signal)
-            rows.append(
-                {
-                    "model": str(model),
-                    "signal": str(signal),
-                    **{name: float(row[name]) for name in ("rmse", "floor", "held_out_rmse", "held_out_floor")},
-                    **{f"{name}_percent": 100 * float(row[name]) for name in ("left", "held_out_left")},
-                }
-            )
-    return rows
+COUNTS = ("compared", "critical_simulated", "critical_measured", "agreeing", "changed")
+
+
+def rung_titles(effects: Sequence[str], alike: Mapping[str, Sequence[str]] | None = None) -> list[str]:
+    """What the rungs of effects are called, in the order in which they were added; ``alike`` cannot be told from them."""
+    return ["+ " + " or ".join([name, *(alike or {}).get(name, ())]) for name in effects]
+
+
+def _rungs(site: Measured, models: Sequence[str]) -> list[tuple[str, str | None]]:
+    """Model and state of every rung; no state where the site has no such rung."""
+    states = {model: [str(state) for state in site.comparisons[model]["state"].values] for model in models}
+    base = states[models[0]]
+    later = [(model, states[model][-1] if len(states[model]) > 1 else None) for model in models[1:]]
+    return [(models[0], base[0]), (models[0], base[1] if len(base) > 1 else None), *later]
+
+
+def _groups(site: Measured, model: str) -> tuple[np.ndarray, np.ndarray]:
+    """Which drives were fitted, and which were not, (drive,)."""
+    fitted = (site.comparisons[model]["role"].values == "fit") & site.fitted
+    return fitted, ~fitted
+
+
+def _ground(site: Measured, drives: np.ndarray) -> np.ndarray:
+    """Mean square (signal,) of the floor: the least that any model shows."""
+    floors = [(each["floor_rmse"].isel(drive=drives) ** 2).mean("drive").values for each in site.comparisons.values()]
+    return np.fmin.reduce(floors, axis=0)
+
+
+def _count(sections: xr.Dataset, state: str, before, counts, at) -> np.ndarray:
+    """Count the sections of a state into ``counts`` at this rung, and return their grades (method, drive, window)."""
+    measured = sections["grade"].sel(source="measured").transpose("method", "drive", "window").values
+    grade = sections["grade"].sel(source=state).transpose("method", "drive", "window").values
+    there = measured != critical.NOT_DRIVEN
+    total = lambda what: (what & there).sum(axis=(1, 2))
+    counts["compared"][at] = there.sum(axis=(1, 2))
+    counts["critical_simulated"][at] = total(grade > 0)
+    counts["critical_measured"][at] = total(measured > 0)
+    counts["agreeing"][at] = total(grade == measured)
+    if before is not None:
+        counts["changed"][at] = total(grade != before)
+    return grade
+
+
+def _repeats(sections: xr.Dataset) -> np.ndarray:
+    """Share (method,) of the sections that two repeats grade alike, mean over all pairs; nan without repeats."""
+    grade = sections["grade"].sel(source="measured").transpose("method", "drive", "window").values
+    groups = sections["repeat_group"].values
+    alike, both = np.zeros(grade.shape[0]), 0
+    for i in range(len(groups)):
+        for j in range(i):
+            if groups[i] == groups[j]:
+                there = (grade[0, i] != critical.NOT_DRIVEN) & (grade[0, j] != critical.NOT_DRIVEN)
+                alike += ((grade[:, i] == grade[:, j]) & there).sum(axis=1)
+                both += there.sum()
+    return alike / both if both else np.full(grade.shape[0], np.nan)

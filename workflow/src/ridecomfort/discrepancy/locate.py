@@ -1,188 +1,234 @@
-"""Where the error sits: by place and frequency, by condition, by signal, and in words, largest first."""
+"""Where the error sits: by place and frequency, by condition, by signal."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from scipy.signal import coherence, csd, stft, welch
+from scipy.signal import stft
 
-BANDS = ((0.3, 1.0), (1.0, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
-"""Hz; body modes lie in the second, seat and hands feel the next two, wheels hop in the fifth."""
+from . import explain, judged
+from .response import responses
+
+BANDS = ((judged.LOWEST, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
+"""Hz; body modes lie in the first, seat and hands feel the next two, wheels hop in the fourth."""
 
 STRETCH = 100.0
 """m of road that are told apart in words."""
 
-CLASSES = 4
-"""Classes of equal length that a condition is divided into."""
+STEP = 20.0
+"""m between the places of the map of the error."""
 
-NAMED = 0.02
-"""Share of the error below which a finding is not worth a sentence."""
+WINDOW = 2.0
+"""s of a spectrum of that map."""
+
+CLASSES = 5
+"""Classes of equal duration that a condition is divided into."""
+
+SLOW = 1.0
+"""Hz up to which a condition may change; its classes are of how the drive goes, not of single waves."""
+
+
+@dataclass(frozen=True)
+class Drive:
+    """One drive's samples that are compared: ``rate`` in Hz, series (signal, sample) and (sample,), own noise where known.
+
+    ``error`` and ``signal`` are what is judged of ``residual`` and ``measured``.
+    """
+
+    rate: float
+    residual: np.ndarray
+    measured: np.ndarray
+    simulated: np.ndarray
+    error: np.ndarray
+    signal: np.ndarray
+    series: Mapping[str, np.ndarray]
+    own: explain.OwnNoise | None
+
+    @property
+    def place(self) -> np.ndarray:
+        """Distance along the reference line in m, (sample,)."""
+        return self.series["s"]
 
 
 def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     """Power of the residuals of a comparison (``compare.compare``) by place, frequency and condition.
 
-    ``state``: whose residuals, by default the last. All powers are mean squares in the unit of the signal squared, averaged over
-    drives: ``power(signal, stretch, band)``, ``share(signal, stretch, band)`` of the signal's
-    measured power in all, ``by_condition(condition, class_, signal)`` with edges in ``condition_edge``, ``gain``,
-    ``phase`` and ``coherence(signal, frequency)`` of measured over simulated. Conditions: speed, curvature of the path,
-    lateral acceleration, and the vertical speeds of body and wheels as the simulated signals show them.
+    ``state``: whose residuals, by default the last. Powers are mean squares, in the unit of the signal squared and over all
+    drives, of what is judged (``judged.judged``):
+    ``error_power(signal, stretch, band)`` and ``floor_power`` of the floor there; ``power_share``, the error above the
+    floor over the signal's measured power in all bands, and ``explainable_share``, over its own sum; ``error_map(signal, s_map,
+    frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; by classes of equal duration
+    of a ``condition`` (SI units; edges in ``condition_edge``, means in ``condition_level``) ``condition_error`` and
+    ``condition_measured(condition, class, signal, band)``, the floor of which is
+    ``band_floor(signal, band)``; and what ``response.responses`` says of transfer functions.
+    Attribute ``located_state`` names the state, ``floor`` where the floor is known from.
     """
-    chosen = comparison.sel(state=state) if state else comparison.isel(state=-1)
-    drives = [_drive(chosen, name) for name in comparison["drive"].values]
-    rate = drives[0]["rate"]
+    name = str(comparison["state"].values[-1] if state is None else state)
+    noise = explain.own_noise(comparison, name)
+    rows = comparison.sel(state=name)
+    drives = [_drive(rows.isel(drive=k), noise.get(k)) for k in range(comparison.sizes["drive"])]
+    rate = drives[0].rate
     bands = [band for band in BANDS if band[0] < 0.4 * rate]
-    start = min(drive["s"].min() for drive in drives)
-    end = max(drive["s"].max() for drive in drives)
-    edges = start + STRETCH * np.arange(max(1, int(np.ceil((end - start) / STRETCH))) + 1)
-    signals = list(comparison["signal"].values)
-    power = np.zeros((len(signals), len(edges) - 1, len(bands)))
-    seconds = np.zeros(len(edges) - 1)
-    for drive in drives:
-        where = np.clip(np.digitize(drive["s"], edges) - 1, 0, len(edges) - 2)
-        seconds += np.bincount(where, minlength=len(edges) - 1) / rate
-        for k, band in enumerate(bands):
-            squares = _band(drive["residual"], rate, band) ** 2
-            for i in range(len(signals)):
-                power[i, :, k] += np.bincount(where, squares[i], minlength=len(edges) - 1) / rate
-    measured = np.mean([np.var(_band(drive["measured"], rate, (BANDS[0][0], BANDS[-1][1])), axis=1) for drive in drives], axis=0)
-    names, condition_edges, by_condition = _conditions(drives, len(signals), rate)
-    frequency, gain, phase, coherent = _transfer(drives, rate)
-    total = seconds.sum()
-    return xr.Dataset(
+    ground = _white_floor(rows, bands, rate)
+    edges = _stretches(drives)
+    power, seconds = _by_stretch([(d.place, d.error) for d in drives], edges, bands, rate)
+    floor = np.broadcast_to(ground[:, None, :], power.shape).copy()
+    if noise:
+        own, length = _by_stretch([(d.own.place, d.own.noise) for d in drives if d.own], edges, bands, rate)
+        mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
+        floor = np.where(length[:, None] > 0, own, mean)
+    measured = np.mean([[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives], axis=0).T
+    above = (power - floor) * (seconds / seconds.sum())[:, None]
+    whole = above.sum(axis=(1, 2), keepdims=True)
+    conditions, condition_edges, levels, by_condition = _conditions(drives, bands)
+    places, frequency, density = _map([(d.place, d.error) for d in drives], rate)
+    if noise:
+        floor_density = np.nanmean(_map([(d.own.place, d.own.noise) for d in drives if d.own], rate)[2], axis=1)
+    else:
+        floor_density = np.repeat(_density(rows, rate)[:, None], frequency.size, axis=1)
+    result = xr.Dataset(
         {
-            "power": (("signal", "stretch", "band"), power / np.maximum(seconds, 1e-9)[None, :, None]),
-            "share": (("signal", "stretch", "band"), power / total / np.maximum(measured, 1e-30)[:, None, None]),
-            "by_condition": (("condition", "class_", "signal"), by_condition),
+            "error_power": (("signal", "stretch", "band"), power),
+            "floor_power": (("signal", "stretch", "band"), floor),
+            "measured_power": (("signal", "band"), measured),
+            "power_share": (("signal", "stretch", "band"), above / _positive(measured.sum(axis=1))[:, None, None]),
+            "explainable_share": (("signal", "stretch", "band"), above / np.where(whole > 0, whole, np.nan)),
+            "error_map": (("signal", "s_map", "frequency_map"), density),
+            "floor_density": (("signal", "frequency_map"), floor_density),
             "condition_edge": (("condition", "edge"), condition_edges),
-            "gain": (("signal", "frequency"), gain),
-            "phase": (("signal", "frequency"), phase, {"units": "rad"}),
-            "coherence": (("signal", "frequency"), coherent, {"units": "1"}),
+            "condition_level": (("condition", "class"), levels),
+            **{
+                f"condition_{key}": (("condition", "class", "signal", "band"), values)
+                for key, values in zip(("error", "measured"), by_condition)
+            },
             "stretch_start": ("stretch", edges[:-1], {"units": "m"}),
             "stretch_end": ("stretch", edges[1:], {"units": "m"}),
             "band_lower": ("band", [band[0] for band in bands], {"units": "Hz"}),
             "band_upper": ("band", [band[1] for band in bands], {"units": "Hz"}),
+            "band_floor": (("signal", "band"), np.average(floor, axis=1, weights=seconds)),
         },
-        {"signal": signals, "condition": names, "frequency": ("frequency", frequency, {"units": "Hz"})},
+        {
+            "signal": comparison["signal"].values,
+            "condition": conditions,
+            "s_map": ("s_map", places, {"units": "m"}),
+            "frequency_map": ("frequency_map", frequency, {"units": "Hz"}),
+        },
     )
+    result = result.merge(responses(drives, list(comparison["signal"].values)))
+    return result.assign_attrs(located_state=name, floor=comparison.attrs.get("floor", explain.NIL))
 
 
-def spectrogram(comparison: xr.Dataset, signal: str, state: str | None = None, seconds: float = 2.0) -> xr.DataArray:
-    """Residual power density of a signal over place and frequency, mean over the drives: the first figure to look at."""
-    chosen = comparison.sel(state=state) if state else comparison.isel(state=-1)
-    drives = [_drive(chosen, name) for name in comparison["drive"].values]
-    index = list(comparison["signal"].values).index(signal)
-    grid = np.arange(min(d["s"].min() for d in drives), max(d["s"].max() for d in drives), 10.0)
-    rows = []
-    for drive in drives:
-        length = int(seconds * drive["rate"])
-        frequency, time, bins = stft(drive["residual"][index], drive["rate"], nperseg=length, scaling="psd")
-        place = np.interp(time, np.arange(len(drive["s"])) / drive["rate"], drive["s"])
-        rows.append(np.stack([np.interp(grid, place, row, np.nan, np.nan) for row in np.abs(bins) ** 2], axis=1))
-    return xr.DataArray(np.nanmean(rows, axis=0), {"s": grid, "frequency": frequency}, ("s", "frequency"), name=signal)
-
-
-def words(located: xr.Dataset, count: int = 5) -> list[str]:
-    """The largest errors in words, such as "a_z, 8-14 Hz, 1.2-1.5 km, mostly at speeds above 70 km/h: 12 % of its power"."""
-    sentences = []
-    share = located["share"].values
-    for signal, band in sorted(np.ndindex(share.shape[0], share.shape[2]), key=lambda key: -share[key[0], :, key[1]].sum()):
-        whole = share[signal, :, band].sum()
-        if whole < NAMED or len(sentences) == count:
-            break
-        name = str(located["signal"].values[signal])
-        lower, upper = (float(located[f"band_{end}"][band]) for end in ("lower", "upper"))
-        where = _stretches(located, share[signal, :, band])
-        when = _prevailing(located, signal)
-        sentences.append(f"{name}, {lower:g}-{upper:g} Hz, {where}{when}: {100 * whole:.1f} % of the signal's power")
-    return sentences
-
-
-def _stretches(located: xr.Dataset, share: np.ndarray) -> str:
-    """The shortest run of stretches that holds half of an error, or all of the road where it is even."""
-    for length in range(1, len(share)):
-        sums = np.convolve(share, np.ones(length), "valid")
-        if sums.max() >= 0.5 * share.sum():
-            if length > 0.35 * len(share):
-                break
-            first = int(sums.argmax())
-            start, end = float(located["stretch_start"][first]), float(located["stretch_end"][first + length - 1])
-            return f"half of it at {start / 1000:.2f}-{end / 1000:.2f} km"
-    return "all along the road"
-
-
-def _prevailing(located: xr.Dataset, signal: int) -> str:
-    """The condition whose highest class has most of the error, where that is twice the mean."""
-    power = located["by_condition"].values[:, :, signal]
-    ratio = power[:, -1] / np.maximum(power.mean(axis=1), 1e-30)
-    best = int(np.argmax(ratio))
-    if ratio[best] < 2.0:
-        return ""
-    name = str(located["condition"].values[best])
-    edge = float(located["condition_edge"][best, -2])
-    text = {"speed": f"speeds above {3.6 * edge:.0f} km/h", "curvature": f"radii below {1 / max(edge, 1e-6):.0f} m"}
-    return f", mostly at {text.get(name, f'{name} above {edge:.2g}')}"
-
-
-def _drive(chosen: xr.Dataset, name) -> dict:
-    row = chosen.sel(drive=name)
-    kept = np.isfinite(row["residual"].values).all(axis=0) & np.isfinite(row["s"].values)
+def _drive(row: xr.Dataset, own: explain.OwnNoise | None) -> Drive:
+    residual = row["residual"].transpose("signal", "time").values
+    kept = np.isfinite(residual).all(axis=0) & np.isfinite(row["s"].values)
     time = row["time"].values
-    return {
-        "rate": float((len(time) - 1) / (time[-1] - time[0])),
-        **{key: row[key].values[..., kept] for key in ("residual", "measured", "simulated", "s", "v_x")},
-        "signals": list(chosen["signal"].values),
-    }
+    series = {str(name): row[name].values[kept] for name in row.data_vars if row[name].dims == ("time",)}
+    signals = [row[name].transpose("signal", "time").values[:, kept] for name in ("measured", "simulated")]
+    series |= {str(name): values for name, values in zip(row["signal"].values, signals[1])}
+    rate = float((len(time) - 1) / (time[-1] - time[0]))
+    both = (judged.judged(each, rate, row["signal"].values) for each in (residual[:, kept], signals[0]))
+    return Drive(rate, residual[:, kept], *signals, *both, series, own)
 
 
-def _band(series: np.ndarray, rate: float, band: tuple[float, float]) -> np.ndarray:
-    bins = np.fft.rfft(series, axis=-1)
-    frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
-    return np.fft.irfft(np.where((frequency >= band[0]) & (frequency < band[1]), bins, 0.0), series.shape[-1], axis=-1)
+def _stretches(drives: Sequence[Drive]) -> np.ndarray:
+    """Edges in m of the stretches that the drives cover."""
+    start = np.floor(min(drive.place.min() for drive in drives) / STRETCH) * STRETCH
+    end = max(drive.place.max() for drive in drives)
+    return start + STRETCH * np.arange(max(1, int(np.ceil((end - start) / STRETCH))) + 1)
 
 
-def _conditions(drives: Sequence[dict], count: int, rate: float):
-    """Mean squares of the residuals by classes of equal length of every condition, with their edges."""
-    known: dict[str, list[np.ndarray]] = {}
-    for drive in drives:
-        signal = {name: drive["simulated"][k] for k, name in enumerate(drive["signals"])}
-        body = _band(signal["a_z"], rate, (0.5, 2.5))
-        wheel = _band(signal["a_z"], rate, (8.0, 16.0))
-        envelope = lambda values: np.sqrt(np.convolve(values**2, np.ones(int(rate)) / int(rate), "same"))
-        for name, values in {
-            "speed": drive["v_x"],
-            "curvature": np.abs(signal["yaw_rate"]) / np.maximum(drive["v_x"], 1.0),
-            "lateral acceleration": envelope(_band(signal["a_y"], rate, (0.05, 1.0))),
-            "vertical speed of the body": envelope(np.cumsum(body - body.mean()) / rate),
-            "wheel hop": envelope(wheel),
-        }.items():
-            known.setdefault(name, []).append(values)
-    edges, powers = [], []
-    for values in known.values():
-        edge = np.quantile(np.concatenate(values), np.linspace(0, 1, CLASSES + 1))
-        power, samples = np.zeros((CLASSES, count)), np.zeros(CLASSES)
-        for drive, own in zip(drives, values):
-            which = np.clip(np.searchsorted(edge, own, "right") - 1, 0, CLASSES - 1)
-            samples += np.bincount(which, minlength=CLASSES)
-            for i in range(count):
-                power[:, i] += np.bincount(which, drive["residual"][i] ** 2, minlength=CLASSES)
-        edges.append(edge)
-        powers.append(power / np.maximum(samples, 1)[:, None])
-    return list(known), np.stack(edges), np.stack(powers)
+def _by_stretch(parts, edges: np.ndarray, bands, rate: float) -> tuple[np.ndarray, np.ndarray]:
+    """Mean squares (signal, stretch, band) of parts (place, series), and their seconds (stretch,)."""
+    count = len(edges) - 1
+    power, seconds = np.zeros((len(parts[0][1]), count, len(bands))), np.zeros(count)
+    for place, series in parts:
+        where = np.clip(np.digitize(place, edges) - 1, 0, count - 1)
+        seconds += np.bincount(where, minlength=count) / rate
+        for k, band in enumerate(bands):
+            for i, row in enumerate(judged.band(series, rate, band) ** 2):
+                power[i, :, k] += np.bincount(where, row, minlength=count) / rate
+    return power / np.maximum(seconds, 1e-9)[None, :, None], seconds
 
 
-def _transfer(drives: Sequence[dict], rate: float):
-    """Gain and phase of measured over simulated signals and their coherence, means over the drives."""
-    length = int(4 * rate)
-    gains, coherent = [], []
-    for drive in drives:
-        segment = min(length, drive["measured"].shape[1])
-        frequency, cross = csd(drive["simulated"], drive["measured"], rate, nperseg=segment)
-        _, own = welch(drive["simulated"], rate, nperseg=segment)
-        gains.append(cross / np.maximum(own, 1e-30))
-        coherent.append(coherence(drive["simulated"], drive["measured"], rate, nperseg=segment)[1])
-    shortest = min(gain.shape[1] for gain in gains)
-    ratio = np.mean([gain[:, :shortest] for gain in gains], axis=0)
-    return frequency[:shortest], np.abs(ratio), np.angle(ratio), np.mean([c[:, :shortest] for c in coherent], axis=0)
+def _density(rows: xr.Dataset, rate: float) -> np.ndarray:
+    """One-sided power density (signal,) of a white floor, from the ``floor_rmse`` of the comparison; nil without one."""
+    if "floor_rmse" not in rows:
+        return np.zeros(rows.sizes["signal"])
+    return (rows["floor_rmse"] ** 2).mean("drive").values / (0.5 * rate - judged.LOWEST)
+
+
+def _white_floor(rows: xr.Dataset, bands, rate: float) -> np.ndarray:
+    """Power (signal, band) of a white floor."""
+    widths = np.array([min(upper, 0.5 * rate) - lower for lower, upper in bands])
+    return _density(rows, rate)[:, None] * widths
+
+
+def _map(parts, rate: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places in m, frequencies in Hz, and one-sided power density (signal, place, frequency), mean over parts."""
+    start, end = min(place.min() for place, _ in parts), max(place.max() for place, _ in parts)
+    grid = np.arange(start, end, STEP)
+    length = min(int(WINDOW * rate), min(len(place) for place, _ in parts))
+    rows = []
+    for place, series in parts:
+        frequency, time, bins = stft(series, rate, nperseg=length, scaling="psd")
+        at = np.interp(time, np.arange(len(place)) / rate, place)
+        density = 2.0 * np.abs(bins) ** 2
+        one = [[np.interp(grid, at, line, np.nan, np.nan) for line in signal] for signal in density]
+        rows.append(np.array(one).transpose(0, 2, 1))
+    known = np.isfinite(rows)
+    total = np.where(known, rows, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
+    inside = (frequency >= BANDS[0][0]) & (frequency <= BANDS[-1][1])
+    return grid, frequency[inside], np.where(known.any(axis=0), total, np.nan)[:, :, inside]
+
+
+def _conditions(drives: Sequence[Drive], bands):
+    """Conditions by name, their edges (condition, edge) and mean levels (condition, class) in SI units, and mean squares of
+    residual and measured, (2, condition, class, signal, band)."""
+    known = [_condition_series(drive) for drive in drives]
+    names = [name for name in known[0] if all(name in own for own in known)]
+    edges = np.stack(
+        [np.quantile(np.concatenate([own[name] for own in known]), np.linspace(0, 1, CLASSES + 1)) for name in names]
+    )
+    power = np.zeros((2, len(names), CLASSES, len(drives[0].residual), len(bands)))
+    samples, levels = np.zeros((2, len(names), CLASSES))
+    for drive, own in zip(drives, known):
+        which = [np.clip(np.searchsorted(edge, own[name], "right") - 1, 0, CLASSES - 1) for name, edge in zip(names, edges)]
+        for n, classes in enumerate(which):
+            samples[n] += np.bincount(classes, minlength=CLASSES)
+            levels[n] += np.bincount(classes, own[names[n]], minlength=CLASSES)
+        for k, band in enumerate(bands):
+            for source, series in enumerate((drive.error, drive.signal)):
+                for i, row in enumerate(judged.band(series, drive.rate, band) ** 2):
+                    for n, classes in enumerate(which):
+                        power[source, n, :, i, k] += np.bincount(classes, row, minlength=CLASSES)
+    levels = np.where(samples > 0, levels / np.maximum(samples, 1), np.nan)
+    samples = np.maximum(samples, 1)
+    return names, edges, levels, power / samples[None, :, :, None, None]
+
+
+def _condition_series(drive: Drive) -> dict[str, np.ndarray]:
+    """What the drive does at every sample, by name of the condition: (sample,) in SI units."""
+    speed = drive.series["v_x"]
+    found = {"speed": speed}
+    if "yaw_rate" in drive.series:
+        found["curvature"] = np.abs(_slow(drive.series["yaw_rate"], drive.rate)) / np.maximum(speed, 1.0)
+    if "a_y" in drive.series:
+        found["lateral_acceleration"] = np.abs(_slow(drive.series["a_y"], drive.rate))
+    for name in ("suspension_velocity", "tyre_velocity"):
+        if name in drive.series:
+            found[name] = np.sqrt(np.maximum(_slow(drive.series[name] ** 2, drive.rate), 0.0))
+    return found
+
+
+def _slow(series: np.ndarray, rate: float) -> np.ndarray:
+    """The running mean over 1/SLOW seconds."""
+    count = max(1, int(rate / SLOW))
+    weight = np.convolve(np.ones(len(series)), np.ones(count), "same")
+    return np.convolve(series, np.ones(count), "same") / weight
+
+
+def _positive(values: np.ndarray) -> np.ndarray:
+    return np.where(values > 0, values, np.nan)

@@ -10,7 +10,7 @@ whose calibration the site is simulated with; ``none``, None or absent: the nomi
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 INPUT_TABLES = {
     "sites": "The sites: what the paper publishes of its roads beside the roads of this study.",
@@ -54,6 +54,34 @@ COMFORT_TABLES = {
     "influence": "What of the comfort of a run is owed to its speed, its lateral position and the road's friction.",
     "number_of_runs": "Width of the 95 % interval of a section's probability of being critical, by number of runs.",
     "claims": "The paper's claims, answered from the tables of this study.",
+}
+
+DIFFERENCE_TABLES = {
+    "alignment": "Alignment of the measured drives: clock, speed scale, path and mounting as found.",
+    "findings": "Where the error sits, largest first: errors above the floor by signal, frequency, place and condition.",
+    "explainable": "Error of the model by signal: RMSE, NRMSE, the floor, what lies above it and how much of that is left.",
+    "error_ladder": "The error ladder: error of each model, and the share of the explainable error that it leaves.",
+    "error_ladder_sections": "What the ladder does to comfort: critical sections of the measured drives and of their replays.",
+}
+
+DIAGNOSIS_TABLES = {
+    "verdict": "Which effect is missing: the verdict with its reasons.",
+    "missing_effects": "The effects that the verdict names: sizes, intervals, and what each explains.",
+    "evidence": "Evidence for every effect of the library, and the refits of the best.",
+}
+
+SCORE_TABLES = {
+    "standin_score": "The verdict against the truth of the stand-in drives: effects hidden and found.",
+}
+
+DIFFERENCE_FIGURES = {
+    "error_ladder": "The error ladder: share of the explainable error that each model leaves, on fitted and on held-out drives, "
+    "and sections that the replays grade otherwise than the measured drives.",
+}
+
+DIAGNOSIS_FIGURES = {
+    "evidence": "Evidence for the effects of the library: fall of twice the negative log-likelihood in the score test, p-value "
+    "over the whole library, and the refits of the best on fitted and on held-out drives.",
 }
 
 ROAD_FIGURES = {
@@ -112,6 +140,25 @@ def calibrated_on(sites: Mapping[str, Mapping]) -> list[str]:
     """Names of the sites whose calibrations the study uses, each once."""
     named = [site.get("calibrated_on") for site in sites.values()]
     return list(dict.fromkeys(name for name in named if name and name != "none"))
+
+
+def difference_figures(sites: Iterable[str]) -> dict[str, str]:
+    """Name and caption of every figure of the comparison with the drives measured on these sites."""
+    found = {}
+    for name in sites:
+        found[f"located_{name}"] = (
+            f"{label(name)}: where simulated and measured drives differ. Left: error above the floor by place and frequency; "
+            "numbered boxes are the findings in words below. Right: spectra of signal, error and floor."
+        )
+        found[f"conditions_{name}"] = (
+            f"{label(name)}: error above the floor, as a share of the measured power, by the conditions of the drive. "
+            "Each point is a fifth of the driving time."
+        )
+        found[f"responses_{name}"] = (
+            f"{label(name)}: transfer functions from the road to the signals, measured and simulated side by side; gain of "
+            "measured over simulated; coherence."
+        )
+    return found | DIFFERENCE_FIGURES
 
 
 def tables(sites: Mapping[str, Mapping]) -> dict[str, str]:

@@ -36,6 +36,13 @@ SECTIONS = (
         "Calibration",
         ("leastsquare", "optichain", "convergence", "constraints", "baseline_res", "opti_res_*", "opti_plots"),
     ),
+    (
+        "difference",
+        "Where model and measurement differ",
+        ("located_*", "findings", "explainable", "conditions_*", "responses_*", "alignment"),
+    ),
+    ("missing", "Which effect is missing", ("verdict", "missing_effects", "evidence.figure", "evidence", "standin_score")),
+    ("ladder", "How the error falls", ("error_ladder.figure", "error_ladder", "error_ladder_sections")),
     ("overview", "Comfort at a glance", ("critical_shares", "exceedance")),
     (
         "thresholding",
@@ -80,6 +87,14 @@ def render(study: Study, tables: Mapping[str, Table], figures: Mapping[str, byte
     )
 
 
+def captions(study: Study) -> dict[str, str]:
+    """Name and caption of every figure of the page."""
+    found = catalogue.figures(study.settings["sites"])
+    if study.difference:
+        found |= catalogue.difference_figures(site.name for site in study.difference.sites)
+    return found | (catalogue.DIAGNOSIS_FIGURES if study.diagnosis else {})
+
+
 def _standin(study: Study) -> str | None:
     note = study.standin_note()
     if note is None:
@@ -97,18 +112,18 @@ def _lead(study: Study) -> str:
 
 
 def _sections(study: Study, tables: Mapping[str, Table], figures: Mapping[str, bytes]):
-    captions = catalogue.figures(study.settings["sites"])
+    said = captions(study)
     for key, title, names in SECTIONS:
         pieces = []
         for name in names:
             figure = name.removesuffix(".figure")
             if name.endswith("*"):
                 pieces += [_table(table) for other, table in tables.items() if other.startswith(name[:-1])]
-                pieces += [_figure(other, captions[other], figures[other]) for other in figures if other.startswith(name[:-1])]
+                pieces += [_figure(other, said[other], figures[other]) for other in figures if other.startswith(name[:-1])]
             elif name in tables:
                 pieces.append(_table(tables[name]))
             elif figure in figures:
-                pieces.append(_figure(figure, captions[figure], figures[figure]))
+                pieces.append(_figure(figure, said[figure], figures[figure]))
         if pieces:
             yield {"key": key, "title": title, "pieces": pieces}
 
@@ -149,7 +164,12 @@ def _files(study: Study) -> list[tuple[str, ...]]:
         for name, file in site.files.items():
             found.append(_file(file, getattr(site, name)))
     found += [_file(study.calibration_files[name], dataset) for name, dataset in study.calibrations.items()]
-    return [*found, _file(study.assessment_file, study.assessment)]
+    found.append(_file(study.assessment_file, study.assessment))
+    if study.difference:
+        found.append(_file(study.difference.ladder_file, study.difference.ladder))
+    if study.diagnosis:
+        found.append(_file(study.diagnosis.files["ranking"], study.diagnosis.ranking))
+    return found
 
 
 def _file(file: str, dataset) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import xarray as xr
@@ -44,12 +44,62 @@ class Site:
 
 
 @dataclass(frozen=True)
+class Compared:
+    """A measured site: its aligned drives, and what the model did on them. ``files`` as for Site."""
+
+    name: str
+    measured: xr.Dataset
+    comparison: xr.Dataset
+    standin: bool = False
+    files: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def label(self) -> str:
+        """How the site is called in print."""
+        return label(self.name)
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Where model and measurement differ, on every measured site, and the error ladder (``discrepancy.ladder``)."""
+
+    sites: tuple[Compared, ...]
+    ladder: xr.Dataset
+    ladder_file: str = ""
+    model: str = "base"
+
+    def standin_note(self) -> str | None:
+        """As of a Study."""
+        return standin_note([site.label for site in self.sites if site.standin])
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """Which effects the model lacks: verdict.json and ranking.nc; ``standin`` labels the sites that are stand-ins.
+
+    ``score`` is what the hidden truth of stand-ins says of the verdict (``steps.standin_score``), None without it.
+    """
+
+    verdict: Mapping
+    ranking: xr.Dataset
+    files: Mapping[str, str] = field(default_factory=dict)
+    model: str = "base"
+    sites: tuple[str, ...] = ()
+    standin: tuple[str, ...] = ()
+    score: Mapping | None = None
+
+    def standin_note(self) -> str | None:
+        """As of a Study."""
+        return standin_note(list(self.standin))
+
+
+@dataclass(frozen=True)
 class Study:
     """The sites in order, the calibrations by the site that they were made on, and the settings.
 
     ``assessment`` is what the sites together say of the methods (``comfort.assessment.gather``).
     ``settings`` is the configuration that the report was made with (plain data), ``software``
-    maps names of software to versions.
+    maps names of software to versions. ``difference`` and ``diagnosis`` are None where nothing was measured or diagnosed.
     """
 
     sites: tuple[Site, ...]
@@ -60,6 +110,8 @@ class Study:
     model: str = "base"
     settings: Mapping = field(default_factory=dict)
     software: Mapping[str, str] = field(default_factory=dict)
+    difference: Difference | None = None
+    diagnosis: Diagnosis | None = None
 
     def site(self, name: str) -> Site | None:
         """The site of that name, None where the study has none."""
@@ -77,10 +129,14 @@ class Study:
 
     def standin_note(self) -> str | None:
         """The sentence that goes wherever results of stand-in sites are shown, None without them."""
-        if not self.standin:
-            return None
-        names = ", ".join(site.label for site in self.standin)
-        return (
-            f"{STANDIN}the roads and measured drives of {names} are made from seeds to match what the "
-            "paper publishes of its inputs; they are not the paper's own."
-        )
+        return standin_note([site.label for site in self.standin])
+
+
+def standin_note(labels: Sequence[str]) -> str | None:
+    """The sentence that says of these sites that they are stand-ins, None without any."""
+    if not labels:
+        return None
+    return (
+        f"{STANDIN}the roads and measured drives of {', '.join(labels)} are made from seeds to match what the "
+        "paper publishes of its inputs; they are not the paper's own."
+    )

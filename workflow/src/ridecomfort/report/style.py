@@ -13,7 +13,7 @@ import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..vocabulary import VARIABLES
+from ..vocabulary import SIGNALS, VARIABLES
 from . import notation
 
 SINGLE, DOUBLE = 3.5, 7.2
@@ -57,6 +57,13 @@ LINES = (
     ("#000000", "X"),
 )
 """Colour and marker of lines that are only told apart, such as parameters."""
+
+SIGNAL_LINES = dict(zip(SIGNALS, LINES))
+"""Colour and marker of each signal where several stand in one panel."""
+
+FLOOR = "#8A8A8A"
+ERROR = "#D55E00"
+"""The noise floor, and the error of the model."""
 
 SETTINGS: Mapping = {
     "font.family": "DejaVu Sans",

@@ -1,7 +1,9 @@
-"""Drive the model along the measured paths at the measured speeds and compare, before and after calibration."""
+"""Drive the model along the measured paths at the measured speeds, compare, and find where the error sits."""
+
+import sys
 
 from ridecomfort import calibrated, simulate, store
-from ridecomfort.discrepancy import compare
+from ridecomfort.discrepancy import compare, findings, locate
 from ridecomfort.steps.command import Command
 from ridecomfort.vehicle import parameters
 
@@ -11,16 +13,23 @@ def main(road, measured, vehicle, calibration, config, output):
     states = {"reference": (car, {})}
     if calibration is not None:
         states["calibrated"] = calibrated.apply(store.read(calibration), car, config["effects"])
+    elif config["effects"]:
+        states["with_effects"] = (car, config["effects"])
     result = compare.compare(
         store.read(measured),
         simulate.prepare(store.read(road)),
         states,
         simulate=simulate.run,
         options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
+        noise_density=config["noise_density"],
     )
+    located = locate.locate(result)
+    words = findings.words(located)
+    result = result.merge(located).assign_attrs(**located.attrs, words="\n".join(words))
     store.write(
         result, output, title=f"Simulated against measured drives on {config['site']}", configuration=config
     )
+    print(*words, sep="\n", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import subprocess
 from importlib.metadata import PackageNotFoundError, version
 
 from ridecomfort import __version__
-from ridecomfort.report import catalogue, claims, page, tables
+from ridecomfort.report import claims, diagnosed, differing, page, tables
 from ridecomfort.steps import results as study_results
 from ridecomfort.steps.command import Command
 from ridecomfort.store import replacing
@@ -14,10 +14,12 @@ PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "numba", "pandas", "matplotli
 
 
 def main(results, config, output):
-    study = study_results.load(results, config, software())
+    study = study_results.whole(results, config, software())
     made = tables.make(study)
     made["claims"] = claims.table(study, made)
-    figures = {name: (results / "figures" / f"{name}.png").read_bytes() for name in catalogue.figures(config["sites"])}
+    made |= differing.tables(study.difference) if study.difference else {}
+    made |= diagnosed.tables(study.diagnosis) | diagnosed.scores(study.diagnosis) if study.diagnosis else {}
+    figures = {name: (results / "figures" / f"{name}.png").read_bytes() for name in page.captions(study)}
     with replacing(output) as part:
         part.write_text(page.render(study, made, figures), encoding="utf-8")
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import replace
 from pathlib import Path
 
 from .. import store
-from ..report.catalogue import calibrated_on
-from ..report.study import Site, Study
+from ..report.catalogue import calibrated_on, label, with_drives
+from ..report.study import Compared, Diagnosis, Difference, Site, Study
 
 
 def load(results: Path, config: dict, software: dict | None = None) -> Study:
-    """Every dataset that tables, figures and page are made from, read from the folder of results."""
+    """Every dataset that tables and figures of the study are made from, read from the folder of results."""
     model = config["model"]
     calibrations = {name: results / name / model / "calibration.nc" for name in calibrated_on(config["sites"])}
     assessment = results / "comfort" / model / "agreement.nc"
@@ -23,6 +25,48 @@ def load(results: Path, config: dict, software: dict | None = None) -> Study:
         model=model,
         settings=config,
         software=software or {},
+    )
+
+
+def whole(results: Path, config: dict, software: dict) -> Study:
+    """As ``load``, with the comparison with measured drives and the diagnosis."""
+    return replace(
+        load(results, config, software),
+        difference=difference(results, config) if with_drives(config["sites"]) else None,
+        diagnosis=diagnosis(results, config),
+    )
+
+
+def difference(results: Path, config: dict) -> Difference:
+    """Comparisons and aligned drives of the measured sites with the model of ``config``, and the error ladder."""
+    model = config["model"]
+    ladder = results / "ladder" / f"{model}.nc"
+    sites = []
+    for name in with_drives(config["sites"]):
+        files = {"measured": results / name / "measured.nc", "comparison": results / name / model / "comparison.nc"}
+        loaded = {key: store.read(file) for key, file in files.items()}
+        standin = config["sites"][name]["standin"]
+        sites.append(Compared(name, **loaded, standin=standin, files={key: file.as_posix() for key, file in files.items()}))
+    return Difference(tuple(sites), store.read(ladder), ladder.as_posix(), model)
+
+
+def diagnosis(results: Path, config: dict) -> Diagnosis | None:
+    """The verdict on the model of ``config`` with its evidence, None where ``config`` does not ask for it (``diagnosed``)."""
+    if not config.get("diagnosed"):
+        return None
+    folder = results / "diagnosis" / config["model"]
+    files = {"verdict": folder / "verdict.json", "ranking": folder / "ranking.nc", "score": folder / "score.json"}
+    if not config["scored"]:
+        del files["score"]
+    sites = tuple(config["diagnosed"])
+    return Diagnosis(
+        json.loads(files["verdict"].read_text(encoding="utf-8")),
+        store.read(files["ranking"]),
+        files={key: file.as_posix() for key, file in files.items()},
+        model=config["model"],
+        sites=sites,
+        standin=tuple(label(site) for site in sites if config["sites"][site]["standin"]),
+        score=json.loads(files["score"].read_text(encoding="utf-8")) if "score" in files else None,
     )
 
 

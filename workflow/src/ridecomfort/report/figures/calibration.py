@@ -7,11 +7,12 @@ import re
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...vocabulary import SIGNALS, VARIABLES
+from ...vocabulary import SIGNALS
 from .. import catalogue, published, style
-from ..notation import SYMBOLS, symbol, unit
+from ..notation import SYMBOLS, symbol
 from ..study import Site, Study
 from ..tables.calibration import initial_cost
+from ..units import printed
 
 PAPERS_SITE = "ts3"
 """The site that the paper shows in fig:opti_plots."""
@@ -68,9 +69,9 @@ def opti_plots(study: Study) -> Figure:
     middle = _roughest(time, comparison["measured"].sel(signal="a_z").values)
     drawn = style.figure(style.DOUBLE, 8.2)
     panels = drawn.subplots(len(SIGNALS), 2, sharex="col", width_ratios=(1.7, 1.0))
-    printed = published.figures()["nrmse"].get(f"{site.name}_ref_rmse", {})
+    theirs = published.figures()["nrmse"].get(f"{site.name}_ref_rmse", {})
     for letter, (whole, detail), signal in zip("abcdef", panels, SIGNALS):
-        factor, words = _printed_unit(signal)
+        factor, words = printed(signal)
         chosen = comparison.sel(signal=signal)
         for axes, width in ((whole, 0.4), (detail, 0.8)):
             measured = factor * chosen["measured"].values
@@ -83,8 +84,8 @@ def opti_plots(study: Study) -> Figure:
         whole.set_ylabel(f"{symbol(signal)} [{words}]")
         errors = [f"{factor * float(chosen['rmse'].sel(state=state)):.4f}" for state in chosen["state"].values]
         title = f"({letter}) RMSE {' → '.join(errors)} {words}"
-        if signal in printed:
-            title += f" (paper {printed[signal]:.4f})"
+        if signal in theirs:
+            title += f" (paper {theirs[signal]:.4f})"
         whole.set_title(title)
         whole.margins(x=0)
         detail.set_xlim(middle - DETAIL / 2, middle + DETAIL / 2)
@@ -114,10 +115,3 @@ def _drive(site: Site) -> int:
 
 def _name(site: Site, drive: int) -> str:
     return str(site.comparison["drive"].values[drive])
-
-
-def _printed_unit(signal: str) -> tuple[float, str]:
-    """Factor and unit that a signal is printed in: rates in deg/s, as the paper's."""
-    if VARIABLES[signal].unit == "rad/s":
-        return 180.0 / np.pi, "deg/s"
-    return 1.0, unit(VARIABLES[signal].unit)

@@ -1,0 +1,60 @@
+"""What was put into the residuals is said in words, and nothing else."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort.discrepancy import findings, locate
+
+from .drives import put_between_1400_and_1600_m
+
+
+@pytest.fixture(scope="module")
+def located():
+    return locate.locate(put_between_1400_and_1600_m())
+
+
+def test_signal_band_place_and_condition_are_named(located):
+    (found, *others) = findings.findings(located)
+    assert not others
+    assert (found.signal, found.lower, found.upper) == ("a_z", 8.0, 14.0)
+    assert 1300 <= found.stretch[0] < 1600 and found.stretch[1] <= 1600
+    assert "speeds above" in found.when
+
+
+def test_it_is_one_sentence_with_its_shares(located):
+    (sentence,) = findings.words(located)
+    assert sentence.startswith("a_z, 8-14 Hz, half of it at 1.") and "speeds above" in sentence
+    assert sentence.endswith("100 % of its explainable error")
+
+
+def test_an_error_that_is_even_along_the_road_has_no_stretch(located):
+    even = located.copy(deep=True)
+    share = even["power_share"].values
+    share[...] = share.mean(axis=1, keepdims=True)
+    assert findings.findings(even)[0].stretch is None
+    assert "all along the road" in findings.words(even)[0]
+
+
+def test_low_classes_are_said_with_the_other_word(located):
+    turned = located.copy(deep=True)
+    turned["condition_error"] = turned["condition_error"].isel({"class": slice(None, None, -1)})
+    assert "speeds below" in findings.findings(turned)[0].when
+
+
+def test_nothing_is_said_of_what_is_not_worth_a_sentence(located):
+    assert findings.words(located * 0.0) == []
+
+
+def test_a_band_begins_where_its_signal_is_judged_from(located):
+    slow = located.copy(deep=True)
+    share = slow["power_share"]
+    share[dict(signal=0, band=0)] = 10 * float(share.max())
+    assert findings.words(slow)[0].startswith("a_x, 1.5-2.5 Hz")
+
+
+def test_every_condition_has_its_words():
+    known = np.array(["speed", "curvature", "lateral_acceleration", "suspension_velocity", "tyre_velocity"])
+    assert set(known) == set(findings.CONDITIONS)
+    assert findings.CONDITIONS["curvature"][0](0.01) == "radii below 100 m"

@@ -1,0 +1,25 @@
+"""The score of a verdict: found, in the cluster, missed, named wrongly, and whether intervals hold the truth."""
+
+from __future__ import annotations
+
+from ridecomfort.discrepancy.score import score
+from tests.report import differing as made_up
+
+HIDDEN = {"suspension_friction": {"front": 75.0, "rear": 60.0}, "damper_asymmetry": {"front": 0.3}}
+
+
+def test_the_score_tells_found_from_missed_and_whether_intervals_hold():
+    found = score(made_up.VERDICT, HIDDEN)
+    by_size = {(row["effect"], row["parameter"]): row for row in found["rows"]}
+    front = by_size["suspension_friction", "front"]
+    assert front["found"] == "named" and front["covered"] and front["unit"] == "N"
+    assert by_size["suspension_friction", "rear"]["covered"] is None
+    assert by_size["damper_asymmetry", "front"]["found"] == "missed"
+
+
+def test_the_score_knows_clusters_wrong_names_and_what_the_model_had():
+    effect = made_up.VERDICT["effects"][0]
+    cluster = {**made_up.VERDICT, "effects": [{**effect, "like": ["damper_asymmetry"]}]}
+    assert score(cluster, {"damper_asymmetry": {"front": 0.3}})["rows"][0]["found"] == "in the cluster"
+    assert score(made_up.VERDICT, {})["rows"][0]["found"] == "named wrongly"
+    assert score(made_up.nothing(), HIDDEN, known=["suspension_friction"])["rows"][0]["found"] == "in the model"

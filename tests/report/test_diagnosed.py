@@ -1,0 +1,69 @@
+"""The verdict, the evidence and the score: every kind of verdict is said, and says what to do."""
+
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+from ridecomfort.discrepancy.score import score
+from ridecomfort.discrepancy.verdict import KINDS
+from ridecomfort.report import catalogue, diagnosed, style, table
+from tests.report import differing as made_up
+
+
+def rows(made):
+    return [dict(zip([column.key for column in made.columns], row)) for row in made.rows]
+
+
+def words(made):
+    return " ".join(str(cell) for row in made.rows for cell in row)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_verdict_is_said_with_its_reasons_and_what_to_do_next(kind):
+    verdict = {**(made_up.VERDICT if kind in ("named", "cluster") else made_up.nothing()), "verdict": kind}
+    tables = diagnosed.tables(made_up.diagnosis(verdict))
+    assert list(tables) == list(catalogue.DIAGNOSIS_TABLES)
+    said = words(tables["verdict"])
+    assert kind in said and all(reason[1:] in said for reason in verdict["reasons"])
+    assert rows(tables["verdict"])[-1]["what"] == "next"
+    assert all(form(each) for each in tables.values() for form in table.WRITERS.values())
+
+
+def test_what_is_to_be_switched_on_is_said_as_it_is_written_in_the_configuration():
+    assert "effects: [suspension_friction] in config/study.yaml" in words(diagnosed.tables(made_up.diagnosis())["verdict"])
+
+
+def test_a_proposed_form_is_shown():
+    verdict = {**made_up.nothing(), "verdict": "outside", "proposal": {"form": "80 N tanh(velocity / 0.005)", "place": "strut"}}
+    assert "80 N tanh(velocity / 0.005) (at the strut)" in words(diagnosed.tables(made_up.diagnosis(verdict))["verdict"])
+
+
+def test_evidence_is_in_the_order_of_the_gain_with_the_outcome_of_refits():
+    found = rows(diagnosed.tables(made_up.diagnosis())["evidence"])
+    assert [(row["round"], row["effect"]) for row in found[:3]] == [
+        (1, "suspension friction"), (1, "damper asymmetry"), (1, "payload"),
+    ]  # fmt: skip
+    assert found[0]["outcome"] == "accepted" and found[0]["held_out_pct"] == pytest.approx(75.0)
+    assert found[1]["outcome"] == "makes the drives held out worse" and found[2]["outcome"] == ""
+    # What was accepted is not tested again.
+    assert [row["effect"] for row in found[3:]] == ["damper asymmetry", "payload"]
+
+
+def test_the_figure_shows_every_round_and_nothing_is_cut_off():
+    with style.styled():
+        each = diagnosed.figures(made_up.diagnosis())["evidence"]()
+        FigureCanvasAgg(each).draw()
+        box = each.get_tightbbox(FigureCanvasAgg(each).get_renderer())
+    width, height = each.get_size_inches()
+    assert box.x0 > -0.02 and box.x1 < width + 0.02 and box.y0 > -0.02 and box.y1 < height + 0.02
+    said = [text.get_text() for text in each.findobj(Text)]
+    assert "round 1: suspension friction accepted" in said and "round 2: nothing accepted" in said
+
+
+HIDDEN = {"suspension_friction": {"front": 75.0, "rear": 60.0}, "damper_asymmetry": {"front": 0.3}}
+
+
+def test_the_score_is_marked_as_that_of_stand_ins():
+    found = diagnosed.scores(made_up.diagnosis(score=score(made_up.VERDICT, HIDDEN)))["standin_score"]
+    assert any("sealed" in note for note in found.notes) and any("Stand-in data" in note for note in found.notes)
+    assert not diagnosed.scores(made_up.diagnosis())

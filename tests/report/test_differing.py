@@ -1,0 +1,121 @@
+"""Tables and figures of where model and measurement differ: arithmetic, words, labelled axes, any set of sites."""
+
+import re
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+from ridecomfort.discrepancy import findings
+from ridecomfort.report import catalogue, differing, style, table
+from ridecomfort.report.study import Compared, Difference
+from tests.report import differing as made_up
+
+UNIT = re.compile(r"\[[^\]]+\]$")
+
+
+@pytest.fixture(scope="module")
+def study():
+    return made_up.difference()
+
+
+@pytest.fixture(scope="module")
+def tables(study):
+    return differing.tables(study)
+
+
+@pytest.fixture(scope="module")
+def drawn(study):
+    found = {}
+    for name, draw in differing.figures(study).items():
+        with style.styled():
+            found[name] = draw()
+            FigureCanvasAgg(found[name]).draw()
+    return found
+
+
+def rows(made):
+    return [dict(zip([column.key for column in made.columns], row)) for row in made.rows]
+
+
+def test_names_are_those_of_the_catalogue(study, tables):
+    assert list(tables) == list(catalogue.DIFFERENCE_TABLES)
+    names = [site.name for site in study.sites]
+    assert sorted(differing.figures(study)) == sorted(catalogue.difference_figures(names))
+
+
+def test_every_form_can_be_written(tables):
+    for each in tables.values():
+        assert all(form(each) for form in table.WRITERS.values())
+
+
+def test_the_ladder_begins_with_everything_and_ends_at_the_floor(tables, study):
+    found = [row for row in rows(tables["error_ladder"]) if row["site"] == "Ts1" and row["drives"] == "fitted"]
+    assert [row["model"] for row in found] == ["uncalibrated", "calibrated", "+ suspension friction", "floor"]
+    assert found[1]["all_left_pct"] == pytest.approx(100.0) and found[1]["a_z_left_pct"] == pytest.approx(100.0)
+    # The error falls from 0.4 to 0.1 of the signal, its square to a sixteenth.
+    assert found[2]["all_left_pct"] == pytest.approx(100 / 16, abs=2.0)
+    assert found[0]["all_left_pct"] == pytest.approx(100 * (0.5 / 0.4) ** 2, abs=6.0)
+    assert found[3]["a_z_left_pct"] == 0 < found[3]["a_z_rmse_m_per_s2"] < found[2]["a_z_rmse_m_per_s2"]
+
+
+def test_fitted_and_held_out_drives_stand_apart(tables):
+    groups = {(row["site"], row["drives"]) for row in rows(tables["error_ladder"])}
+    assert groups == {("Ts1", "fitted"), ("Ts1", "held out"), ("Ts2", "held out")}
+
+
+def test_a_better_model_agrees_with_more_sections(tables):
+    found = [row for row in rows(tables["error_ladder_sections"]) if row["site"] == "Ts1" and row["drives"] == "fitted"]
+    calibrated, better, repeats = found[1:]
+    assert better["thresholds_agreeing_pct"] > calibrated["thresholds_agreeing_pct"]
+    assert better["thresholds_changed"] > 0 and repeats["model"].startswith("repeats")
+
+
+def test_explainable_is_what_lies_above_the_floor(tables):
+    for row in rows(tables["explainable"]):
+        total = row["floor_rmse"] ** 2 + row["explainable_rmse"] ** 2
+        assert row["explainable_pct"] == pytest.approx(100 * row["explainable_rmse"] ** 2 / total)
+        assert row["rmse_model"] < row["rmse_uncalibrated"]
+
+
+def test_it_is_said_how_the_floor_is_known(tables, study):
+    assert any("repeat one another" in note for note in tables["findings"].notes)
+    alone = made_up.comparison(repeated=False)
+    site = Compared("home", made_up.aligned(("one", "two")), alone, False)
+    single = Difference((site,), made_up.rungs({"home": {"base": alone}}, (True,)))
+    assert any("taken as nil: no drive was repeated" in note for note in differing.tables(single)["findings"].notes)
+
+
+def test_findings_are_numbered_alike_in_table_and_figure(tables, drawn, study):
+    site = study.sites[0]
+    words = [text.get_text() for text in drawn["located_ts1"].findobj(Text)]
+    for number, each in enumerate(findings.findings(site.comparison), start=1):
+        row = next(row for row in rows(tables["findings"]) if row["site"] == "Ts1" and row["number"] == number)
+        assert row["power_pct"] == pytest.approx(100 * each.power_share)
+        assert str(number) in words and any(each.words().removeprefix(each.signal) in text for text in words)
+
+
+@pytest.mark.parametrize("name", list(catalogue.difference_figures(["ts1", "ts2"])))
+def test_axes_are_labelled_with_units_and_nothing_is_cut_off(name, drawn):
+    each = drawn[name]
+    labels = [label for axes in each.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label]
+    assert labels and all(UNIT.search(label) for label in labels), labels
+    with style.styled():
+        box = each.get_tightbbox(FigureCanvasAgg(each).get_renderer())
+    width, height = each.get_size_inches()
+    assert box.x0 > -0.02 and box.y0 > -0.02 and box.x1 < width + 0.02 and box.y1 < height + 0.02
+
+
+def test_stand_in_is_said(tables, study):
+    assert all(any(note.startswith("Stand-in data") for note in made.notes) for made in tables.values())
+    own = Difference(tuple(Compared(s.name, s.measured, s.comparison) for s in study.sites), study.ladder)
+    assert not any("tand-in" in note for made in differing.tables(own).values() for note in made.notes)
+
+
+def test_a_site_that_nothing_is_calibrated_on_has_its_first_rung_only():
+    alone = made_up.comparison((0.5,))
+    found = made_up.rungs({"home": {"base": alone}}, (False,))
+    assert found.attrs["reference"] == "uncalibrated"
+    left = found["left_overall"].sel(site="home", group="held out").values
+    assert left[0] == pytest.approx(1.0) and np.isnan(left[1])

@@ -1,0 +1,63 @@
+"""The chain of models: prefixes of the configured effects, then those of the verdict, each model named alike whatever the order."""
+
+import json
+import shutil
+
+import pytest
+
+from ridecomfort import config
+from ridecomfort.schema import read_yaml
+from ridecomfort.steps import models
+
+NAMED = {"verdict": "named", "effects": [{"name": "suspension_friction", "like": []}, {"name": "damper_asymmetry", "like": []}]}
+
+
+@pytest.fixture
+def study(repository, tmp_path):
+    shutil.copytree(repository / "config", tmp_path / "config")
+    return lambda **given: config.load({**read_yaml(tmp_path / config.STUDY), **given}, tmp_path)
+
+
+def test_without_effects_or_verdict_there_is_the_base_alone(study):
+    assert models.chain(study()).models == ("base",) and models.chain(study()).titles == ()
+
+
+def test_every_model_has_one_effect_more_in_the_order_of_the_configuration(study):
+    found = models.chain(study(effects=["suspension_friction", {"damper_asymmetry": {"front": 0.2}}]))
+    assert found.models == ("base", "suspension_friction", "damper_asymmetry+suspension_friction")
+    assert found.titles == ("+ suspension_friction", "+ damper_asymmetry")
+
+
+def test_the_last_configured_model_is_the_studys_own(study):
+    own = study(effects=["suspension_friction", "damper_asymmetry"])
+    assert models.chain(own).models[-1] == own.model
+
+
+def test_a_verdict_goes_on_where_the_configuration_ends(study):
+    found = models.chain(study(effects=["damper_asymmetry"]), NAMED)
+    assert found.models == ("base", "damper_asymmetry", "damper_asymmetry+suspension_friction")
+
+
+@pytest.mark.parametrize("kind", ["outside", "nothing", "suspect"])
+def test_verdicts_that_name_nothing_add_nothing(study, kind):
+    assert models.chain(study(), {**NAMED, "verdict": kind}).models == ("base",)
+
+
+def test_a_cluster_is_called_by_all_of_its_names(study):
+    cluster = {"verdict": "cluster", "effects": [{"name": "suspension_friction", "like": ["top_mount"]}]}
+    assert models.chain(study(), cluster).titles == ("+ suspension_friction or top_mount",)
+
+
+def test_the_verdict_on_disk_is_followed_unless_the_study_does_not_go_forward(study, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert models.known(study()).models == ("base",)
+    file = tmp_path / models.verdict_file(study())
+    file.parent.mkdir(parents=True)
+    file.write_text(json.dumps(NAMED))
+    assert len(models.known(study()).models) == 3
+    assert models.known(study(diagnosis={"forward": False})).models == ("base",)
+
+
+def test_files_are_those_of_the_measured_sites_model_by_model(study):
+    files = models.chain(study(sites=["ts1", "ts2"], effects=["payload"])).files(study(sites=["ts1", "ts2"]), "comparison.nc")
+    assert files == [f"results/{site}/{model}/comparison.nc" for site in ("ts1", "ts2") for model in ("base", "payload")]

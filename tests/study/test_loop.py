@@ -1,0 +1,74 @@
+"""The user's loop as Snakemake plans it: compare, diagnose, switch on, compare again; and the study that runs it forward."""
+
+from __future__ import annotations
+
+import json
+import shutil
+
+import pytest
+
+pytestmark = pytest.mark.study
+
+NAMED = {"verdict": "named", "effects": [{"name": "suspension_friction", "like": []}], "reasons": []}
+
+
+@pytest.fixture(scope="module")
+def plan(repository, tmp_path_factory):
+    """The jobs that a call plans in the paper's study before anything has run; ``verdict`` lies there already if given."""
+    from .conftest import Project
+
+    folder = tmp_path_factory.mktemp("loop")
+    shutil.copytree(repository / "config", folder / "config")
+    project = Project(folder, repository)
+
+    def jobs(*arguments, verdict=None):
+        file = folder / "results" / "diagnosis" / "base" / "verdict.json"
+        if verdict:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(json.dumps(verdict))
+        answer = project.snakemake("--dry-run", *arguments)
+        file.unlink(missing_ok=True)
+        assert answer.status == 0, answer.text
+        return set(answer.jobs)
+
+    return jobs
+
+
+def test_compare_needs_neither_a_diagnosis_nor_the_simulated_study(plan):
+    jobs = plan("compare")
+    assert {"comparison ts3 base", "critical ts2 base", "ladder", "compared"} <= jobs
+    assert not any(job.startswith(("diagnosis", "simulate", "iri")) for job in jobs)
+
+
+def test_an_effect_that_is_switched_on_is_a_rung_more(plan):
+    jobs = plan("compare", "--config", "effects=[suspension_friction]")
+    for model in ("base", "suspension_friction"):
+        assert f"calibrate ts1 {model}" in jobs and f"comparison ts2 {model}" in jobs and f"critical ts3 {model}" in jobs
+
+
+def test_compare_goes_on_with_a_verdict_that_is_there(plan):
+    assert "comparison ts1 suspension_friction" in plan("compare", verdict=NAMED)
+
+
+def test_the_study_diagnoses_before_it_knows_its_ladder(plan):
+    jobs = plan()
+    assert {"diagnosis base", "report", "tables", "figures"} <= jobs
+    assert "ladder" not in jobs  # which models stand on it, the verdict decides
+
+
+def test_the_study_can_be_left_without_the_loop(plan):
+    jobs = plan("--config", "diagnosis={forward: false}")
+    assert {"ladder", "compared", "report"} <= jobs
+    assert not any(job.startswith(("diagnosis", "diagnosed", "standin_score")) for job in jobs)
+
+
+def test_diagnose_shows_its_evidence(plan):
+    assert {"diagnosis base", "diagnosed"} <= plan("diagnose")
+
+
+def test_sites_without_drives_have_nothing_to_compare(project):
+    answer = project.snakemake("--dry-run")
+    assert answer.status == 0, answer.text
+    assert "report" in answer.jobs
+    assert not any(job.split()[0] in ("comparison", "ladder", "compared", "diagnosis", "diagnosed") for job in answer.jobs)
+    assert project.snakemake("--dry-run", "compare", "diagnose").jobs == []

@@ -1,0 +1,112 @@
+"""Where the error sits, in words, largest first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from .judged import LOWEST_OF_DRIVER
+
+NAMED = 0.01
+"""Share of the signal's power below which a finding is not worth a sentence."""
+
+HALF = 0.5
+"""Share of an error that the stretch of road named for it holds."""
+
+EVERYWHERE = 0.35
+"""Share of the road from which on an error counts as spread all along it."""
+
+PREVAILING = 1.5
+"""How many times its mean an error has in the class of a condition that is named for it."""
+
+CONDITIONS: dict[str, tuple[Callable[[float], str], Callable[[float], str]]] = {
+    "speed": (lambda v: f"speeds above {3.6 * v:.0f} km/h", lambda v: f"speeds below {3.6 * v:.0f} km/h"),
+    "curvature": (lambda c: f"radii below {1 / max(c, 1e-6):.0f} m", lambda c: f"radii above {1 / max(c, 1e-6):.0f} m"),
+    "lateral_acceleration": (
+        lambda a: f"lateral accelerations above {a:.1f} m/s2", lambda a: f"lateral accelerations below {a:.1f} m/s2",
+    ),
+    "suspension_velocity": (
+        lambda v: f"suspension velocities above {v:.2f} m/s", lambda v: f"suspension velocities below {v:.2f} m/s",
+    ),
+    "tyre_velocity": (lambda v: f"tyre velocities above {v:.2f} m/s", lambda v: f"tyre velocities below {v:.2f} m/s"),
+}  # fmt: skip
+"""How the upper and the lower classes of a condition are said."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """An error above the floor: its signal, band in Hz, the stretch in m that holds half of it (None: all along the road).
+
+    ``when`` is the condition that it prevails under, in words (empty: none); ``power_share`` is over the
+    signal's measured power, ``explainable_share`` over its error above the floor in all bands.
+    """
+
+    signal: str
+    lower: float
+    upper: float
+    stretch: tuple[float, float] | None
+    when: str
+    power_share: float
+    explainable_share: float
+
+    @property
+    def where(self) -> str:
+        """The stretch in words."""
+        if self.stretch is None:
+            return "all along the road"
+        return "half of it at {:.2f}-{:.2f} km".format(*(place / 1000 for place in self.stretch))
+
+    def words(self) -> str:
+        """Such as "a_z, 8-14 Hz, half of it at 1.20-1.50 km, mostly at speeds above 70 km/h: 12 % of its power"."""
+        when = f", mostly at {self.when}" if self.when else ""
+        return (
+            f"{self.signal}, {self.lower:g}-{self.upper:g} Hz, {self.where}{when}: {100 * self.power_share:.1f} % of the "
+            f"signal's power, {100 * self.explainable_share:.0f} % of its explainable error"
+        )
+
+
+def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
+    """The largest errors above the floor of what ``locate.locate`` returned, at most ``count``, by their share of power."""
+    share = located["power_share"].values
+    whole = share.sum(axis=1)
+    found = []
+    for signal, band in sorted(np.ndindex(whole.shape), key=lambda key: -whole[key]):
+        if not whole[signal, band] >= NAMED or len(found) == count:
+            break
+        lower, upper = (float(located[f"band_{end}"][band]) for end in ("lower", "upper"))
+        explainable = float(located["explainable_share"][signal, :, band].sum())
+        place = _stretch(located, np.maximum(share[signal, :, band], 0.0))
+        name = str(located["signal"].values[signal])
+        lower = max(lower, LOWEST_OF_DRIVER.get(name, lower))
+        found.append(Finding(name, lower, upper, place, _when(located, signal, band), float(whole[signal, band]), explainable))
+    return found
+
+
+def words(located: xr.Dataset, count: int = 5) -> list[str]:
+    """The findings as sentences."""
+    return [finding.words() for finding in findings(located, count)]
+
+
+def _stretch(located: xr.Dataset, share: np.ndarray) -> tuple[float, float] | None:
+    """Start and end in m of the shortest run of stretches that holds half of an error; None where it is even."""
+    for length in range(1, int(EVERYWHERE * len(share)) + 1):
+        sums = np.convolve(share, np.ones(length), "valid")
+        if sums.max() >= HALF * share.sum():
+            first = int(sums.argmax())
+            return float(located["stretch_start"][first]), float(located["stretch_end"][first + length - 1])
+    return None
+
+
+def _when(located: xr.Dataset, signal: int, band: int) -> str:
+    """The condition whose uppermost or lowest class has most of an error above the floor, in words, empty if none does."""
+    error = located["condition_error"].values[:, :, signal, band] - float(located["band_floor"][signal, band])
+    mean = error.mean(axis=1)
+    ratio = np.where(mean > 0, error[:, [-1, 0]].T / np.where(mean > 0, mean, 1.0), 0.0)
+    side, condition = np.unravel_index(int(ratio.argmax()), ratio.shape)
+    if ratio[side, condition] < PREVAILING:
+        return ""
+    edge = float(located["condition_edge"][condition, -2 if side == 0 else 1])
+    return CONDITIONS[str(located["condition"].values[condition])][side](edge)

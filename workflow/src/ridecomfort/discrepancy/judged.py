@@ -1,0 +1,32 @@
+"""From which frequency on an error says something of the vehicle, and series cut to bands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+LOWEST = 0.8
+"""Hz; slower errors are drifts of instruments and what the driver makes of the path."""
+
+LOWEST_OF_DRIVER = {"a_x": 1.5, "yaw_rate": 1.5}
+"""Hz; what is slower in these the driver makes, whose foot and hands no record holds."""
+
+IN_WORDS = f"{LOWEST:g} Hz on ({min(LOWEST_OF_DRIVER.values()):g} Hz for longitudinal acceleration and yaw rate)"
+"""The same for notes of tables."""
+
+
+def judged(series: np.ndarray, rate: float, signals: Sequence[str]) -> np.ndarray:
+    """Series (..., signal, sample) at ``rate`` Hz without what is too slow to say something of the vehicle."""
+    lowest = np.array([LOWEST_OF_DRIVER.get(str(signal), LOWEST) for signal in signals])
+    bins = np.fft.rfft(series, axis=-1)
+    frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
+    return np.fft.irfft(np.where(frequency >= lowest[:, None], bins, 0.0), series.shape[-1], axis=-1)
+
+
+def band(series: np.ndarray, rate: float, edges: tuple[float, float]) -> np.ndarray:
+    """Series (..., sample) at ``rate`` Hz with nothing left outside of a band (Hz)."""
+    bins = np.fft.rfft(series, axis=-1)
+    frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
+    kept = (frequency >= edges[0]) & (frequency < edges[1])
+    return np.fft.irfft(np.where(kept, bins, 0.0), series.shape[-1], axis=-1)

@@ -1,0 +1,43 @@
+"""A verdict against the effects that are known to have been hidden."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ..effects import library
+
+FOUND, CLUSTERED, MISSED, WRONG, KNOWN = "named", "in the cluster", "missed", "named wrongly", "in the model"
+
+
+def score(verdict: Mapping, hidden: Mapping[str, Mapping[str, float]], known: Sequence[str] = (), effects_folder=None) -> dict:
+    """What a verdict (the content of verdict.json) says of every hidden effect ({name: {parameter: size}}, SI units).
+
+    ``known`` are effects that the diagnosed model had already. Returns plain data: ``verdict`` and ``rows``, one for each size of
+    every effect that was hidden or named: effect, hidden, found (in words), parameter, unit, true_size, size, interval, covered; None
+    where there is no such thing.
+    """
+    named = {effect["name"]: effect for effect in verdict["effects"]}
+    alike = {other: name for name, effect in named.items() for other in effect["like"]}
+    entries, rows = library.find(effects_folder), []
+    for name in [*hidden, *(name for name in named if name not in hidden)]:
+        found = KNOWN if name in known else FOUND if name in named else CLUSTERED if name in alike else MISSED
+        found = found if name in hidden else WRONG
+        sizes = {size["parameter"]: size for size in named.get(name, {}).get("sizes", ())}
+        units = {parameter.name: parameter.unit for parameter in entries[name].effect.parameters} if name in entries else {}
+        for parameter in dict.fromkeys([*hidden.get(name, {}), *sizes]):
+            size, true = sizes.get(parameter), hidden.get(name, {}).get(parameter)
+            interval = size["interval"] if size else None
+            rows.append(
+                {
+                    "effect": name,
+                    "hidden": name in hidden,
+                    "found": found,
+                    "parameter": parameter,
+                    "unit": units.get(parameter, ""),
+                    "true_size": true,
+                    "size": size["size"] if size else None,
+                    "interval": interval,
+                    "covered": interval[0] <= true <= interval[1] if interval and true is not None else None,
+                }
+            )
+    return {"verdict": verdict["verdict"], "rows": rows}

@@ -1,0 +1,30 @@
+"""What there is to show of how model and measurement differ: tables and figures by name, as in the catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from .figures import conditions, ladder, located
+from .study import Difference
+from .table import Table
+from .tables import difference
+from .tables import ladder as rungs
+
+
+def tables(found: Difference) -> dict[str, Table]:
+    """Every table of ``catalogue.DIFFERENCE_TABLES``."""
+    return {
+        "alignment": difference.alignment(found),
+        "findings": difference.findings(found),
+        "explainable": difference.explainable(found),
+        "error_ladder": rungs.error_ladder(found),
+        "error_ladder_sections": rungs.error_ladder_sections(found),
+    }
+
+
+def figures(found: Difference) -> dict[str, Callable]:
+    """Functions without arguments that draw the figures of ``catalogue.difference_figures``."""
+    kinds = {"located": located.located, "conditions": conditions.conditions, "responses": conditions.responses}
+    of_sites = {f"{kind}_{site.name}": partial(draw, found, site.name) for site in found.sites for kind, draw in kinds.items()}
+    return {**of_sites, "error_ladder": partial(ladder.error_ladder, found)}

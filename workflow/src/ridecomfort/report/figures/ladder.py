@@ -1,0 +1,103 @@
+"""The error ladder: the error falls from model to model, down to the floor."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from ...discrepancy import ladder as rungs
+from ...vocabulary import SIGNALS
+from .. import catalogue, style
+from ..notation import symbol
+from ..study import Difference
+from ..tables.ladder import METHODS, rung_title
+
+TITLES = {rungs.FITTED: "fitted drives", rungs.HELD_OUT: "drives held out"}
+COLOURS = {"thresholds": ("#6A3D9A", "s"), "iso2631": ("#3A3A3A", "o")}
+LONGEST = 16
+"""Letters in a line under a rung."""
+
+
+def error_ladder(study: Difference) -> Figure:
+    """Explainable error left on every rung, fitted and held out, a column a site; below, sections graded unlike measured."""
+    found = study.ladder
+    sites = [str(site) for site in found["site"].values]
+    groups = [str(group) for group in found["group"].values if np.isfinite(found["rmse"].sel(group=group)).any()]
+    rows = len(groups) + 1
+    drawn = style.figure(style.DOUBLE, 1.1 + 2.0 * rows)
+    panels = drawn.subplots(rows, len(sites), sharex=True, sharey="row", squeeze=False)
+    places, blank = np.arange(found.sizes["rung"]), []
+    for column, site in enumerate(sites):
+        for axes, group in zip(panels[:, column], groups):
+            chosen = found.sel(site=site, group=group)
+            if np.isfinite(chosen["rmse"]).any():
+                axes.set_title(f"{catalogue.label(site)}, {TITLES[group]}")
+                _left(axes, chosen, places)
+            else:
+                axes.set_axis_off()
+                blank.append(axes)
+        _sections(panels[-1, column], found.sel(site=site), groups, places)
+        panels[-1, column].set_title(f"{catalogue.label(site)}, all drives")
+        titles = [_wrapped(rung_title(str(name))) for name in found["rung"].values]
+        panels[-1, column].set_xticks(places, titles, rotation=30, ha="right", rotation_mode="anchor")
+        panels[-1, column].set_xlim(-0.3, places[-1] + 0.3)
+    for row in panels[:-1]:
+        first = next(axes for axes in row if axes.axison)
+        first.set_ylabel("explainable error left [%]")
+        first.tick_params(labelleft=True)
+        first.set_ylim(bottom=min(0.0, first.get_ylim()[0]))
+    panels[-1, 0].set_ylabel("sections unlike measured [%]")
+    panels[-1, 0].set_ylim(bottom=0.0)
+    key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
+    lines = [key(look, symbol(signal)) for signal, look in style.SIGNAL_LINES.items()]
+    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals"))
+    lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor (repeats)"))
+    lines += [key(look, METHODS[name]) for name, look in COLOURS.items()]
+    if blank:
+        blank[0].legend(handles=lines, loc="center left", ncols=2).set_in_layout(False)
+    else:
+        drawn.legend(handles=lines, loc="outside upper center", ncols=6)
+    return drawn
+
+
+def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
+    """Lines of what each signal, and all of them, leave on every rung, in percent of the reference."""
+    for signal in SIGNALS:
+        colour, marker = style.SIGNAL_LINES[signal]
+        values = 100 * chosen["left"].sel(signal=signal).values
+        axes.plot(*_known(places, values), color=colour, marker=marker, markersize=3.5)
+    axes.plot(*_known(places, 100 * chosen["left_overall"].values), color="black", linewidth=2.2, zorder=1)
+    axes.axhline(0.0, color=style.FLOOR, linestyle="--")
+    axes.yaxis.grid(True)
+
+
+def _sections(axes, chosen: xr.Dataset, groups, places: np.ndarray) -> None:
+    """Lines of the share of sections that replays grade otherwise than measured; dashed, repeats among themselves."""
+    part = chosen.sel(group=groups)
+    for method, (colour, marker) in COLOURS.items():
+        own = part.sel({"method": method})
+        compared = own["compared"].sum("group").values
+        unlike = 100 * (compared - own["agreeing"].sum("group").values) / np.where(compared > 0, compared, np.nan)
+        axes.plot(*_known(places, unlike), color=colour, marker=marker, markersize=4)
+        repeats = own["repeats_agreeing"].values
+        if np.isfinite(repeats).any():
+            axes.axhline(100 * (1 - np.nanmean(repeats)), color=colour, linestyle="--", linewidth=0.8)
+    axes.yaxis.grid(True)
+
+
+def _known(places: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    known = np.isfinite(values)
+    return places[known], values[known]
+
+
+def _wrapped(title: str) -> str:
+    """A title over as few lines as hold it."""
+    lines = [""]
+    for word in title.split(" "):
+        if lines[-1] and len(lines[-1]) + len(word) >= LONGEST:
+            lines.append(word)
+        else:
+            lines[-1] = f"{lines[-1]} {word}".strip()
+    return "\n".join(lines)

@@ -1,0 +1,109 @@
+"""Where simulated and measured drives differ: place by frequency, with the findings in words."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.colors import PowerNorm
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from ...discrepancy import findings
+from ...discrepancy.locate import BANDS
+from ...vocabulary import SIGNALS
+from .. import style
+from ..notation import symbol
+from ..study import Difference
+from ..tables.difference import floor_note
+from ..units import printed
+
+BRIGHTEST = 99.0
+"""Percentile of the map that the end of its colours stands for."""
+
+
+def located(study: Difference, site: str) -> Figure:
+    """Error above the floor by place and frequency and the spectra beside it, a row for each signal; findings as numbered boxes."""
+    chosen = next(each for each in study.sites if each.name == site)
+    found = chosen.comparison
+    errors = findings.findings(found)
+    maps = {signal: _above(found.sel(signal=signal)) for signal in SIGNALS}
+    brightest = np.nanpercentile(np.stack(list(maps.values())), BRIGHTEST)
+    drawn = style.figure(style.DOUBLE, 9.2)
+    panels = drawn.subplots(
+        len(SIGNALS) + 2, 2, width_ratios=(3.2, 1.0), height_ratios=(0.08, *[1.0] * len(SIGNALS), 1.05), squeeze=False
+    )
+    top, panels = panels[0], panels[1:]
+    place, frequency = found["s_map"].values / 1000, found["frequency_map"].values
+    for (left, right), signal in zip(panels, SIGNALS):
+        image = left.pcolormesh(
+            place, frequency, maps[signal].T, cmap="YlOrBr", norm=PowerNorm(0.5, 0.0, max(brightest, 1e-9)), shading="nearest",
+            rasterized=True,
+        )  # fmt: skip
+        left.set_yscale("log")
+        left.set_ylim(BANDS[0][0], BANDS[-1][1])
+        left.set_yticks([1, 2, 5, 10, 20, 40], ["1", "2", "5", "10", "20", "40"])
+        left.minorticks_off()
+        left.set_ylabel(f"{symbol(signal)}\nfrequency [Hz]")
+        _boxes(left, errors, signal, place)
+        _spectra(right, found.sel(signal=signal), signal)
+        right.set_yscale("log")
+        right.set_ylim(left.get_ylim())
+        right.set_yticks([1, 2, 5, 10, 20, 40], [""] * 6)
+        right.minorticks_off()
+        left.tick_params(labelbottom=signal == SIGNALS[-1])
+    panels[len(SIGNALS) - 1][0].set_xlabel("distance along the road [km]")
+    bar = drawn.colorbar(image, cax=top[0], orientation="horizontal")
+    bar.set_label("error above the floor [% of the signal's power per octave]")
+    top[0].xaxis.set_ticks_position("top")
+    top[0].xaxis.set_label_position("top")
+    lines = [f"{k}  {symbol(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
+    lines = lines or ["Nothing above the floor is worth a sentence."]
+    words = [*lines, f"{chosen.label}, model {study.model}, {found.attrs['located_state']}; {floor_note(chosen)}"]
+    below = panels[-1][0]
+    for axes in (*panels[-1], top[1]):
+        axes.set_axis_off()
+    text = below.text(-0.06, 0.95, "\n".join(words), fontsize=6.5, va="top", transform=below.transAxes, linespacing=1.5)
+    text.set_in_layout(False)
+    handles, labels = panels[0][1].get_legend_handles_labels()
+    key = top[1].legend(handles, labels, loc="center", ncols=3, columnspacing=0.7, handlelength=0.9, handletextpad=0.4)
+    key.set_in_layout(False)
+    drawn.align_ylabels([row[0] for row in panels])
+    return drawn
+
+
+def _above(found: xr.Dataset) -> np.ndarray:
+    """Error above the floor, (place, frequency), in percent of the signal's measured power per octave."""
+    above = np.maximum(found["error_map"].values - found["floor_density"].values, 0.0)
+    power = float(found["measured_power"].sum())
+    return 100 * np.log(2) * found["frequency_map"].values * above / (power or np.inf)
+
+
+def _boxes(axes, errors, signal: str, place: np.ndarray) -> None:
+    """Numbered frames about the findings of a signal."""
+    for number, each in enumerate(errors, start=1):
+        if each.signal != signal:
+            continue
+        start, end = (edge / 1000 for edge in each.stretch) if each.stretch else (place[0], place[-1])
+        bottom, top = axes.get_ylim()
+        lower, upper = max(each.lower, 1.02 * bottom), min(each.upper, 0.98 * top)
+        axes.add_patch(Rectangle((start, lower), end - start, upper - lower, fill=False, color="black", linewidth=0.9))
+        axes.annotate(
+            str(number), (start, upper), xytext=(1.5, -1.5), textcoords="offset points", fontsize=6, va="top", ha="left", weight="bold",
+            color="white", bbox={"boxstyle": "square,pad=0.15", "facecolor": "black", "edgecolor": "none"},
+        )  # fmt: skip
+
+
+def _spectra(axes, found: xr.Dataset, signal: str) -> None:
+    """Densities of signal, error and floor over frequency, which runs upwards as on the map."""
+    factor, unit = printed(signal)
+    frequency = found["frequency"].values
+    kept = (frequency >= BANDS[0][0]) & (frequency <= BANDS[-1][1])
+    densities = (("measured", "measured_density", style.MEASURED), ("error", "error_density", style.ERROR))
+    for label, name, colour in densities:
+        axes.plot(factor**2 * found[name].values[kept], frequency[kept], color=colour, label=label)
+    floor = factor**2 * found["floor_density"].values
+    if (floor > 0).any():
+        axes.plot(floor, found["frequency_map"].values, color=style.FLOOR, linestyle=(0, (3, 1.5)), label="floor")
+    axes.set_xscale("log")
+    axes.set_xlabel(f"density [({unit})²/Hz]", labelpad=1, fontsize=6.5)
+    axes.tick_params(axis="x", labelsize=6)

@@ -1,0 +1,153 @@
+"""The verdict on the missing effect, and the evidence behind it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .. import catalogue
+from ..notation import unit, words
+from ..study import Diagnosis
+from ..table import Column, Source, Table
+
+SAID = {
+    "named": "Missing: {names}.",
+    "cluster": "Missing: {names}; the data do not tell those apart.",
+    "outside": "Something is missing that is not in the library.",
+    "nothing": "Nothing is missing beyond the noise.",
+    "suspect": "The data are suspect: no effect is named.",
+}
+
+NEXT = {
+    "named": "Switch them on, effects: [{keys}] in config/study.yaml, and compare again.",
+    "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
+    "them apart.",
+    "outside": "See the proposed form, and the effect file beside the verdict where there is one.",
+    "nothing": "Nothing is to be switched on.",
+    "suspect": "Put the data right first, then diagnose again.",
+}
+
+
+def verdict(found: Diagnosis) -> Table:
+    """The verdict in words: what it is, why, and what to do next."""
+    said = found.verdict
+    names = ", ".join(_alike(effect) for effect in said["effects"])
+    keys = ", ".join(effect["name"] for effect in said["effects"])
+    rows = [("verdict", f"{SAID[said['verdict']].format(names=names)} ({said['verdict']})")]
+    rows += [("reason", _sentence(reason)) for reason in said["reasons"]]
+    proposal = said.get("proposal") or {}
+    if proposal.get("form"):
+        rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
+    rows.append(("next", NEXT[said["verdict"]].format(keys=keys)))
+    columns = Column("what", ("",)), Column("in_words", ("In words",))
+    sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
+    return _table(found, "verdict", columns, rows, sources)
+
+
+def missing_effects(found: Diagnosis) -> Table:
+    """Sizes of the named effects with intervals and plausible range, and the error that each removed."""
+    columns = (
+        Column("effect", ("", "Effect")),
+        Column("parameter", ("", "Size")),
+        Column("unit", ("", "Unit")),
+        Column("size", ("Estimate", "value"), ".4g"),
+        Column("interval_lower", ("Estimate", "90 % from"), ".4g"),
+        Column("interval_upper", ("Estimate", "to"), ".4g"),
+        Column("plausible", ("", "Plausible")),
+        Column("p_value", ("", "p over the library"), ".2g"),
+        Column("fitted_pct", ("Explainable error removed [%]", "fitted"), ".0f"),
+        Column("held_out_pct", ("Explainable error removed [%]", "held out"), ".0f"),
+        Column("absorbed_pct", ("Absorbed by", "calibration [%]"), ".0f"),
+        Column("like", ("", "Not told from")),
+    )
+    rows, breaks = [], []
+    for effect in found.verdict["effects"]:
+        breaks.append(len(rows))
+        shares = [_percent(effect[key]) for key in ("share", "held_out_share", "absorbed")]
+        like = ", ".join(words(name) for name in effect["like"]) or "–"
+        for size in effect["sizes"] or [{}]:
+            lower, upper = size.get("interval", (None, None))
+            plausible = {True: "yes", False: "no", None: ""}[size.get("is_plausible")]
+            if size.get("plausible"):
+                plausible += " ({:.4g} to {:.4g})".format(*size["plausible"])
+            rows.append(
+                (words(effect["name"]), words(size.get("parameter", "")), unit(size.get("unit", "")), size.get("size"), lower, upper,
+                 plausible, effect["p_value"], *shares, like)
+            )  # fmt: skip
+    if not rows:
+        rows.append(("none", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
+    sources = (Source("all", found.files.get("verdict", ""), "effects", "as in the file, shares in percent"),)
+    notes = (
+        "Shares are of the explainable error that was left when the effect was added. Absorbed: share of the effect's response that "
+        "calibration can take up, and so hide.",
+    )
+    return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
+
+
+def evidence(found: Diagnosis) -> Table:
+    """Score test of every effect by round, strongest first, with the refits of those that were refitted."""
+    columns = (
+        Column("round", ("", "Round"), "d"),
+        Column("effect", ("", "Effect")),
+        Column("p_value", ("Score test", "p over the library"), ".2g"),
+        Column("gain", ("Score test", "gain"), ".0f"),
+        Column("absorbed_pct", ("Score test", "absorbed [%]"), ".0f"),
+        Column("sizes", ("Refit", "sizes")),
+        Column("refit_gain", ("Refit", "gain"), ".0f"),
+        Column("bic", ("Refit", "BIC"), ".0f"),
+        Column("fitted_pct", ("Explainable error removed [%]", "fitted"), ".0f"),
+        Column("held_out_pct", ("Explainable error removed [%]", "held out"), ".0f"),
+        Column("outcome", ("", "Outcome")),
+    )
+    ranking, rows, breaks = found.ranking, [], []
+    for number, turn in enumerate(ranking["round"].values):
+        breaks.append(len(rows))
+        one = ranking.sel(round=turn)
+        refitted = np.flatnonzero(ranking["trial_round"].values == turn)
+        trials = {str(ranking["trial_effect"].values[k]): k for k in refitted}
+        gain = one["gain"].values
+        for place in sorted(range(len(gain)), key=lambda k: -np.nan_to_num(gain[k], nan=-np.inf)):
+            name = str(ranking["effect"].values[place])
+            if not np.isfinite(gain[place]):
+                continue
+            refit = (None,) * 5
+            outcome = ""
+            if name in trials:
+                trial = ranking.isel(trial=trials[name])
+                refit = (
+                    str(trial["trial_sizes"].item()), *(float(trial[f"trial_{key}"]) for key in ("gain", "bic")),
+                    *(_percent(float(trial[f"trial_{key}"])) for key in ("share", "held_out_share")),
+                )  # fmt: skip
+                outcome = str(trial["trial_objection"].item()) or "holds"
+            if name == str(one["winner"].item()):
+                outcome = "accepted"
+            score = float(one["p_value"][place]), float(gain[place]), _percent(float(one["absorbed"][place]))
+            rows.append((int(turn), words(name), *score, refit[0] or "", *refit[1:], outcome))
+    sources = (
+        Source("score test", found.files.get("ranking", ""), "p_value, gain, absorbed", "as in the file"),
+        Source("refit", found.files.get("ranking", ""), "trial_*", "as in the file, shares in percent"),
+        Source("outcome", found.files.get("ranking", ""), "winner, trial_objection", "as in the file"),
+    )
+    notes = (
+        "Gain: fall of twice the negative log-likelihood. The p-value is that of the largest gain over the whole library, by block "
+        "wild bootstrap. Every effect is tested; the best are refitted together with the calibrated parameters.",
+    )
+    return _table(found, "evidence", columns, rows, sources, notes, breaks[1:])
+
+
+def _alike(effect) -> str:
+    return " or ".join(words(name) for name in (effect["name"], *effect["like"]))
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+def _percent(share: float | None) -> float | None:
+    return None if share is None else 100 * share
+
+
+def _table(found: Diagnosis, name, columns, rows, sources, notes=(), breaks=()) -> Table:
+    sites = ", ".join(catalogue.label(site) for site in found.sites)
+    notes = [*notes, f"Diagnosed: the model {found.model} on {sites}.", *filter(None, [found.standin_note()])]
+    caption = catalogue.DIAGNOSIS_TABLES[name]
+    return Table(name, caption, tuple(columns), tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks))

@@ -1,0 +1,138 @@
+"""How drives were aligned, where the error sits, and how much of it could be explained."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...discrepancy import findings as located
+from ...discrepancy import judged, ladder
+from ...vocabulary import SIGNALS
+from .. import catalogue
+from ..notation import symbol
+from ..study import Compared, Difference
+from ..table import Column, Source, Table
+from ..units import printed
+
+
+def alignment(study: Difference) -> Table:
+    """What stood between each record and its road."""
+    shown = (
+        ("clock_offset", "clock_offset_ms", ("Clock offset [ms]", "found"), ".1f", 1e3),
+        ("clock_offset_error", "clock_offset_error_ms", ("Clock offset [ms]", "std. error"), ".2f", 1e3),
+        ("speed_scale", "speed_scale", ("Speed scale", "[-]"), ".4f", 1.0),
+        ("lateral_correction", "lateral_correction_m", ("Path [m]", "to the left"), ".3f", 1.0),
+        ("lateral_wander", "lateral_wander_m", ("Path [m]", "wander, rms"), ".3f", 1.0),
+        ("distance_wander", "distance_wander_m", ("Distance [m]", "wander, rms"), ".3f", 1.0),
+        ("mounting_roll", "mounting_roll_deg", ("Mounting [deg]", "roll"), ".2f", 180 / np.pi),
+        ("mounting_pitch", "mounting_pitch_deg", ("Mounting [deg]", "pitch"), ".2f", 180 / np.pi),
+        ("mounting_yaw", "mounting_yaw_deg", ("Mounting [deg]", "yaw"), ".2f", 180 / np.pi),
+        ("acceleration_gain", "acceleration_gain", ("Gain", "[-]"), ".4f", 1.0),
+    )
+    columns = [Column("site", ("", "Site")), Column("drive", ("", "Drive")), Column("role", ("", "Role"))]
+    columns += [Column(key, heading, form) for _, key, heading, form, _ in shown]
+    rows, sources, breaks = [], [], []
+    for site in study.sites:
+        breaks.append(len(rows))
+        for name in site.measured["drive"].values:
+            own = site.measured.sel(drive=name)
+            values = [factor * float(own[key]) if key in own else None for key, _, _, _, factor in shown]
+            rows.append((site.label, str(name), str(own["role"].item()), *values))
+        names = ", ".join(key for key, *_ in shown)
+        sources.append(Source(f"all, {site.label}", site.files.get("measured", ""), names, "as in the file, in the unit printed"))
+    notes = (
+        "Clock offset: how much later accelerations and rates stand in the record than distance and speed. Speed scale: true "
+        "over recorded speed. Mounting: rotation of the instrument against the body. Role check: nothing is fitted to the drive.",
+    )
+    return _table(study, "alignment", columns, rows, sources, notes, breaks[1:])
+
+
+def findings(study: Difference) -> Table:
+    """The largest errors of every site in words and numbers."""
+    columns = (
+        Column("site", ("", "Site")),
+        Column("number", ("", "No."), "d"),
+        Column("signal", ("", "Signal")),
+        Column("band_Hz", ("", "Band [Hz]")),
+        Column("where", ("", "Where")),
+        Column("when", ("", "Mostly at")),
+        Column("power_pct", ("Error above the floor", "[% of the signal's power]"), ".1f"),
+        Column("explainable_pct", ("Error above the floor", "[% of the explainable]"), ".0f"),
+    )
+    rows, sources, breaks, notes = [], [], [], []
+    for site in study.sites:
+        breaks.append(len(rows))
+        for number, each in enumerate(located.findings(site.comparison), start=1):
+            shares = 100 * each.power_share, 100 * each.explainable_share
+            band = f"{each.lower:g}–{each.upper:g}"
+            rows.append((site.label, number, symbol(each.signal), band, each.where, each.when or "any time", *shares))
+        if len(rows) == breaks[-1]:
+            rows.append((site.label, None, "none", "", "", "", None, None))
+        rule = "largest shares over bands, attribute words has them as sentences"
+        sources.append(Source(site.label, site.files.get("comparison", ""), "power_share, explainable_share, condition_error", rule))
+        notes.append(f"{site.label}: state {site.comparison.attrs['located_state']}; {floor_note(site)}")
+    return _table(study, "findings", columns, rows, sources, notes, breaks[1:])
+
+
+def explainable(study: Difference) -> Table:
+    """RMSE, NRMSE, floor and explainable error of every site, fitted and held-out drives apart."""
+    columns = (
+        Column("site", ("", "Site")),
+        Column("drives", ("", "Drives")),
+        Column("signal", ("", "Signal")),
+        Column("unit", ("", "Unit")),
+        *(Column(f"{key}_{state}", (title, word), ".4f") for key, title in (("rmse", "RMSE"), ("nrmse", "NRMSE [-]"))
+          for state, word in (("uncalibrated", "uncalibrated"), ("model", "this model"))),
+        Column("floor_rmse", ("Floor", "RMSE"), ".4f"),
+        Column("explainable_rmse", ("Above the floor", "RMSE, this model"), ".4f"),
+        Column("explainable_pct", ("Above the floor", "of the error [%]"), ".0f"),
+        Column("left_pct", ("Above the floor", "of uncalibrated [%]"), ".0f"),
+    )  # fmt: skip
+    rows, sources, breaks, notes = [], [], [], []
+    for site in study.sites:
+        for group, drives in _groups(study, site):
+            breaks.append(len(rows))
+            part = site.comparison.isel(drive=drives)
+            for signal in SIGNALS:
+                one, (factor, unit) = part.sel(signal=signal), printed(signal)
+                mean = lambda name, state, one=one: float(np.sqrt((one[name].isel(state=state) ** 2).mean("drive")))  # noqa: E731
+                floor = float(np.sqrt((one["floor_rmse"] ** 2).mean("drive")))
+                left, first = mean("explainable_rmse", -1) ** 2, mean("explainable_rmse", 0) ** 2
+                errors = [factor * mean("rmse", 0), factor * mean("rmse", -1), mean("nrmse", 0), mean("nrmse", -1)]
+                share = 100 * left / (left + floor**2) if left + floor**2 > 0 else None
+                rows.append(
+                    (site.label, group, symbol(signal), unit, *errors, factor * floor, factor * np.sqrt(left), share,
+                     100 * left / first if first > 0 else None)
+                )  # fmt: skip
+        names = "rmse, nrmse, floor_rmse, explainable_rmse"
+        sources.append(Source(site.label, site.files.get("comparison", ""), names, "root of the mean square over the drives"))
+        notes.append(f"{site.label}: {floor_note(site)}")
+    notes.append(
+        "NRMSE: RMSE over the range of the measured signal. The floor is what no model of this road and car could explain; it and the "
+        f"error above it are from {judged.IN_WORDS}: slower errors are drifts of instruments and what the driver makes of the path."
+    )
+    return _table(study, "explainable", columns, rows, sources, notes, breaks[1:])
+
+
+def floor_note(site: Compared) -> str:
+    """How the floor of a site is known, as a sentence."""
+    return f"the floor is {_known(str(site.comparison.attrs['floor']))}."
+
+
+def _known(attribute: str) -> str:
+    return "known from drives that repeat one another" if attribute == "from repeats" else attribute
+
+
+def _groups(study: Difference, site: Compared):
+    """The groups of a site's drives that are not empty, with the numbers of the drives."""
+    fitted = site.comparison["role"].values == "fit"
+    if not np.isfinite(study.ladder["rmse"].sel(site=site.name, group=ladder.FITTED)).any():
+        fitted = np.zeros_like(fitted)
+    groups = {ladder.FITTED: fitted, ladder.HELD_OUT: ~fitted}
+    return [(name, np.flatnonzero(drives)) for name, drives in groups.items() if drives.any()]
+
+
+def _table(study: Difference, name, columns, rows, sources, notes, breaks) -> Table:
+    notes = [*notes, *filter(None, [study.standin_note()])]
+    caption = catalogue.DIFFERENCE_TABLES[name]
+    caption = caption if name == "alignment" else f"{caption} Model: {study.model}."
+    return Table(name, caption, tuple(columns), tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks))

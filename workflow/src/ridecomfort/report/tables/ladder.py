@@ -1,0 +1,125 @@
+"""The error ladder, and what it does to the comfort result."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from ...discrepancy import judged
+from ...discrepancy import ladder as rungs
+from ...vocabulary import SIGNALS
+from .. import catalogue
+from ..notation import symbol, words
+from ..study import Difference
+from ..table import Column, Source, Table
+from ..units import printed
+
+METHODS = {"thresholds": "Thresholds", "iso2631": "ISO 2631"}
+FLOOR = "floor"
+
+
+def rung_title(name: str) -> str:
+    """A rung in print: names of effects in words."""
+    return words(name) if name.startswith("+") else name
+
+
+def error_ladder(study: Difference) -> Table:
+    """Error and share of the explainable error left, by site, group of drives, rung and signal; the floor last."""
+    columns = [Column("site", ("", "Site")), Column("drives", ("", "Drives")), Column("model", ("", "Model"))]
+    for signal in SIGNALS:
+        title = f"{symbol(signal)} [{printed(signal)[1]}]"
+        unit = printed(signal)[1].replace("/", "_per_").replace("²", "2")
+        columns.append(Column(f"{signal}_rmse_{unit}", (title, "RMSE"), ".4f"))
+        columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
+    columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".0f"))
+    rows, breaks, bold = [], [], set()
+    for site, group, chosen in _groups(study.ladder):
+        breaks.append(len(rows))
+        for rung in chosen["rung"].values:
+            one = chosen.sel(rung=rung)
+            if not np.isfinite(one["rmse"]).any():
+                continue
+            cells = []
+            for signal in SIGNALS:
+                own = one.sel(signal=signal)
+                cells += [printed(signal)[0] * float(own["rmse"]), 100 * float(own["left"])]
+            bold.add((len(rows), len(columns) - 1))
+            rows.append((catalogue.label(site), group, rung_title(str(rung)), *cells, 100 * float(one["left_overall"])))
+        floor = [[printed(signal)[0] * float(chosen["floor_rmse"].sel(signal=signal)), 0] for signal in SIGNALS]
+        rows.append((catalogue.label(site), group, FLOOR, *np.ravel(floor).tolist(), 0))
+    file = study.ladder_file
+    sources = (
+        Source("RMSE", file, "rmse, floor_rmse", "root of the mean square over the drives"),
+        Source("left", file, "left, left_overall", f"mean square above the floor over that of {study.ladder.attrs['reference']}"),
+    )
+    known = zip(study.ladder["site"].values, study.ladder["floor_known"].values)
+    floors = [f"{catalogue.label(str(site))}: floor {how}" for site, how in known]
+    notes = (
+        f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
+        f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
+        "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
+        "much as there was to explain of its own error.",
+        "; ".join(floors) + ".",
+    )
+    return _table(study, "error_ladder", columns, rows, sources, notes, breaks[1:], frozenset(bold))
+
+
+def error_ladder_sections(study: Difference) -> Table:
+    """Critical sections of the replays on every rung beside those of the measured drives, by method."""
+    columns = [Column("site", ("", "Site")), Column("drives", ("", "Drives")), Column("model", ("", "Model"))]
+    for key, title in METHODS.items():
+        columns += [
+            Column(f"{key}_simulated", (title, "simulated"), ".0f"),
+            Column(f"{key}_measured", (title, "measured"), ".0f"),
+            Column(f"{key}_agreeing_pct", (title, "alike [%]"), ".1f"),
+            Column(f"{key}_changed", (title, "changed"), ".0f"),
+        ]
+    columns.append(Column("sections", ("", "Sections"), ".0f"))
+    rows, breaks = [], []
+    for site, group, chosen in _groups(study.ladder):
+        breaks.append(len(rows))
+        for rung in chosen["rung"].values:
+            one = chosen.sel(rung=rung)
+            if not np.isfinite(one["compared"]).any():
+                continue
+            cells = []
+            for method in METHODS:
+                own = one.sel({"method": method})
+                alike = 100 * float(own["agreeing"]) / max(float(own["compared"]), 1.0)
+                cells += [float(own["critical_simulated"]), float(own["critical_measured"]), alike, float(own["changed"])]
+            compared = float(one["compared"].isel({"method": 0}))
+            rows.append((catalogue.label(site), group, rung_title(str(rung)), *cells, compared))
+        repeats = [[None, None, 100 * float(chosen["repeats_agreeing"].sel({"method": method})), None] for method in METHODS]
+        if np.isfinite(chosen["repeats_agreeing"]).any():
+            rows.append((catalogue.label(site), group, "repeats among themselves", *sum(repeats, []), None))
+    sources = (
+        Source("simulated, measured", study.ladder_file, "critical_simulated, critical_measured", "sum over the drives"),
+        Source("alike, changed", study.ladder_file, "agreeing, compared, changed, repeats_agreeing", "share of the sections in percent"),
+    )
+    notes = (
+        "Sections of the measured drives and of the model on the same path at the same speed, at the place of the sensor. Critical: "
+        "by thresholds, some acceleration leaves the band of at least the mildest driving style in the whole section; by ISO 2631, "
+        "the total value lies above the lower edge of the second band in the whole section. Alike: same style or band as measured. "
+        "Changed: other style or band than on the rung before.",
+    )
+    return _table(study, "error_ladder_sections", columns, rows, sources, notes, breaks[1:])
+
+
+def _reference(study: Difference) -> str:
+    reference = study.ladder.attrs["reference"]
+    return {rungs.CALIBRATED: "the calibrated base model", rungs.UNCALIBRATED: "the uncalibrated base model"}[reference]
+
+
+def _groups(found: xr.Dataset):
+    """Site, group and part of the ladder wherever there are such drives."""
+    for site in found["site"].values:
+        for group in found["group"].values:
+            chosen = found.sel(site=site, group=group)
+            if np.isfinite(chosen["rmse"]).any():
+                yield str(site), str(group), chosen
+
+
+def _table(study: Difference, name, columns, rows, sources, notes, breaks, bold=frozenset()) -> Table:
+    notes = (*notes, *filter(None, [study.standin_note()]))
+    caption = catalogue.DIFFERENCE_TABLES[name]
+    return Table(name, caption, tuple(columns), tuple(rows), sources, notes, bold=bold, breaks=tuple(breaks))

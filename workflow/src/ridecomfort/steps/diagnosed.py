@@ -1,0 +1,16 @@
+"""Write tables and figures of the verdict and of the evidence behind it."""
+
+from ridecomfort.report import diagnosed
+from ridecomfort.steps import results as study_results
+from ridecomfort.steps import written
+from ridecomfort.steps.command import Command
+
+
+def main(results, config, output):
+    diagnosis = study_results.diagnosis(results, config)
+    written.tables(diagnosed.tables(diagnosis), output / "tables")
+    written.figures(diagnosed.figures(diagnosis), output / "figures")
+
+
+if __name__ == "__main__":
+    Command(main, inputs=("results",)).run()

@@ -1,0 +1,58 @@
+"""The models that a study puts side by side: base, then effect after effect, those of the study before those of a verdict."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..config import BASE, JOIN, Study, effect_files
+from ..discrepancy.ladder import rung_titles
+
+FOLLOWED = ("named", "cluster")
+"""Verdicts whose effects are added; of a cluster the first of each, called by all of its names."""
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Names of ``models``, each with one effect more than the one before it, and what the later rungs are called."""
+
+    models: tuple[str, ...]
+    titles: tuple[str, ...]
+
+    def files(self, study: Study, name: str) -> list[str]:
+        """The files of this name (``comparison.nc``) of every measured site, all models of one after those of another."""
+        return [f"results/{site}/{model}/{name}" for site in study.measured for model in self.models]
+
+
+def chain(study: Study, verdict: Mapping | None = None) -> Chain:
+    """The chain of a study, continued by the effects that a verdict on its model names.
+
+    ``verdict`` is the content of verdict.json. Effects that are in the model already, or that there is no file of, add nothing.
+    """
+    configured = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
+    found = verdict["effects"] if verdict and verdict["verdict"] in FOLLOWED else []
+    known = effect_files(study.effects_folder)
+    named = [effect["name"] for effect in found if effect["name"] in known]
+    alike = {effect["name"]: effect.get("like", ()) for effect in found}
+    effects = list(dict.fromkeys([*configured, *named]))
+    models = [JOIN.join(sorted(effects[:count])) or BASE for count in range(len(effects) + 1)]
+    return Chain(tuple(models), tuple(rung_titles(effects, alike)))
+
+
+def known(study: Study) -> Chain:
+    """The chain as far as it is known now: with the verdict on the study's model where there is one and it is to be followed."""
+    file = Path(verdict_file(study))
+    return chain(study, json.loads(file.read_text()) if study.forward and file.is_file() else None)
+
+
+def verdict_file(study: Study) -> str:
+    """Where the verdict on the study's model lies, from the project folder."""
+    return f"results/diagnosis/{study.model}/verdict.json"
+
+
+def ladder_settings(study: Study, along: Chain) -> str:
+    """Configuration of the step ``ladder`` as JSON: models, titles, and whether each site's own drives were fitted."""
+    fitted = {site: study.calibrated_on(site) == site for site in study.measured}
+    return json.dumps({"sites": fitted, "models": list(along.models), "titles": list(along.titles)})

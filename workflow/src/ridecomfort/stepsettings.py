@@ -1,0 +1,147 @@
+"""Exactly the settings that each step uses: when they change, and only then, the step runs again."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from .vocabulary import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from .config import Study
+
+
+def of_step(study: Study, step: str, site: str | None = None, model: str | None = None) -> dict:
+    """The settings of a step, on a site and with a model where it has one, as plain data. Raises KeyError for no step."""
+    chosen = study.settings
+    own = {} if site is None else study.sites[site]
+    at = {} if site is None else {"site": site}
+    simulation = {key: chosen["simulation"][key] for key in ("step", "rate")}
+    simulated = {
+        **at,
+        "effects": study.effects(model),
+        "effects_folder": chosen["effects_folder"],
+        "simulation": simulation,
+    }
+    comfort = chosen["comfort"]
+    sections = {**at, **{key: comfort[key] for key in ("critical_length", "sections")}}
+    match step:
+        case "standin_road":
+            surface = {key: value for key, value in study.standin.items() if key not in ("measurement", "scanner")}
+            return {**surface, **at, "sites": {site: study.standin["sites"][site]}}
+        case "standin_drives":
+            speed = {site: {"speed": study.standin["sites"][site]["speed"]}}
+            keys = ("file", "columns", "sensor", "role")
+            drives = [{key: drive[key] for key in keys if key in drive} for drive in own["drives"]]
+            return {**at, **{key: study.standin[key] for key in ("seed", "measurement")}, "sites": speed, "drives": drives}
+        case "standin_scan":
+            return {**at, "seed": study.standin["seed"], "scanner": study.standin["scanner"]}
+        case "survey":
+            grid = {key: own["road"]["scan"][key] for key in ("spacing", "width")}
+            return {**at, "title": own["title"], **grid}
+        case "road":
+            return {**at, "title": own["title"], "standin": own["standin"], "options": own["road"]["options"]}
+        case "inspect":
+            road = {"title": own["title"], "options": own["road"]["options"]}
+            return {**at, **road, "speed": own["speed"], "simulation": simulation}
+        case "measured":
+            drives = [{key: value for key, value in drive.items() if key != "noise_density"} for drive in own["drives"]]
+            return {**at, "drives": drives, "alignment": chosen["alignment"], "simulation": simulation}
+        case "calibrate":
+            return {**simulated, "calibration": chosen["calibration"]}
+        case "compare":
+            return {**simulated, "noise_density": _noise_densities(own["drives"])}
+        case "critical":
+            weighted = {key: value for key, value in comfort["iso2631"].items() if key != "label"}
+            return {
+                **at,
+                "spacing": chosen["space"]["spacing"],
+                "critical_length": comfort["critical_length"],
+                "thresholds": comfort["thresholds"],
+                "iso2631": weighted,
+            }
+        case "compared":
+            return {"model": model, "sites": _shown(study, study.measured)}
+        case "diagnosed":
+            return {"model": model, "sites": _shown(study, study.diagnosed), "diagnosed": study.diagnosed, "scored": False}
+        case "standin_score":
+            known = {"effects": list(study.effects(model)), "effects_folder": chosen["effects_folder"]}
+            return {"model": model, "sites": study.diagnosed, **known}
+        case "diagnose":
+            return {
+                **simulated,
+                "sites": study.diagnosed,
+                "fitted_on": study.diagnosed[:1],
+                "bounds": chosen["calibration"]["bounds"],
+                "seed": chosen["seed"],
+                "workers": None,
+                "among": None,
+            }
+        case "sample":
+            return {
+                **at,
+                "runs": chosen["runs"],
+                "seed": chosen["seed"],
+                "method": chosen["sampling_method"],
+                "sampling": own["sampling"],
+            }
+        case "simulate":
+            return {**simulated, "speed": own["speed"]}
+        case "space":
+            weighted = {key: value for key, value in comfort["iso2631"].items() if key not in ("bands", "label")}
+            return {**at, "space": chosen["space"], "iso2631": weighted}
+        case "thresholds":
+            return {**sections, **{key: comfort[key] for key in ("thresholds", "jerk")}}
+        case "iso2631":
+            banded = {key: value for key, value in comfort["iso2631"].items() if key != "label"}
+            return {**sections, "iso2631": banded}
+        case "iri":
+            return {**sections, "iri": comfort["iri"]}
+        case "agreement":
+            return {"sites": study.names, "seed": chosen["seed"], "label": comfort["iso2631"]["label"]}
+        case "maps":
+            place = {"geo_reference": own["road"]["geo_reference"]}
+            return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"], **place}
+        case "tables" | "figures" | "report":
+            keys = ("runs", "seed", "sampling_method", "space", "calibration", "comfort")
+            loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored} if step == "report" else {}
+            return {
+                **simulated,
+                "sites": study.summary(),
+                "model": model,
+                **{key: chosen[key] for key in keys},
+                **loop,
+            }
+    raise KeyError(step)
+
+
+def summary(study: Study, site: str) -> dict:
+    """What tables and figures say of a site."""
+    own = study.sites[site]
+    return {
+        "title": own["title"],
+        "standin": own["standin"],
+        "has_drives": bool(own["drives"]),
+        "calibrated_on": study.calibrated_on(site),
+        "speed": own["speed"],
+        "sampling": own["sampling"],
+        "vehicle": study.vehicle(site),
+    }
+
+
+def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:
+    """What tables and figures of measured drives say of these sites."""
+    return {site: {key: summary(study, site)[key] for key in ("title", "standin", "has_drives")} for site in sites}
+
+
+def _noise_densities(drives: Iterable[Mapping]) -> dict[str, dict[str, float]]:
+    """Noise densities of the instruments in SI units by name of the drive, of those that have any."""
+    given = {drive["name"]: drive["noise_density"] for drive in drives if "noise_density" in drive}
+    return {
+        name: {
+            "accelerometer": 1e-6 * STANDARD_GRAVITY * each["accelerometer_ug"],
+            "gyroscope": math.radians(each["gyroscope_deg_s"]),
+        }
+        for name, each in given.items()
+    }
