@@ -30,7 +30,8 @@ def test_friction_shows_as_a_step_where_the_velocity_turns(found):
         expected = own["named_force"].isel(named_effect=0)
         assert float(expected.max()) > 15
         off = np.abs(own["missing_force"] - expected)[slow]
-        assert bool((off < 3 * own["missing_force_error"][slow] + 1.0).all())
+        # Friction turns within 2 mm/s, the curve between knots 40 mm/s apart.
+        assert float(off.max()) < 0.4 * float(expected.max())
 
 
 def test_the_place_where_the_force_acts_explains_most(found):

@@ -141,3 +141,23 @@ def diagnosis(verdict=None, standin=True, score=None) -> Diagnosis:
     files = {"verdict": "diagnosis/base/verdict.json", "ranking": "diagnosis/base/ranking.nc", "score": "diagnosis/base/score.json"}
     labels = ("Ts1", "Ts2") if standin else ()
     return Diagnosis(verdict or VERDICT, ranking(), files, "base", ("ts1", "ts2"), labels, score)
+
+
+def curves() -> xr.Dataset:
+    """Missing forces at two places, a step of friction at the first."""
+    knots = np.array([-0.1, 0.0, 0.1])
+    step = np.broadcast_to(80.0 * np.sign(knots), (2, 3))
+    force = np.stack([step, np.zeros((2, 3))])
+    named = np.stack([step, np.full((2, 3), np.nan)])[None]
+    over = ("seen", "axle", "knot")
+    return xr.Dataset(
+        {
+            "seen_at": (("seen", "knot"), np.stack([knots, knots])),
+            "seen_unit": ("seen", ["m/s", "m"]),
+            "seen_gain": ("seen", [900.0, 3.0]),
+            "missing_force": (over, force),
+            "missing_force_error": (over, np.full(force.shape, 5.0)),
+            "named_force": (("named_effect", *over), named),
+        },
+        {"seen": ["strut velocity", "strut deflection"], "axle": ["front", "rear"], "named_effect": ["suspension_friction"]},
+    )

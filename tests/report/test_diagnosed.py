@@ -67,3 +67,21 @@ def test_the_score_is_marked_as_that_of_stand_ins():
     found = diagnosed.scores(made_up.diagnosis(score=score(made_up.VERDICT, HIDDEN)))["standin_score"]
     assert any("sealed" in note for note in found.notes) and any("Stand-in data" in note for note in found.notes)
     assert not diagnosed.scores(made_up.diagnosis())
+
+
+def test_the_missing_force_is_drawn_beside_what_the_named_effect_would_show():
+    found = made_up.diagnosis()
+    found.ranking.update(made_up.curves())
+    with style.styled():
+        each = diagnosed.figures(found)["signature"]()
+        FigureCanvasAgg(each).draw()
+    said = " ".join(text.get_text() for text in each.findobj(Text))
+    assert "front strut velocity, explains most" in said and "suspension friction" in said and "[mm]" in said
+    drawn = [line for axes in each.axes for line in axes.lines if line.get_linestyle() == "--"]
+    assert len(drawn) == 2  # one an axle, and none where the effect does not act
+
+
+def test_a_diagnosis_without_curves_says_so():
+    with style.styled():
+        each = diagnosed.figures(made_up.diagnosis())["signature"]()
+    assert "not estimated" in " ".join(text.get_text() for text in each.findobj(Text))

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from scipy.linalg import block_diag
 
 from ..effects import library
 from . import car as cars
@@ -123,12 +124,27 @@ def _curve(frame: Frame, residuals, free, columns, seen: Seen) -> _Curve:
     values, spread, resolution = np.zeros(count), np.zeros((count, count)), np.zeros((count, count))
     values[where], spread[np.ix_(where, where)] = force, held @ (sums @ sums.T) @ held
     resolution[np.ix_(where, where)] = held @ normal
-    # A force that is there at rest only moves the place of rest.
-    origin = np.kron(np.eye(len(AXLES)), np.eye(len(seen.knots))[seen.knots.index(0.0)])
-    centred = np.eye(count) - np.repeat(origin, len(seen.knots), axis=0)
-    error = np.sqrt(np.diag(centred @ spread @ centred.T))
+    shown = _without_line(np.array(seen.knots), spread)
+    error = np.sqrt(np.diag(shown @ spread @ shown.T))
     error[[k for k in range(count) if k not in where]] = np.nan
-    return _Curve(centred @ values, error, centred @ resolution, float(residual @ residual - left @ left))
+    return _Curve(shown @ values, error, shown @ resolution, float(residual @ residual - left @ left))
+
+
+def _without_line(knots: np.ndarray, spread: np.ndarray) -> np.ndarray:
+    """Matrix that takes from the values at the knots of all axles their value at rest and a line through it.
+
+    A force that is there at rest only moves the place of rest, and a line is what calibration takes up: neither is known.
+    """
+    count = len(knots)
+    rest = np.eye(count) - np.repeat(np.eye(count)[[np.argmin(np.abs(knots))]], count, axis=0)
+    parts = []
+    for axle in range(len(AXLES)):
+        own = slice(axle * count, (axle + 1) * count)
+        weight = 1.0 / (np.diag(rest @ spread[own, own] @ rest.T) + 1e-3)
+        weight[knots == 0.0] = 0.0
+        line = np.outer(knots, knots * weight) / np.sum(knots**2 * weight)
+        parts.append((np.eye(count) - line) @ rest)
+    return block_diag(*parts)
 
 
 def _shapes(entry: library.Entry, sizes: Mapping[str, float]) -> dict[str, np.ndarray]:

@@ -82,6 +82,8 @@ DIFFERENCE_FIGURES = {
 DIAGNOSIS_FIGURES = {
     "evidence": "Evidence for the effects of the library: fall of twice the negative log-likelihood in the score test, p-value "
     "over the whole library, and the refits of the best on fitted and on held-out drives.",
+    "signature": "The force that the calibrated model lacks, estimated without a form in mind against what it could depend on. "
+    "What calibration could take up, a straight line, does not show; the named effects have passed through the same estimate.",
 }
 
 ROAD_FIGURES = {

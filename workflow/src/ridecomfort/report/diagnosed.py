@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from .figures import evidence
+from .figures import evidence, signature
 from .study import Diagnosis
 from .table import Table
 from .tables import diagnosis, score
@@ -27,4 +27,4 @@ def scores(found: Diagnosis) -> dict[str, Table]:
 
 def figures(found: Diagnosis) -> dict[str, Callable]:
     """Functions without arguments that draw the figures of ``catalogue.DIAGNOSIS_FIGURES``."""
-    return {"evidence": partial(evidence.evidence, found)}
+    return {"evidence": partial(evidence.evidence, found), "signature": partial(signature.signature, found)}

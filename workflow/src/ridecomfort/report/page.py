@@ -41,7 +41,7 @@ SECTIONS = (
         "Where model and measurement differ",
         ("located_*", "findings", "explainable", "conditions_*", "responses_*", "alignment"),
     ),
-    ("missing", "Which effect is missing", ("verdict", "missing_effects", "evidence.figure", "evidence", "standin_score")),
+    ("missing", "Which effect is missing", ("verdict", "missing_effects", "evidence.figure", "signature", "evidence", "standin_score")),
     ("ladder", "How the error falls", ("error_ladder.figure", "error_ladder", "error_ladder_sections")),
     ("overview", "Comfort at a glance", ("critical_shares", "exceedance")),
     (

@@ -1,0 +1,79 @@
+"""The missing force against what it could depend on, to be checked by eye."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from .. import style
+from ..notation import words
+from ..study import Diagnosis
+
+BAND = 1.645
+"""Standard errors of a 90 % interval."""
+
+POORLY_KNOWN = 8.0
+"""Times the largest force within reach beyond which an interval is cut off: where the car was hardly ever."""
+
+AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
+
+
+def signature(found: Diagnosis) -> Figure:
+    """Estimated missing force with its 90 % interval at every place it could act, a column each axle, and what the named
+    effects would show."""
+    ranking = found.ranking
+    drawn = style.figure(style.DOUBLE, 5.8)
+    if "missing_force" not in ranking:
+        axes = drawn.subplots()
+        axes.set_axis_off()
+        axes.text(0.5, 0.5, "The missing force was not estimated.", ha="center")
+        return drawn
+    places, axles = ranking["seen"].values, ranking["axle"].values
+    panels = drawn.subplots(len(places), len(axles), squeeze=False, sharey="row")
+    strongest = int(np.nanargmax(ranking["seen_gain"].values))
+    for row, place in zip(panels, places):
+        one = ranking.sel(seen=place)
+        factor, unit = (1e3, "mm") if str(one["seen_unit"].item()) == "m" else (1.0, str(one["seen_unit"].item()))
+        reach = _reach(one)
+        for axes, axle in zip(row, axles):
+            own = one.sel(axle=axle)
+            force, error = own["missing_force"].values, BAND * own["missing_force_error"].values
+            known = np.isfinite(force) & np.isfinite(error)
+            at = factor * own["seen_at"].values
+            colour, marker = AXLE_LINES[str(axle)]
+            axes.axhline(0.0, color=style.FLOOR, linewidth=0.7)
+            axes.fill_between(at[known], (force - error)[known], (force + error)[known], color=colour, alpha=0.2, linewidth=0)
+            axes.plot(at[known], force[known], color=colour, marker=marker, markersize=3.5)
+            for effect in ranking["named_effect"].values:
+                shown = own["named_force"].sel(named_effect=effect).values
+                if np.isfinite(shown[known]).any():
+                    axes.plot(at[known], shown[known], color=style.ERROR, linestyle="--")
+                    axes.annotate(words(str(effect)), (at[known][-1], shown[known][-1]), fontsize=6, color=style.ERROR,
+                                  ha="right", va="bottom")  # fmt: skip
+            axes.set_ylim(-reach, reach)
+            most = ", explains most" if place == places[strongest] else ""
+            axes.set_title(f"{axle} {place}{most}")
+            axes.set_xlabel(f"{place} [{unit}]")
+        row[0].set_ylabel("missing force [N]")
+    handles = [
+        Line2D([], [], color=colour, marker=marker, markersize=3.5, label=f"estimated, {axle}")
+        for axle, (colour, marker) in AXLE_LINES.items()
+    ]
+    handles += [
+        Patch(color=style.FAINT, alpha=0.5, label="90 % interval"),
+        Line2D([], [], color=style.ERROR, linestyle="--", label="what the named effect would show"),
+    ]
+    drawn.legend(handles=handles, loc="outside upper center", ncols=4)
+    return drawn
+
+
+def _reach(one) -> float:
+    """N that a row of panels shows: all estimates, and the intervals where they say something."""
+    force, error = one["missing_force"].values, BAND * one["missing_force_error"].values
+    known = np.isfinite(force) & np.isfinite(error)
+    if not known.any():
+        return 1.0
+    sure = known & (error <= max(np.median(error[known]) * POORLY_KNOWN, 1e-9))
+    return 1.1 * float(np.max(np.abs(force[sure]) + error[sure])) + 1e-9
