@@ -103,34 +103,38 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
     first = selection.rounds[0] if selection.rounds else None
     left = selection.remaining_z > SHARED_Z and selection.remaining > SHARED
     ground = "the floor is known from repeats" if selection.repeats else "no drive was repeated: the floor is taken as nil"
+    explained = max(share, selection.shared_gone) if selection.repeats else share
+    little = explained < ENOUGH and (selection.shared_z > SHARED_Z or not selection.repeats)
     wrong = [effect for effect in effects if by_name[effect.name].instrument]
+    vehicle = [effect for effect in effects if effect not in wrong]
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if wrong:
         names = ", ".join(effect.name for effect in wrong)
         reasons.append(f"{names} is an error of the measurement, not of the vehicle")
-        vehicle = [effect for effect in effects if effect not in wrong]
-        if sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
+        # An error of the measurement that explains little is what something else, not in the library, looks like.
+        if little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
             effects, wrong = tuple(vehicle), []
     if decoys:
         reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
     if wrong or decoys or suspicions:
         return Verdict("suspect", effects, (*reasons, *suspicions), share, held_out)
-    if not effects:
+    if not found:
         best = float(np.min(first.p_value)) if first is not None and first.p_value.size else 1.0
         if best > LEVEL:
             reasons.append(f"the best of {len(candidates)} candidates has p = {best:.2g} over the whole library")
         else:
             reasons += [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
+    else:
+        reasons.append(f"{_percent(share)} of the explainable error is removed on the fitted drives")
+        if np.isfinite(held_out):
+            reasons.append(f"{_percent(held_out)} on drives held out")
+    if found and little:
+        reasons.append("that is less than half" + (" of what repeats share" if selection.repeats else ""))
+        return Verdict("outside", effects, (*reasons, ground), share, held_out)
+    if not effects:
         if left:
             reasons.append(f"but repeats share an error that no candidate explains (z = {selection.remaining_z:.1f})")
         return Verdict("outside" if left else "nothing", (), (*reasons, ground), share, held_out)
-    reasons.append(f"{_percent(share)} of the explainable error is removed on the fitted drives")
-    if np.isfinite(held_out):
-        reasons.append(f"{_percent(held_out)} on drives held out")
-    explained = max(share, selection.shared_gone) if selection.repeats else share
-    if explained < ENOUGH and (selection.shared_z > SHARED_Z or not selection.repeats):
-        reasons.append("that is less than half" + (" of what repeats share" if selection.repeats else ""))
-        return Verdict("outside", effects, (*reasons, ground), share, held_out)
     for effect in effects:
         if effect.like:
             where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like)
