@@ -13,7 +13,7 @@ import numpy as np
 from .calibrated import with_values
 from .drive.leftover import FLOOR, INDEPENDENT, corrected, leftover
 from .drive.replay import Replay
-from .drive.sampling import low_pass
+from .drive.sampling import low_pass, low_pass_matrix
 from .vocabulary import SIGNALS
 
 DIFFERENCE = 2e-3
@@ -43,7 +43,8 @@ class Problem:
     signals: Sequence[str] = SIGNALS
     evaluations: int = 0
     uncorrected: Sequence[Replay] = ()
-    """The drives as alignment left them, where ``replays`` have been corrected further."""
+    """The drives as alignment left them, where ``replays`` have been corrected further. Path and speed are asked for
+    again only then: what they change is seen from a vehicle that fits roughly."""
 
     def __post_init__(self):
         self._used = [SIGNALS.index(signal) for signal in self.signals]
@@ -54,21 +55,22 @@ class Problem:
             span = np.where(ranges > 0, ranges, np.inf)[self._used]  # a signal that never changes has no NRMSE
             self._scale.append(span * np.sqrt(again.compared.sum() * len(self.replays)))
             share = INDEPENDENT / (again.time[1] - again.time[0]) * FLOOR**2 / (again.compared.sum() * len(self.replays))
-            errors = leftover(again, self.vehicle, self.effects).through(lambda rows, again=again: self._filtered(again, rows))
+            interval = again.time[1] - again.time[0]
+            passing = low_pass_matrix(again.compared.sum(), interval, PASSED * float(again.drive.attrs["cut_off"]))
+            errors = leftover(again, self.vehicle, self.effects, driven=bool(self.uncorrected)).through(passing)
             self._left_over.append(errors.scaled(self._used, self._scale[-1], share))
 
     def about(self, point: np.ndarray) -> Problem:
         """The same problem with driver, path and speed, and what alignment may have left, seen from this point."""
         vehicle, effects = self._car(point)
         replays = [again.tuned(vehicle, effects) for again in self.replays]
-        nearer = replace(self, replays=replays, vehicle=vehicle, effects=effects)
+        nearer = replace(self, replays=replays, vehicle=vehicle, effects=effects, uncorrected=replays)
         for _ in range(ROUNDS):
-            corrected_replays = [
+            nearer.replays = [
                 corrected(again, projection, nearer._residual(again, i, vehicle, effects))
                 for i, (again, projection) in enumerate(zip(nearer.replays, nearer._left_over))
             ]
-            nearer = replace(nearer, replays=corrected_replays)
-        return replace(nearer, uncorrected=replays)
+        return replace(nearer)
 
     def point(self, values) -> np.ndarray:
         """Values in SI units as a point, clipped to the bounds."""
@@ -115,7 +117,8 @@ class Problem:
         rows = []
         for i, (again, projection) in enumerate(zip(self.replays, self._left_over)):
             errors = projection.errors(self._residual(again, i, vehicle, effects))
-            rows.append((errors[0], errors[projection.parts["lateral"]].mean()))
+            path = errors[projection.parts["lateral"]] if "lateral" in projection.parts else np.zeros(1)
+            rows.append((errors[0], path.mean()))
         return np.array(rows)
 
     def flat(self, point: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ again: what the vehicle and an error of the record can both explain is known of 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -59,10 +59,10 @@ class Leftover:
     expected: np.ndarray
     parts: Mapping[str, slice]
 
-    def through(self, filtered: Callable[[np.ndarray], np.ndarray]) -> Leftover:
-        """The same, each signal passed through a filter of (time, channel)."""
+    def through(self, passing: csr_array) -> Leftover:
+        """The same, each signal passed through a filter, a matrix over its samples."""
         count = self.columns.shape[0] // 6
-        parts = [csr_array(filtered(self.columns[k * count : (k + 1) * count].toarray())) for k in range(6)]
+        parts = [passing @ self.columns[k * count : (k + 1) * count] for k in range(6)]
         return replace(self, columns=csr_array(vstack(parts)))
 
     def scaled(self, signals: list[int], scale: np.ndarray, share: float) -> Projection:
@@ -99,15 +99,15 @@ class Projection:
         return residual - (self.columns @ self.errors(residual)).reshape(residual.shape)
 
 
-def leftover(again: Replay, vehicle, effects=()) -> Leftover:
-    """Columns of all errors of a drive, about a vehicle that fits it roughly."""
+def leftover(again: Replay, vehicle, effects=(), *, driven: bool = True) -> Leftover:
+    """Columns of all errors of a drive, about a vehicle that fits it roughly; those of path and speed if ``driven``."""
     simulated = again(vehicle, effects)
     axes = np.eye(6)[:, :, None] * simulated.signals
     fixed = np.concatenate([simulated.slopes[None], -mounting.responses(simulated), -axes])[:, :, again.compared]
     expected = [np.concatenate([[CLOCK_LEFT], mounting.LEFT, np.full(6, GAIN_LEFT)])]
     columns = [csr_array(fixed.reshape(len(fixed), -1).T)]
     parts, first = {}, len(fixed)
-    for name in ("along", "lateral", "speed"):
+    for name in ("along", "lateral", "speed") if driven else ("along",):
         at = knots(again, FINE_KNOTS.get(name, KNOTS_ALONG))
         if name == "along":
             columns.append(moved_along(again, simulated, at))

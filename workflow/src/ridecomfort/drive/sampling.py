@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from scipy.sparse import csr_array
 
 from ..errors import InputError
 
@@ -100,6 +101,16 @@ def low_pass(values: np.ndarray, interval: float, cut_off: float) -> np.ndarray:
     """Uniform samples (time, channel) through the same filter as ``band_limited``, on their own clock."""
     half = _half_width(interval, cut_off)
     return _convolve(np.ascontiguousarray(values), _kernel(np.arange(-half, half + 1.0), interval, cut_off, half))
+
+
+def low_pass_matrix(count: int, interval: float, cut_off: float) -> csr_array:
+    """``low_pass`` of ``count`` samples as a sparse matrix, for signals that are mostly zero."""
+    half = _half_width(interval, cut_off)
+    offsets = np.arange(-half, half + 1)
+    taps = _kernel(offsets.astype(float), interval, cut_off, half)
+    rows = np.repeat(np.arange(count), offsets.size)
+    columns = np.clip(rows + np.tile(offsets, count), 0, count - 1)
+    return csr_array((np.tile(taps, count), (rows, columns)), shape=(count, count))
 
 
 @njit(cache=True, fastmath=True)
