@@ -113,8 +113,7 @@ class Replay:
         rate = (len(self.time) - 1) / (self.time[-1] - self.time[0])
         for _ in range(TUNING_STEPS):
             run = tuned.run(vehicle, effects)
-            demand = dict(tuned.demand)
-            u = demand["speed"]["u"].values
+            missing = {}
             for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
                 wanted = self.drive[name].values
                 if np.isfinite(wanted).all():
