@@ -3,7 +3,7 @@ PYTHON ?= python3
 CORES ?= $(shell getconf _NPROCESSORS_ONLN)
 BIN = .venv/bin
 
-.PHONY: env study test bench blind
+.PHONY: env study test bench blind recovery
 
 env: .venv/installed
 
@@ -25,3 +25,6 @@ bench: env
 
 blind: env
 	$(BIN)/python -m tests.blind
+
+recovery: env
+	$(BIN)/python -m tests.recovery

@@ -134,8 +134,25 @@ def test_profile_of_the_cost_is_lowest_at_the_optimum_and_agrees_with_the_interv
     assert cost.values[1] < min(cost.values[0], cost.values[2])
 
 
+def test_any_parameter_of_the_vehicle_may_be_calibrated(road, nominal):
+    drives = measured(road, nominal.replace(damping_front=1500.0), count=1)
+    chosen = ("damping_front", "tyre_radial_stiffness")
+    found = calibrate.calibrate(
+        drives, road, nominal, simulate=quarter_cars.run, parameters=chosen, sequence=False, restarts=0, profiles=["damping_front"]
+    )
+    assert tuple(found["parameter"].values) == chosen and list(found["step"].values) == ["joint"]
+    assert value(found, "damping_front") == pytest.approx(1500.0, rel=0.03)
+    assert value(found, "damping_front", "lower") == 0.5 * nominal["damping_front"]
+    cost = found["profile_cost"].sel(profile="damping_front").values
+    assert cost.argmin() == 4 and cost[0] > cost[4] < cost[-1]  # the middle of the places is the value found
+
+
 def test_bad_settings_are_refused(road, nominal):
     drives = measured(road, nominal, count=1)
+    with pytest.raises(InputError, match="parameters: unknown parameter 'spring'"):
+        calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, parameters=["spring"])
+    with pytest.raises(InputError, match="profiles: 'damping_front' is not calibrated"):
+        calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, profiles=["damping_front"])
     with pytest.raises(InputError, match="tyre_friction: bounds 1.4 to 0.7"):
         calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, bounds={"tyre_friction": (1.4, 0.7)})
     with pytest.raises(InputError, match="expected joint or sequence"):
@@ -158,6 +175,15 @@ def test_intervals_hold_the_truth_as_often_as_they_say_though_residuals_are_corr
         naive += abs(error[0]) < 1.645 * left.std() / np.linalg.norm(jacobian[0, :, 0])
     assert held / trials == pytest.approx(0.90, abs=0.06)  # four standard errors of 400 trials
     assert naive / trials < 0.5
+
+
+def test_what_a_single_block_knows_is_not_known():
+    """One bend in a straight road: no second one says how well the first is understood."""
+    rng = np.random.default_rng(1)
+    block = np.arange(2000) // 100
+    jacobian = np.stack([rng.standard_normal(2000), rng.standard_normal(2000) * (block == 7)], axis=1)[None]
+    known = identifiability.assess(jacobian, 0.01 * rng.standard_normal((1, 2000)), block)
+    assert known.half_width[0] < 0.01 and known.half_width[1] > 100
 
 
 def test_a_collinear_pair_is_named():

@@ -167,6 +167,8 @@ STUDY_MISTAKES = [
     ({"space": {"spacing": -0.25}}, "space: spacing: -0.25, expected at least 0.1"),
     ({"space": {"run_in": float("nan")}}, "space: run_in: nan, expected a finite number"),
     ({"comfort": {"critical_length": -5}}, "comfort: critical_length: -5, expected at least 1"),
+    ({"calibration": {"parameters": ["dampers"]}}, "calibration: parameters: 'dampers' is no parameter of a vehicle"),
+    ({"calibration": {"bounds": {"damping_front": [0, 9000]}}}, "calibration: bounds: 'damping_front' is not calibrated"),
     ({"calibration": {"bounds": {"tyre_friction": [1.4, 0.7]}}}, "tyre_friction: [1.4, 0.7], expected the lower value first"),
     ({"calibration": {"signals": ["a_w"]}}, "'a_w', expected one of a_x"),
     ({"comfort": {"iri": {"speed_km_h": [50, 60]}}}, "one for each of the 2 speeds"),

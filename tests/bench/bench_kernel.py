@@ -9,7 +9,7 @@ import numpy as np
 
 from ridecomfort import simulate
 from ridecomfort.effects import compose
-from ridecomfort.vehicle import parameters, reference
+from ridecomfort.vehicle import kernel, parameters, reference
 from ridecomfort.vehicle.constants import constants, wheel_table
 from tests.vehicle.roads import road, rough
 
@@ -34,13 +34,14 @@ def bench() -> dict:
     figures["run_simulated_s_per_s"] = float(drive.time[-1]) / base
     simulate.run(course, car, speed=SPEED, effects=EFFECTS)
     figures["five_effects_over_none"] = _best(lambda: simulate.run(course, car, speed=SPEED, effects=EFFECTS)) / base
+    figures["no_effects_over_bare_kernel"] = _kernel(course, car)[1] / _kernel(course, car, kernel.drive)[1]
     figures["kernel_over_reference"] = _reference(course, car) / (seconds / steps)
     return figures
 
 
-def _kernel(course, car) -> tuple[int, float]:
-    """Steps of a drive and the least time in s that the bare kernel needs for them."""
-    drive = compose.compose([]).drive
+def _kernel(course, car, drive=None) -> tuple[int, float]:
+    """Steps of a drive and the least time in s that a kernel needs for them, by default the one with no effects."""
+    drive = drive or compose.compose([]).drive
     targets = np.stack([np.full(course.u.size, SPEED), np.zeros(course.u.size), course.curvature], axis=1)
     record, accelerations = np.empty((20000, 11)), np.empty((200000, 3))
 

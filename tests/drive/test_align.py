@@ -146,6 +146,14 @@ def test_moving_the_clock_moves_place_and_not_the_inertial_signals(drive):
     np.testing.assert_allclose(moved["s"].values[later], expected[later])
 
 
+def test_the_end_of_a_record_is_continued_by_its_trend_and_not_by_its_noise(drive):
+    recorded = quarter_cars.recorded(drive)
+    noisy = recorded["v_x"].copy(data=20.0 + 0.02 * np.random.default_rng(2).standard_normal(recorded.sizes["time"]))
+    moved = place.moved(recorded.assign(v_x=noisy), clock=-0.05)
+    # Five samples beyond the end: by the slope of the last two they would be off by 0.1 m/s (rms).
+    assert np.abs(moved["v_x"].values[-5:] - 20.0).max() < 0.02
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [

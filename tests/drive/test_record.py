@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.drive import record
+from ridecomfort.drive import record, sampling
 from ridecomfort.errors import InputError
 from ridecomfort.vocabulary import DRIVE, SIGNALS, STANDARD_GRAVITY
 
@@ -204,3 +204,14 @@ def test_a_drive_with_a_wrong_unit_or_role_is_refused():
         record.check(drive)
     with pytest.raises(InputError, match="role 'train'"):
         record.from_arrays(quantities(), role="train")
+
+
+def test_samples_at_any_place_are_those_of_the_filter_and_their_slopes_its_derivative():
+    rng = np.random.default_rng(0)
+    interval, time = 0.001, np.linspace(0.5, 1.5, 300)
+    values = np.cumsum(rng.standard_normal((2000, 2)), axis=0)
+    found, slopes = sampling.resampled(values, interval, time / interval, 50.0)
+    expected = np.stack([sampling.band_limited(0.0, interval, column, time, 50.0) for column in values.T], axis=1)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=2e-3 * values.std())
+    ahead, behind = (sampling.resampled(values, interval, (time + shift) / interval, 50.0)[0] for shift in (1e-4, -1e-4))
+    np.testing.assert_allclose(slopes, (ahead - behind) / 2e-4, rtol=0, atol=0.02 * slopes.std())

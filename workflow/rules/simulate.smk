@@ -1,5 +1,7 @@
 # The Monte Carlo simulation, in shards of runs that no result depends on.
 rule simulate:
+    wildcard_constraints:
+        site="|".join(site for site in study.sites if not study.handed_in(site)) or configuration.NO_CALIBRATION,
     input:
         code=modules.of_step("simulate"),
         effects=lambda wildcards: study.effect_files(wildcards.model),
@@ -27,3 +29,26 @@ rule simulate:
         "python -m ridecomfort.steps.simulate --road {input.road:q} --samples {input.samples:q}"
         " --vehicle {input.vehicle:q} --calibration {input.calibration:q} --runs {wildcards.runs}"
         " --config {params.config:q} --output {output:q} 2> {log:q}"
+
+
+# Drives that another simulator made of a site's samples, in place of the study's own.
+for site in study.sites:
+    if study.handed_in(site):
+
+        rule:
+            name:
+                f"handed_in_{site}"
+            input:
+                code=modules.of_step("handed_in"),
+                files=study.handed_in(site),
+            output:
+                temp(f"results/{site}/{{model}}/drives/{{runs}}.nc"),
+            params:
+                config=study.config("handed_in", site),
+            log:
+                f"results/logs/handed_in/{site}/{{model}}/{{runs}}.log",
+            benchmark:
+                f"results/benchmarks/handed_in/{site}/{{model}}/{{runs}}.tsv"
+            shell:
+                "python -m ridecomfort.steps.handed_in --files {input.files:q} --runs {wildcards.runs}"
+                " --config {params.config:q} --output {output:q} 2> {log:q}"

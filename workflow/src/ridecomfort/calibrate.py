@@ -7,9 +7,10 @@ minimised within bounds (eq:opti) by the trust-region reflective method of scipy
 ("trf": the damped Gauss-Newton steps of Levenberg and Marquardt, their damping set by
 a trust region that bends at the bounds; MINPACK's own "lm" knows no bounds).
 
-What alignment may have left of every drive's clock offset and of its distance from the path
-is projected out of the residuals, but no more (CLOCK_LEFT): a damping would be fitted to a
-delay, or a delay to a damping.
+What alignment may have left of every drive's clock, path, speed and mounting (``drive.leftover``) is
+projected out of the residuals, about a first rough fit. The clock no further than CLOCK_LEFT: a damping
+would be fitted to a delay, or a delay to a damping. The intervals are those of an M-estimator whose residuals
+are correlated in any way within 2 s and among the signals; they hold what alignment left in full.
 """
 
 from __future__ import annotations
@@ -53,6 +54,9 @@ EQUAL = 1e-4
 """Relative difference of cost within which two fits are equally good; the first of them stays, the nearest to the
 nominal vehicle where the data are silent."""
 
+PROFILE_PLACES = 9
+"""Places of a profile of the cost."""
+
 BLOCK = 2.0
 """s; residuals at places farther apart than this at the mean speed are independent in the intervals."""
 
@@ -63,6 +67,7 @@ def problem(
     vehicle,
     *,
     simulate: Callable[..., xr.Dataset] = simulator.run,
+    parameters: Sequence[str] = tuple(BOUNDS),
     bounds: Mapping[str, Sequence[float]] | None = None,
     effects: Mapping[str, Mapping[str, float]] | None = None,
     signals: Sequence[str] = SIGNALS,
@@ -78,7 +83,7 @@ def problem(
     ]
     if not replays:
         raise InputError("no drive has the role 'fit' (expected at least one)", place="drives")
-    bounds = {**BOUNDS, **(bounds or {})}
+    bounds = _bounds(vehicle, parameters, bounds or {})
     for name, (lower, upper) in bounds.items():
         if not (np.isfinite([lower, upper]).all() and lower < upper):
             raise InputError(f"bounds {lower:g} to {upper:g} (expected lower < upper)", place=name)
@@ -92,57 +97,71 @@ def calibrate(
     vehicle,
     *,
     simulate: Callable[..., xr.Dataset] = simulator.run,
+    parameters: Sequence[str] = tuple(BOUNDS),
     bounds: Mapping[str, Sequence[float]] | None = None,
     effects: Mapping[str, Mapping[str, float]] | None = None,
     units: Mapping[str, str] | None = None,
     signals: Sequence[str] = SIGNALS,
     applied: str = "joint",
+    sequence: bool = True,
     restarts: int = 2,
     tolerance: float = 1e-4,
     seed: int = 0,
+    profiles: Sequence[str] = (),
     options: Mapping | None = None,
 ) -> xr.Dataset:
     """Parameters of the vehicle, and of its effects, that bring the model closest to the aligned drives.
 
     ``drives`` are aligned (``drive.align``), those of role "check" are left out; ``road`` is one (prepared
-    or not) or a list of one per drive; ``simulate`` has the signature of ``simulate.run``. ``bounds`` widen or narrow
-    tab:constraints and add parameters of effects as "effect.parameter" (SI), whose ``units`` may be named;
+    or not) or a list of one per drive; ``simulate`` has the signature of ``simulate.run``. ``parameters`` of the vehicle
+    are calibrated in this order, by default the five of the paper. ``bounds`` widen or narrow
+    tab:constraints and add parameters of effects as "effect.parameter" (SI), whose ``units`` may be named; other
+    parameters of the vehicle without bounds lie between half and twice their nominal value, as far as plausible.
     ``effects`` holds their start and what is not fitted of them. The start is the nominal
     vehicle, clipped into the bounds. OP_1 ... OP_5 fit one parameter after the other (fig:optichain), an
     effect's after them; the joint fit starts where they end and from ``restarts`` random points.
-    ``applied`` says whose values are ``value``: "joint" (default) or "sequence", as in the paper.
+    ``applied`` says whose values are ``value``: "joint" (default) or "sequence", as in the paper; without
+    ``sequence`` there is the joint fit alone. ``profiles`` names parameters whose profile of the cost is wanted.
 
     Returns the Dataset of calibration.nc: over ``parameter`` value, initial, lower, upper, unit,
     interval_lower/upper (90 %), value_sequence, verdict and signal_share(parameter, signal);
     over ``step`` cost, iterations, evaluations, step_value, step_nrmse, stopped; over ``iteration`` the way there.
-    Attributes: stopping rule, remarks in words. Raises InputError.
+    Where asked for, over ``profile`` and ``place``: profile_value and profile_cost, the least cost with the parameter held
+    there, up to twice its interval to either side. Attributes: stopping rule, remarks in words. Raises InputError.
     """
     if applied not in ("joint", "sequence"):
         raise InputError(f"{applied!r} (expected joint or sequence)", place="applied")
     task = problem(
-        drives, road, vehicle, simulate=simulate, bounds=bounds, effects=effects, signals=signals, options=options
-    )
+        drives, road, vehicle, simulate=simulate, parameters=parameters, bounds=bounds, effects=effects, signals=signals,
+        options=options,
+    )  # fmt: skip
+    unknown = [name for name in profiles if name not in task.parameters]
+    if unknown:
+        raise InputError(f"{unknown[0]!r} is not calibrated (expected of {', '.join(task.parameters)})", place="profiles")
     start = task.point([_nominal(vehicle, effects or {}, name) for name in task.parameters])
     everything = list(range(len(task.parameters)))
+    first, _ = _descend(task, start, everything, COARSE, "joint", [])
+    task = task.about(first)
     path, steps = [], []
-    point = start
-    for index, name in enumerate(task.parameters):
+    in_sequence = first
+    for index, name in enumerate(task.parameters) if sequence else ():
         label = f"OP_{index + 1}"
-        point, row = _descend(task, point, [index], tolerance, label, path)
+        in_sequence, row = _descend(task, start if index == 0 else in_sequence, [index], tolerance, label, path)
         steps.append(row)
-    sequence = point
     sampler = qmc.LatinHypercube(len(everything), rng=np.random.default_rng(seed))
-    point, row = _descend(task, sequence, everything, tolerance, "joint", path)
+    point, row = _descend(task, in_sequence, everything, tolerance, "joint", path)
     fits = [(point, row)]
-    for first in sampler.random(restarts):
-        other, its_row = _descend(task, first, everything, max(tolerance, COARSE), "joint", [])
+    for place in sampler.random(restarts):
+        other, its_row = _descend(task, place, everything, max(tolerance, COARSE), "joint", [])
         if its_row["cost"] < row["cost"] * (1 - EQUAL):
             other, its_row = point, row = _descend(task, other, everything, tolerance, "joint", [])
         fits.append((other, its_row))
     steps.append(row)
-    chosen = point if applied == "joint" else sequence
+    chosen = point if applied == "joint" else in_sequence
     knowledge = _assess(task, chosen)
-    result = _dataset(task, start, chosen, sequence, steps, path, knowledge)
+    result = _dataset(task, start, chosen, in_sequence, steps, path, knowledge)
+    if profiles:
+        result = result.merge(_profiles(task, chosen, knowledge, profiles))
     remarks = identifiability.remarks(list(task.parameters), chosen, knowledge)
     result["restart_cost"] = "restart", np.array([fit["cost"] for _, fit in fits])
     result["restart_value"] = ("restart", "parameter"), np.stack([task.values(end) for end, _ in fits])
@@ -199,6 +218,19 @@ def profile(
     return xr.DataArray(costs, {"value": places}, "value", name=parameter)
 
 
+def _profiles(task: Problem, point, knowledge: identifiability.Knowledge, names: Sequence[str]) -> xr.Dataset:
+    rows = []
+    for name in names:
+        index = task.parameters.index(name)
+        reach = np.minimum(2 * knowledge.half_width[index], 1.0) * np.linspace(-1, 1, PROFILE_PLACES)
+        spread = np.clip(point[index] + reach, 0.0, 1.0)
+        places = task.lower[index] + spread * (task.upper[index] - task.lower[index])
+        rows.append((places, profile(task, point, name, places).values))
+    places, costs = np.stack(rows, axis=1)
+    over = ("profile", "place")
+    return xr.Dataset({"profile_value": (over, places), "profile_cost": (over, costs)}, {"profile": list(names)})
+
+
 def _descend(task: Problem, start, free, tolerance, label, path) -> tuple[np.ndarray, dict]:
     """One least-squares fit of the free parameters: where it ends, and its row of the table of steps."""
     before, iterations = task.evaluations, []
@@ -248,12 +280,14 @@ def _descend(task: Problem, start, free, tolerance, label, path) -> tuple[np.nda
 
 
 def _assess(task: Problem, point: np.ndarray) -> identifiability.Knowledge:
+    """What is known at a point. Path, clock and mounting are taken out of the fit but not out of its error: what they
+    hide is not what the drive shows, and what was found of them is only known as well as the model is right."""
     count = len(task.parameters)
     jacobian = task.jacobian(point, range(count))
     parts, residuals, blocks, first = [], [], [], 0
     length = max(1.0, BLOCK * np.mean([np.ptp(again.place) / np.ptp(again.time) for again in task.replays]))
     roads = list(dict.fromkeys(id(again.road) for again in task.replays))
-    for again, residual in zip(task.replays, task.residuals(point)):
+    for again, residual in zip(task.replays, task.residuals_as_aligned(point)):
         part = jacobian[first : first + residual.size].reshape(*residual.shape, count)
         first += residual.size
         place = again.place[again.compared]
@@ -266,7 +300,7 @@ def _assess(task: Problem, point: np.ndarray) -> identifiability.Knowledge:
     )
 
 
-def _dataset(task, start, chosen, sequence, steps, path, knowledge) -> xr.Dataset:
+def _dataset(task, start, chosen, in_sequence, steps, path, knowledge) -> xr.Dataset:
     names = list(task.parameters)
     width = task.upper - task.lower
     value = task.values(chosen)
@@ -284,7 +318,7 @@ def _dataset(task, start, chosen, sequence, steps, path, knowledge) -> xr.Datase
             "upper": ("parameter", task.upper),
             "interval_lower": ("parameter", np.maximum(value - half, task.lower)),
             "interval_upper": ("parameter", np.minimum(value + half, task.upper)),
-            "value_sequence": ("parameter", task.values(sequence)),
+            "value_sequence": ("parameter", task.values(in_sequence)),
             "verdict": ("parameter", np.array(verdicts)),
             "correlation": (("parameter", "other"), correlation),
             "signal_share": (("parameter", "signal"), knowledge.information),
@@ -310,6 +344,18 @@ def _dataset(task, start, chosen, sequence, steps, path, knowledge) -> xr.Datase
             "drive": [again.drive.attrs["name"] for again in task.replays],
         },
     )
+
+
+def _bounds(vehicle, parameters: Sequence[str], given: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
+    """Bounds of the parameters in their order, those of effects behind them."""
+    bounds = {}
+    for name in parameters:
+        if name not in PARAMETERS:
+            raise InputError(f"unknown parameter {name!r}; known are {', '.join(PARAMETERS)}", place="parameters")
+        span = PARAMETERS[name]
+        wide = max(0.5 * vehicle[name], span.lower), min(2.0 * vehicle[name], span.upper)
+        bounds[name] = given.get(name, BOUNDS.get(name, wide))
+    return {**bounds, **{name: pair for name, pair in given.items() if "." in name}}
 
 
 def _nominal(vehicle, effects: Mapping[str, Mapping[str, float]], name: str) -> float:

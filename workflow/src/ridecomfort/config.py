@@ -12,10 +12,12 @@ import yaml
 
 from . import stepsettings
 from .comfort import bands
+from .drive import readers
 from .effects import library
 from .errors import InputError
 from .schema import defaults, read_yaml, validate
 from .vehicle import parameters
+from .vocabulary import CALIBRATED
 
 STUDY = Path("config/study.yaml")
 SITES = Path("config/sites")
@@ -30,9 +32,9 @@ JOIN = "+"
 """Between the names of effects in the name of a model."""
 
 TAKEN = frozenset(
-    "all compare diagnose report blind survey road inspect measured calibrate sample simulate space thresholds iso2631 iri "
-    "comparison agreement maps comfort tables figures diagnosis critical ladder compared diagnosed score logs benchmarks bench "
-    "none".split()
+    "all compare diagnose report blind survey road inspect measured calibrate sample simulate handed_in space thresholds "
+    "iso2631 iri comparison agreement maps comfort tables figures diagnosis critical ladder compared diagnosed score logs "
+    "benchmarks bench none".split()
 )
 """Names of targets and of folders in results/, which no site may have."""
 
@@ -118,6 +120,14 @@ class Study:
         """Files of the drives measured on a site."""
         return [drive["file"] for drive in self.sites[site]["drives"]]
 
+    def handed_in(self, site: str) -> list[str]:
+        """Files of the drives that another simulator made for a site, one a run; none where the study's own drives."""
+        folder = self.sites[site].get("simulated")
+        if folder is None:
+            return []
+        suffixes = readers.suffixes()
+        return [f"{folder}/{path.name}" for path in sorted((self.folder / folder).iterdir()) if path.suffix in suffixes]
+
     @property
     def measured(self) -> list[str]:
         """The configured sites with measured drives."""
@@ -201,8 +211,10 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
             waiting.append((other, SITES / f"{name}.yaml", "calibrated_on"))
     study = Study(settings, sites, standin, folder)
     _check_effects(study, given)
+    _check_parameters(settings["calibration"], _source("calibration", given))
     _check_vehicles(study, given)
     _check_calibrations(study)
+    _check_handed_in(study)
     return study
 
 
@@ -312,6 +324,15 @@ def _check_effects(study: Study, given: list[str]) -> None:
             raise InputError(str(problem), file=_source("effects", given), place="effects") from None
 
 
+def _check_parameters(calibration: Mapping, source) -> None:
+    chosen = calibration["parameters"]
+    for key, known in (("parameters", parameters.PARAMETERS), ("bounds", {*chosen, *CALIBRATED})):
+        for name in calibration[key]:
+            if name not in known:
+                what = "is not calibrated; expected of" if key == "bounds" else "is no parameter of a vehicle; known are"
+                raise InputError(f"{name!r} {what} {', '.join(known)}", file=source, place=f"calibration: {key}")
+
+
 def _check_vehicles(study: Study, given: list[str]) -> None:
     for name, site in study.sites.items():
         file = study.folder / study.vehicle(name)
@@ -320,6 +341,18 @@ def _check_vehicles(study: Study, given: list[str]) -> None:
             source = SITES / f"{name}.yaml" if "vehicle" in site else _source("vehicle", given)
             raise InputError(f"unknown vehicle {file.stem!r}; known vehicles: {known}", file=source, place="vehicle")
         parameters.read(file)
+
+
+def _check_handed_in(study: Study) -> None:
+    for name, site in study.sites.items():
+        if "simulated" not in site:
+            continue
+        file, place, folder = SITES / f"{name}.yaml", "simulated", site["simulated"]
+        if not (study.folder / folder).is_dir():
+            raise InputError(f"no such folder {folder!r}", file=file, place=place)
+        count, runs = len(study.handed_in(name)), study.settings["runs"]
+        if count != runs:
+            raise InputError(f"{count} drives in {folder!r}, expected one for each of the {runs} runs", file=file, place=place)
 
 
 def _check_calibrations(study: Study) -> None:

@@ -6,16 +6,26 @@ Points are in units of the bounds, 0 at the lower and 1 at the upper.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .calibrated import with_values
-from .drive.replay import CLOCK_LEFT, PATH_LEFT, Replay
+from .drive.leftover import FLOOR, INDEPENDENT, corrected, leftover
+from .drive.replay import Replay
+from .drive.sampling import low_pass, low_pass_matrix
 from .vocabulary import SIGNALS
 
 DIFFERENCE = 2e-3
 """Step of the finite differences in units of the bounds' width."""
+
+ROUNDS = 4
+"""Times that path and speed are corrected by what the residual asks for, which is linear in them only when near."""
+
+PASSED = 0.7
+"""Share of the record's cut-off up to which signals are fitted. Above it the shape of the instrument's filter,
+which no data sheet gives to a percent, would pass for a damping of the tyre."""
+
 
 @dataclass
 class Problem:
@@ -32,12 +42,35 @@ class Problem:
     effects: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     signals: Sequence[str] = SIGNALS
     evaluations: int = 0
+    uncorrected: Sequence[Replay] = ()
+    """The drives as alignment left them, where ``replays`` have been corrected further. Path and speed are asked for
+    again only then: what they change is seen from a vehicle that fits roughly."""
 
     def __post_init__(self):
         self._used = [SIGNALS.index(signal) for signal in self.signals]
         self._ranges = [np.ptp(again.measured()[:, again.compared], axis=1) for again in self.replays]
-        self._aside = [again.aside(self.vehicle, self.effects) for again in self.replays]
         self._known: dict[bytes, list[np.ndarray]] = {}
+        self._scale, self._left_over = [], []
+        for again, ranges in zip(self.replays, self._ranges):
+            span = np.where(ranges > 0, ranges, np.inf)[self._used]  # a signal that never changes has no NRMSE
+            self._scale.append(span * np.sqrt(again.compared.sum() * len(self.replays)))
+            share = INDEPENDENT / (again.time[1] - again.time[0]) * FLOOR**2 / (again.compared.sum() * len(self.replays))
+            interval = again.time[1] - again.time[0]
+            passing = low_pass_matrix(again.compared.sum(), interval, PASSED * float(again.drive.attrs["cut_off"]))
+            errors = leftover(again, self.vehicle, self.effects, driven=bool(self.uncorrected)).through(passing)
+            self._left_over.append(errors.scaled(self._used, self._scale[-1], share))
+
+    def about(self, point: np.ndarray) -> Problem:
+        """The same problem with driver, path and speed, and what alignment may have left, seen from this point."""
+        vehicle, effects = self._car(point)
+        replays = [again.tuned(vehicle, effects) for again in self.replays]
+        nearer = replace(self, replays=replays, vehicle=vehicle, effects=effects, uncorrected=replays)
+        for _ in range(ROUNDS):
+            nearer.replays = [
+                corrected(again, projection, nearer._residual(again, i, vehicle, effects))
+                for i, (again, projection) in enumerate(zip(nearer.replays, nearer._left_over))
+            ]
+        return replace(nearer)
 
     def point(self, values) -> np.ndarray:
         """Values in SI units as a point, clipped to the bounds."""
@@ -54,28 +87,39 @@ class Problem:
             if len(self._known) > 4 * len(self.parameters):
                 self._known.clear()
             self.evaluations += 1
-            vehicle, effects = with_values(self.vehicle, self.effects, dict(zip(self.parameters, self.values(point))))
-            self._known[key] = [self._residual(i, vehicle, effects)[0] for i in range(len(self.replays))]
+            vehicle, effects = self._car(point)
+            self._known[key] = [
+                projection(self._residual(again, i, vehicle, effects))
+                for i, (again, projection) in enumerate(zip(self.replays, self._left_over))
+            ]
         return self._known[key]
 
-    def _residual(self, i: int, vehicle, effects) -> tuple[np.ndarray, np.ndarray]:
-        """Scaled residual of a drive at the best clock and path that alignment may have left, and both (s, m)."""
-        again = self.replays[i]
-        simulated = again(vehicle, effects)
-        kept = again.compared
-        rows = np.ix_(self._used, kept)
-        span = np.where(self._ranges[i] > 0, self._ranges[i], np.inf)  # a signal that never changes has no NRMSE
-        scale = (span[self._used] * np.sqrt(kept.sum() * len(self.replays)))[:, None]
-        residual = again.residual(simulated)[rows] / scale
-        nuisance = np.stack([simulated.slopes[rows] / scale, -self._aside[i][rows] / scale]).reshape(2, -1)
-        left = np.linalg.lstsq(nuisance @ nuisance.T, nuisance @ residual.ravel(), rcond=1e-12)[0]
-        left = np.clip(left, (-CLOCK_LEFT, -PATH_LEFT), (CLOCK_LEFT, PATH_LEFT))
-        return residual - (left @ nuisance).reshape(residual.shape), left
+    def residuals_as_aligned(self, point: np.ndarray) -> list[np.ndarray]:
+        """The same as ``residuals``, with all that alignment left in them."""
+        vehicle, effects = self._car(point)
+        return [self._residual(again, i, vehicle, effects) for i, again in enumerate(self.uncorrected or self.replays)]
+
+    def _car(self, point: np.ndarray):
+        return with_values(self.vehicle, self.effects, dict(zip(self.parameters, self.values(point))))
+
+    def _residual(self, again: Replay, i: int, vehicle, effects) -> np.ndarray:
+        residual = again.residual(again(vehicle, effects))[np.ix_(self._used, again.compared)]
+        return self._filtered(again, residual.T).T / self._scale[i][:, None]
+
+    @staticmethod
+    def _filtered(again: Replay, rows: np.ndarray) -> np.ndarray:
+        """Samples (time, channel) without what the instrument's own filter has begun to take away."""
+        return low_pass(rows, again.time[1] - again.time[0], PASSED * float(again.drive.attrs["cut_off"]))
 
     def left_over(self, point: np.ndarray) -> np.ndarray:
-        """Clock offset (s) and distance from the path (m, to the left) left of each drive at a point, (drive, 2)."""
-        vehicle, effects = with_values(self.vehicle, self.effects, dict(zip(self.parameters, self.values(point))))
-        return np.stack([self._residual(i, vehicle, effects)[1] for i in range(len(self.replays))])
+        """Clock offset (s) and mean distance from the path (m, to the left) left of each drive at a point, (drive, 2)."""
+        vehicle, effects = self._car(point)
+        rows = []
+        for i, (again, projection) in enumerate(zip(self.replays, self._left_over)):
+            errors = projection.errors(self._residual(again, i, vehicle, effects))
+            path = errors[projection.parts["lateral"]] if "lateral" in projection.parts else np.zeros(1)
+            rows.append((errors[0], path.mean()))
+        return np.array(rows)
 
     def flat(self, point: np.ndarray) -> np.ndarray:
         """All residuals in one vector."""

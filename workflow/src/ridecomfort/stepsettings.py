@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from .vocabulary import STANDARD_GRAVITY
+from .vocabulary import CALIBRATED, STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from .config import Study
@@ -73,7 +73,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 **simulated,
                 "sites": study.diagnosed,
                 "fitted_on": study.diagnosed[:1],
-                "bounds": chosen["calibration"]["bounds"],
+                "bounds": {name: chosen["calibration"]["bounds"][name] for name in CALIBRATED},
                 "seed": chosen["seed"],
                 "workers": None,
                 "among": None,
@@ -88,6 +88,8 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             }
         case "simulate":
             return {**simulated, "speed": own["speed"]}
+        case "handed_in":
+            return {**at, "rate": chosen["simulation"]["rate"]}
         case "space":
             weighted = {key: value for key, value in comfort["iso2631"].items() if key not in ("bands", "label")}
             return {**at, "space": chosen["space"], "iso2631": weighted}

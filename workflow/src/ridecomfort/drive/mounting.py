@@ -14,6 +14,9 @@ from .replay import Replay, Simulated
 EXPECTED = np.array([0.01, 0.03, 0.03, 0.03, 0.02, 0.02, 0.02])
 """Usual size of gain error, tilt (rad) and bias (rad/s): what the data do not show stays near zero."""
 
+LEFT = np.array([0.002, 0.002, 0.002, 0.005, 5e-4, 5e-4, 5e-4])
+"""Usual size of what is left of them after alignment."""
+
 INDEPENDENT = 0.5
 """s; residuals closer than this count as one observation against EXPECTED."""
 
@@ -67,12 +70,22 @@ def fit(again: Replay, simulated: Simulated) -> Mounting:
     dominates gain, roll and pitch, so that they hardly depend on the vehicle.
     """
     kept = again.compared
-    force = record.specific_force(simulated.signals[:3], simulated.roll, simulated.pitch)[:, kept]
-    rates = simulated.signals[3:][:, kept]
     difference = -again.residual(simulated)[:, kept]
     weights = 1 / (difference.var(axis=1) + 1e-8)
-    count = kept.sum()
-    columns = np.zeros((7, 6, count))
+    columns = responses(simulated)[:, :, kept]
+    weighted = columns * weights[:, None]
+    normal = np.einsum("ist,jst->ij", weighted, columns)
+    interval = again.time[1] - again.time[0]
+    normal += np.diag(INDEPENDENT / interval / EXPECTED**2)
+    solution = np.linalg.solve(normal, np.einsum("ist,st->i", weighted, difference))
+    return Mounting(1 + solution[0], tuple(solution[1:4]), tuple(solution[4:]))
+
+
+def responses(simulated: Simulated) -> np.ndarray:
+    """Change of what is measured, (7, 6, time), per gain, rotation (rad) and bias (rad/s) of the mounting."""
+    force = record.specific_force(simulated.signals[:3], simulated.roll, simulated.pitch)
+    rates = simulated.signals[3:]
+    columns = np.zeros((7, 6, force.shape[1]))
     columns[0, :3] = force
     for axis in range(3):
         unit = np.zeros((3, 1))
@@ -80,12 +93,7 @@ def fit(again: Replay, simulated: Simulated) -> Mounting:
         columns[1 + axis, :3] = -np.cross(np.broadcast_to(unit, force.shape), force, axis=0)
         columns[1 + axis, 3:] = -np.cross(np.broadcast_to(unit, rates.shape), rates, axis=0)
         columns[4 + axis, 3 + axis] = 1.0
-    weighted = columns * weights[:, None]
-    normal = np.einsum("ist,jst->ij", weighted, columns)
-    interval = again.time[1] - again.time[0]
-    normal += np.diag(INDEPENDENT / interval / EXPECTED**2)
-    solution = np.linalg.solve(normal, np.einsum("ist,st->i", weighted, difference))
-    return Mounting(1 + solution[0], tuple(solution[1:4]), tuple(solution[4:]))
+    return columns
 
 
 def corrected(drive: xr.Dataset, mounting: Mounting) -> xr.Dataset:

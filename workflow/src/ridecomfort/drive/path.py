@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 from scipy.optimize import minimize_scalar
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, hstack
 
-from . import place
+from . import leftover, place
 from .replay import Replay, Simulated, replay
 
 STEP = 0.1
@@ -23,9 +23,6 @@ SEARCHED = 45.0
 
 HALF_VEHICLE = 0.9
 """m that the path keeps from the edges of the road."""
-
-KNOTS = 50.0
-"""m between the points at which a wandering is estimated; drivers and satellite fixes wander no faster."""
 
 EXPECTED_ASIDE, EXPECTED_ASIDE_MEASURED, EXPECTED_ALONG = 0.1, 0.02, 0.03
 """m; usual size of the wandering across the road, where e was recorded, and along it."""
@@ -86,40 +83,31 @@ def wander(again: Replay, simulated: Simulated, vehicle, expected_aside: float) 
     kept = again.compared
     residual = again.residual(simulated)[:, kept]
     residual = residual - residual.mean(axis=1, keepdims=True)
-    weight = 1 / (residual.var(axis=1) + 1e-10)
-    speed = np.gradient(again.place, again.time)[kept]
-    columns = (simulated.slopes[:, kept] / speed, again.aside(vehicle)[:, kept])
-    knots = np.linspace(again.place[0], again.place[-1], max(2, int(round(np.ptp(again.place) / KNOTS)) + 1))
-    hats = _hats(again.place[kept], knots)
+    weight = np.repeat(1 / (residual.var(axis=1) + 1e-10), kept.sum())
+    residual = residual.ravel()
+    at = [leftover.knots(again, spacing) for spacing in (leftover.KNOTS_ALONG, leftover.KNOTS)]
+    columns = [
+        leftover.moved_along(again, simulated, at[0]),
+        leftover.moved(again, "lateral", vehicle, (), at[1], simulated),
+    ]
+    both, first = csr_array(hstack(columns)), len(at[0])
     share = (again.time[1] - again.time[0]) / INDEPENDENT
-    prior = np.diag(np.repeat([EXPECTED_ALONG**-2, expected_aside**-2], len(knots)))
-    squares = [[share * np.einsum("s,st,st->t", weight, one, other) for other in columns] for one in columns]
-    scores = [share * np.einsum("s,st,st->t", weight, one, residual) for one in columns]
+    prior = np.diag(np.repeat([EXPECTED_ALONG**-2, expected_aside**-2], [len(knots) for knots in at]))
 
-    def solve(used: np.ndarray) -> np.ndarray:
-        blocks = [[(hats.T @ (hats * (used * square)[:, None])).toarray() for square in row] for row in squares]
-        right = np.concatenate([hats.T @ (used * score) for score in scores])
-        return -np.linalg.solve(np.block(blocks) + prior, right).reshape(2, -1)
+    def solve(used: np.ndarray) -> list[np.ndarray]:
+        weighted = both.multiply((share * used * weight)[:, None]).T.tocsr()
+        return np.split(-np.linalg.solve((weighted @ both).toarray() + prior, weighted @ residual), [first])
 
-    even = (again.time[kept] / SECOND).astype(int) % 2 == 0
-    held_out = [(~used, [hats @ values for values in solve(used)]) for used in (even, ~even)]
-    trusted = []
-    for i in range(2):
-        explained = -sum(np.sum(out * scores[i] * guess[i]) for out, guess in held_out)
-        possible = sum(np.sum(out * squares[i][i] * guess[i] ** 2) for out, guess in held_out)
-        trusted.append(np.clip(explained / (possible + 1e-300), 0.0, 1.0))
-    along, aside = (share * values for share, values in zip(trusted, solve(np.ones(kept.sum()))))
-    everywhere = _hats(again.place, knots)
-    return everywhere @ (along - along.mean()), everywhere @ aside
-
-
-def _hats(position: np.ndarray, knots: np.ndarray) -> csr_array:
-    """Values at positions of the piecewise linear functions that are one at a knot each, (position, knot)."""
-    spacing = knots[1] - knots[0]
-    left = np.clip(((position - knots[0]) / spacing).astype(int), 0, len(knots) - 2)
-    part = np.clip((position - knots[left]) / spacing, 0.0, 1.0)
-    rows = np.arange(len(position))
-    return csr_array(
-        (np.concatenate([1 - part, part]), (np.tile(rows, 2), np.concatenate([left, left + 1]))),
-        shape=(len(position), len(knots)),
-    )
+    even = np.tile((again.time[kept] / SECOND).astype(int) % 2 == 0, len(residual) // kept.sum())
+    held_out = [(~used * weight, solve(used)) for used in (even, ~even)]
+    corrections = []
+    for i, values in enumerate(solve(np.ones(len(residual)))):
+        guesses = [(out, columns[i] @ guess[i]) for out, guess in held_out]
+        explained = -sum(np.sum(out * residual * guess) for out, guess in guesses)
+        possible = sum(np.sum(out * guess**2) for out, guess in guesses)
+        trusted = np.clip(explained / (possible + 1e-300), 0.0, 1.0)
+        if i == 0:
+            values = values - (leftover.hats(again.place[kept], at[0]) @ values).mean()
+        corrections.append(trusted * (leftover.hats(again.place, at[i]) @ values))
+    along, aside = corrections
+    return along, aside

@@ -24,6 +24,9 @@ TRUST = 0.3
 BLOCK = 1.0
 """s; residuals farther apart are independent in the error of the clock offset."""
 
+END = 0.5
+"""s at an end of a record whose straight line continues it: from sample to sample its noise would be a trend."""
+
 ODOMETER_WINDOW = 8.0
 """s of record that are looked for on the road at a time, where place was not measured."""
 
@@ -41,9 +44,10 @@ def moved(drive: xr.Dataset, *, clock: float = 0.0, scale: float = 1.0, offset: 
     def earlier(name: str) -> np.ndarray:
         values = drive[name].values
         shifted = np.interp(time - clock, time, values)
-        rate = np.gradient(values, time)
-        shifted = np.where(time - clock < time[0], values[0] + rate[0] * (time - clock - time[0]), shifted)
-        return np.where(time - clock > time[-1], values[-1] + rate[-1] * (time - clock - time[-1]), shifted)
+        for outside, end in ((time - clock < time[0], time < time[0] + END), (time - clock > time[-1], time > time[-1] - END)):
+            if outside.any():
+                shifted[outside] = np.polyval(np.polyfit(time[end], values[end], 1), time[outside] - clock)
+        return shifted
 
     integrated = not drive.attrs["place_measured"]
     placed = earlier("s") if not integrated else offset + scale * drive["s"].values

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from scipy.sparse import csr_array
 
 from ..errors import InputError
 
@@ -19,6 +20,10 @@ LARGEST_GAP = 0.25
 HALF_WIDTH, KAISER = 5, 4.0
 """Half width of the anti-alias filter in periods of twice its cut-off, and shape of its window: flat to 0.8 of the
 cut-off, closed (-45 dB) from 1.2 of it, as simulated drives are recorded."""
+
+
+FINE = 32
+"""Points an interval at which the filter is tabulated: between them it is straight to one in ten thousand."""
 
 
 def check_clock(time: np.ndarray, *, file=None, place: str = "time") -> None:
@@ -98,6 +103,16 @@ def low_pass(values: np.ndarray, interval: float, cut_off: float) -> np.ndarray:
     return _convolve(np.ascontiguousarray(values), _kernel(np.arange(-half, half + 1.0), interval, cut_off, half))
 
 
+def low_pass_matrix(count: int, interval: float, cut_off: float) -> csr_array:
+    """``low_pass`` of ``count`` samples as a sparse matrix, for signals that are mostly zero."""
+    half = _half_width(interval, cut_off)
+    offsets = np.arange(-half, half + 1)
+    taps = _kernel(offsets.astype(float), interval, cut_off, half)
+    rows = np.repeat(np.arange(count), offsets.size)
+    columns = np.clip(rows + np.tile(offsets, count), 0, count - 1)
+    return csr_array((np.tile(taps, count), (rows, columns)), shape=(count, count))
+
+
 @njit(cache=True, fastmath=True)
 def _convolve(values, taps):
     """Symmetric taps on (time, channel); the ends are held."""
@@ -112,26 +127,45 @@ def _convolve(values, taps):
     return result
 
 
-@njit(cache=True)
-def interpolate(values, places):
-    """Rows of (time, channel) at fractional indices, and their derivatives by the index (Lagrange, six points)."""
+def resampled(values: np.ndarray, interval: float, places: np.ndarray, cut_off: float) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of (time, channel) at fractional indices, low-passed as by ``band_limited``, and their time derivatives.
+
+    Only what is asked for is filtered, so the samples may be as dense as they come.
+    """
+    width = HALF_WIDTH / (2 * cut_off * interval)
+    distance = np.arange(-np.ceil(width), np.ceil(width) + 0.5 / FINE, 1 / FINE)
+    window = np.i0(KAISER * np.sqrt(np.clip(1 - (distance / width) ** 2, 0, None))) * (np.abs(distance) <= width)
+    kernel = np.sinc(2 * cut_off * interval * distance) * window
+    result, slopes = _resample(np.ascontiguousarray(values), places, kernel, np.gradient(kernel, 1 / FINE), FINE)
+    return result, slopes / interval
+
+
+@njit(cache=True, fastmath=True)
+def _resample(values, places, kernel, slope, fine):
+    """Tables ``kernel`` and ``slope`` have ``fine`` points an interval and are straight between; the ends are held."""
     count, channels = values.shape
+    half = (len(kernel) - 1) // 2 // fine
     result = np.zeros((len(places), channels))
     slopes = np.zeros((len(places), channels))
     for i in range(len(places)):
-        first = min(max(int(np.floor(places[i])), 2), count - 4) - 2
-        p = places[i] - first
-        for j in range(6):
-            scale, weight, slope = 1.0, 1.0, 0.0
-            for k in range(6):
-                if k != j:
-                    scale *= j - k
-                    slope = slope * (p - k) + weight
-                    weight *= p - k
-            weight, slope = weight / scale, slope / scale
+        first = int(np.ceil(places[i])) - half
+        offset = (first - places[i]) * fine + half * fine
+        total, drift = 0.0, 0.0
+        for j in range(2 * half):
+            at = offset + j * fine
+            k = min(max(int(at), 0), len(kernel) - 2)
+            part = at - k
+            weight = (1.0 - part) * kernel[k] + part * kernel[k + 1]
+            turn = -((1.0 - part) * slope[k] + part * slope[k + 1])
+            m = min(max(first + j, 0), count - 1)
+            total += weight
+            drift += turn
             for c in range(channels):
-                result[i, c] += weight * values[first + j, c]
-                slopes[i, c] += slope * values[first + j, c]
+                result[i, c] += weight * values[m, c]
+                slopes[i, c] += turn * values[m, c]
+        for c in range(channels):
+            result[i, c] /= total
+            slopes[i, c] = (slopes[i, c] - drift * result[i, c]) / total
     return result, slopes
 
 
