@@ -14,7 +14,7 @@ import xarray as xr
 from scipy.signal import butter, sosfiltfilt
 
 from ..errors import InputError
-from ..vehicle.driver import path_demand
+from ..vehicle.driver import PREVIEW_TIME, path_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from .record import upward
 from .sampling import resampled
@@ -37,9 +37,14 @@ CLOCK_LEFT, PATH_LEFT = 1e-3, 0.01
 """s and m that alignment may be off by. A model is compared at its best clock within them and not beyond: a delay of
 3 ms looks like a damping of the tyre, and a wrong damping like a delay."""
 
-TUNING_STEPS, SPEED_BANDWIDTH, PATH_BANDWIDTH = 2, 0.8, 0.4
-"""Rounds, and Hz up to which a driver model's delay is made up for. A record replayed by the vehicle that made it then
-differs by 0.1 percent of a_z up to 13 Hz; what is faster in a path the vehicle does by itself."""
+TUNING_STEPS, SPEED_BANDWIDTH, PATH_BANDWIDTH = 3, 0.4, 0.4
+"""Rounds, and Hz up to which a driver model's delay is made up for. What is faster in a recorded speed is mostly noise,
+and in a path the vehicle does it by itself."""
+
+LOOK_AHEAD = {"speed": 0.0, "lateral": PREVIEW_TIME}
+"""s that a correction is asked for before the place where it is to be driven: a driver who steers for a point ahead
+is late by about as long, and corrections that are late by a quarter of a period no longer converge. Unlike those
+of ``path_demand`` they have no second derivative, in which noise of the path would shake the vehicle."""
 
 OVERHANG = 4.0
 """m at the ends of the road where one of the axles, or its contact, would leave it."""
@@ -113,18 +118,15 @@ class Replay:
         rate = (len(self.time) - 1) / (self.time[-1] - self.time[0])
         for _ in range(TUNING_STEPS):
             run = tuned.run(vehicle, effects)
-            missing = {}
+            demand = dict(tuned.demand)
+            u = demand["speed"]["u"].values
             for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
                 wanted = self.drive[name].values
                 if np.isfinite(wanted).all():
                     driven = np.interp(self.place, np.maximum.accumulate(run["s"].values), run[name].values)
-                    missing[quantity] = smooth(wanted - driven, rate, bandwidth)
-            if "lateral" in missing:
-                missing["lateral"] = path_demand(missing["lateral"], 1 / rate, self.drive["v_x"].values)
-            demand = dict(tuned.demand)
-            for quantity, values in missing.items():
-                u = demand["speed"]["u"].values
-                demand[quantity] = demand[quantity] + xr.DataArray(np.interp(u, self.place, values), {"u": u}, "u")
+                    missing = smooth(wanted - driven, rate, bandwidth)
+                    asked = np.interp(self.time - LOOK_AHEAD[quantity], self.time, self.place)
+                    demand[quantity] = demand[quantity] + xr.DataArray(np.interp(u, asked, missing), {"u": u}, "u")
             tuned = replace(tuned, demand=demand)
         return tuned
 
