@@ -42,3 +42,6 @@ class Linear:
 
     def nuisances(self, values, index):
         return np.ones((1, 4, SAMPLES))
+
+    def realigned(self, amounts):
+        return self

@@ -123,6 +123,23 @@ class Car:
         return np.stack(columns).astype(np.float32)
 
 
+    def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
+        """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""
+        replays, records = list(self.replays), list(self.records)
+        for index, found in amounts.items():
+            again = replays[index]
+            kept = again.compared
+            hats = _hats(again.place[kept])
+            later, left = found[: len(hats)] @ hats, found[len(hats) : 2 * len(hats)] @ hats
+            shift = np.interp(again.time, again.time[kept], later)
+            place = np.interp(again.time - shift, again.time, again.place)
+            lateral, u = again.demand["lateral"], again.demand["speed"]["u"].values
+            aside = xr.DataArray(np.interp(u, again.place[kept], left), {"u": u}, "u")
+            replays[index] = replace(again, place=place, demand={**again.demand, "lateral": lateral - aside})
+            records[index] = replace(records[index], place=place[kept])
+        return replace(self, replays=replays, records=records)
+
+
 def car(
     sites: Sequence[Site],
     vehicle,

@@ -91,6 +91,9 @@ class Experiment(Protocol):
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """What the alignment of a record may still get wrong, (direction, channel, sample)."""
 
+    def realigned(self, amounts: Mapping[int, np.ndarray]) -> Experiment:
+        """The same with these amounts of the nuisances (direction,) taken out of its records."""
+
 
 @dataclass
 class Frame:
@@ -117,6 +120,10 @@ class Frame:
         """``flat`` of several columns at once, (column, element): one product of matrices instead of many with vectors."""
         return np.concatenate([without(white, self.bases[i]) for i, white in self._white(columns)], axis=1)
 
+    def flat_of(self, index: int, residual: np.ndarray) -> np.ndarray:
+        """``flat`` of one record."""
+        return without(self.whitening[index](residual).ravel(), self.bases[index])
+
     def own_shares(self, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:
         """Share of the power of each column that its nuisances leave, (column,)."""
         left, whole = np.zeros(len(columns)), np.zeros(len(columns))
@@ -130,10 +137,13 @@ class Frame:
         for index in self.indices:
             yield index, self.whitening[index](np.stack([parts[index] for parts in columns])).reshape(len(columns), -1)
 
+    def amounts(self, index: int, residual: np.ndarray) -> np.ndarray:
+        """Amounts (direction,) of its nuisances that a residual (channel, sample) holds."""
+        return self._amounts[index] @ (self.bases[index] @ self.whitening[index](residual).ravel())
+
     def cleaned(self, index: int, residual: np.ndarray) -> np.ndarray:
         """A residual (channel, sample) less what its nuisances explain of it."""
-        amounts = self._amounts[index] @ (self.bases[index] @ self.whitening[index](residual).ravel())
-        return residual - np.tensordot(amounts, self.nuisances[index], 1)
+        return residual - np.tensordot(self.amounts(index, residual), self.nuisances[index], 1)
 
     def blocks(self, finer: float = 1.0) -> np.ndarray:
         """Number of the block of every element of ``flat``; records of one site share them."""

@@ -100,8 +100,7 @@ class _Search:
     def run(self) -> Selection:
         self.frame, base = self._calibrated(self.values)
         self.frame, base = self._calibrated(base.values)
-        check = exp.simulate(self.experiment, base.values, self.held_out)
-        self.check_frame = self._frame(check, base.values) if check else None
+        check, self.check_frame = self._aligned(base.values, self.held_out)
         self._grounds(base, check)
         ladder = [self._state("calibrated", base, check)]
         self.base_squares = ladder[0]
@@ -116,8 +115,7 @@ class _Search:
             self.accepted.append(turn.winner.name)
             self.say(f"accepted {turn.winner.name}")
             self.frame, base = self._calibrated(base.values)
-            check = exp.simulate(self.experiment, base.values, self.held_out)
-            self.check_frame = self._frame(check, base.values) if check else None
+            check, self.check_frame = self._aligned(base.values, self.held_out)
             self._grounds(base, check)
             ladder.append(self._state(turn.winner.name, base, check))
         sizes = {size.key: size for size in self._sizes()}
@@ -136,10 +134,28 @@ class _Search:
         nuisances = {index: self.experiment.nuisances(values, index) for index in residuals}
         return exp.frame(self.experiment, residuals, nuisances)
 
+    def _aligned(self, values, indices) -> tuple[dict[int, np.ndarray], Frame | None]:
+        """Residuals and frame of records whose alignment has been brought up to date, where that brings them closer.
+
+        What the model lacks had its part in the alignment: a clock that is 2 ms off makes every size some percent small.
+        """
+        if not indices:
+            return {}, None
+        residuals = exp.simulate(self.experiment, values, indices)
+        frame = self._frame(residuals, values)
+        realigned = self.experiment.realigned({index: frame.amounts(index, residuals[index]) for index in indices})
+        closer = exp.simulate(realigned, values, indices)
+        better = {i for i in indices if np.sum(frame.flat_of(i, closer[i]) ** 2) < np.sum(frame.flat_of(i, residuals[i]) ** 2)}
+        if not better:
+            return residuals, frame
+        self.experiment = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in better})
+        residuals = {i: closer[i] if i in better else residuals[i] for i in indices}
+        return residuals, self._frame(residuals, values)
+
     def _calibrated(self, values: dict[str, float]) -> tuple[Frame, Fit]:
         """Frame and fit of the present model, at its own spectrum."""
-        residuals = exp.simulate(self.experiment, values, self.fitted)
-        sizes, frame = self._sizes(), self._frame(residuals, values)
+        residuals, frame = self._aligned(values, self.fitted)
+        sizes = self._sizes()
         self.raw = probe.secants(self.experiment, values, residuals, sizes, self.each)
         for _ in range(2):
             columns = probe.white(frame, self.raw)
