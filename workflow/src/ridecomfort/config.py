@@ -12,7 +12,7 @@ import yaml
 
 from . import stepsettings
 from .comfort import bands
-from .drive import readers
+from .drive import readers, units
 from .effects import library
 from .errors import InputError
 from .schema import defaults, read_yaml, validate
@@ -285,7 +285,11 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
     file = SITES / f"{name}.yaml"
     site = {"title": name, **validate(read_yaml(folder / file), "site", file)}
     if site["standin"] and name not in standin.get("sites", {}):
-        raise InputError(f"{STANDIN} has no site {name!r}", file=file, place="standin")
+        raise InputError(
+            f"{STANDIN} makes no data for {name!r}; remove `standin` from the site file if its road and drives are yours",
+            file=file,
+            place="standin",
+        )
     if ("file" in site["road"]) == ("scan" in site["road"]):
         raise InputError("expected either a file or a scan", file=file, place="road")
     for place, needed in _files(site):
@@ -294,6 +298,9 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
                 raise InputError(f"{needed!r}, expected a file in {DATA / name}/ for a stand-in", file=file, place=place)
         elif not (folder / needed).is_file():
             raise InputError(f"no such file {needed!r}", file=file, place=place)
+    for number, drive in enumerate(site["drives"], start=1):
+        for quantity, entry in drive.get("columns", {}).items():
+            units.of_column(quantity, entry, file=file, place=f"drives: entry {number}: columns: {quantity}")
     names = [drive.setdefault("name", Path(drive["file"]).stem) for drive in site["drives"]]
     for twice in {drive for drive in names if names.count(drive) > 1}:
         raise InputError(f"two drives are named {twice!r}", file=file, place="drives")
@@ -319,7 +326,7 @@ def _check_effects(study: Study, given: list[str]) -> None:
         raise InputError(f"no such folder {str(folder)!r}", file=_source("effects_folder", given), place="effects_folder")
     if study.effects():
         try:
-            library.choose(study.effects(), folder)
+            library.check_plausible(library.choose(study.effects(), folder))
         except InputError as problem:
             raise InputError(str(problem), file=_source("effects", given), place="effects") from None
 
