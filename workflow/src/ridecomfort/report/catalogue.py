@@ -190,7 +190,7 @@ def figures(sites: Mapping[str, Mapping]) -> dict[str, str]:
 def views_caption(site: str) -> str:
     """Caption of a site's views of its road."""
     return (
-        f"{label(site)}: plan, height, slope, curvature and bank of the reference line, and the height of every cell "
+        f"{label(site)}: plan, height, slope, curvature and cross slope of the road, and the height of every cell "
         "above the median of 5 m of its track, with the dips, bumps, joints, outliers and holes that were found."
     )
 
