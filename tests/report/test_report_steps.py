@@ -55,6 +55,14 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     assert all(f'id="{place}"' in page for place in ("fig-located_ts1", "tab-verdict", "fig-error_ladder", "tab-error_ladder"))
 
 
+def test_tables_of_sites_that_are_not_in_the_study_go(tmp_path):
+    names = ["opti_res_gone.csv", "opti_res_gone.trace.csv", "views_gone.png", "sites.csv", "error_ladder.csv", "mine.csv"]
+    for name in names:
+        (tmp_path / name).touch()
+    results.drop_others(tmp_path, {"sites", "views_here"})
+    assert {file.name for file in tmp_path.iterdir()} == {"sites.csv", "error_ladder.csv", "mine.csv"}
+
+
 def test_traces_name_files_that_exist(written):
     folder, config = written
     tables.main(folder, config, folder / "tables")

@@ -38,6 +38,9 @@ TAKEN = frozenset(
 )
 """Names of targets and of folders in results/, which no site may have."""
 
+METHODS = ("thresholds", "iso2631", "iri")
+"""The comfort methods."""
+
 NO_CALIBRATION = "none"
 """What a site file's ``calibrated_on`` says to drive the nominal vehicle."""
 
@@ -74,6 +77,11 @@ class Study:
         return [
             f"{first:0{width}}-{min(first + size, runs) - 1:0{width}}" for first in range(0, runs, size)
         ]
+
+    def maps(self, site: str) -> list[str]:
+        """Files of the maps of a site, one a method; those of a model with effects have a folder of its name."""
+        folder = "results/maps" if self.model == BASE else f"results/maps/{self.model}"
+        return [f"{folder}/{site}_{method}.geojson" for method in METHODS]
 
     def effects(self, model: str | None = None) -> dict[str, dict]:
         """The effects of a model by name, each with the values set for it; default is the configured model."""

@@ -132,6 +132,9 @@ COMFORT_FIGURES = {
     "of runs, for Latin hypercubes and for plain Monte Carlo.",
 }
 
+OF_A_SITE = ("opti_res_", "views_", "spectrum_")
+"""How the names of tables and figures begin that end with the name of a site."""
+
 
 def with_drives(sites: Mapping[str, Mapping]) -> list[str]:
     """Names of the sites that have measured drives, in the order of the study."""
@@ -185,6 +188,15 @@ def figures(sites: Mapping[str, Mapping]) -> dict[str, str]:
     if with_drives(sites):
         found |= COMPARISON_FIGURES
     return found | COMFORT_FIGURES
+
+
+def listed(name: str) -> bool:
+    """Whether a study of whatever sites may have a table or figure of this name."""
+    fixed = (
+        INPUT_TABLES, ROAD_TABLES, COMPARISON_TABLES, CALIBRATION_TABLES, COMFORT_TABLES,
+        METHOD_FIGURES, ROAD_FIGURES, SMOOTHING_FIGURES, CALIBRATION_FIGURES, COMPARISON_FIGURES, COMFORT_FIGURES,
+    )  # fmt: skip
+    return name.startswith(OF_A_SITE) or any(name in names for names in fixed)
 
 
 def views_caption(site: str) -> str:
