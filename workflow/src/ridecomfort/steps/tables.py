@@ -9,7 +9,7 @@ from ridecomfort.store import replacing
 def main(results, config, output):
     study = study_results.load(results, config)
     made = tables.make(study)
-    made["claims"] = claims.table(study, made)
+    made |= claims.tables(study, made)
     for name, each in made.items():
         for suffix, written in table.WRITERS.items():
             with replacing(output / f"{name}{suffix}") as part:
