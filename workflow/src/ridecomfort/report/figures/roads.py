@@ -83,8 +83,8 @@ def views(study: Study, name: str) -> Figure:
     rows = (
         ("height [m]", line),
         ("slope [%]", 100 * road["slope"].values),
-        ("curvature [gon/km]", 1000 * GON_PER_RAD * road["curvature"].values),
-        ("cross slope [%]", 100 * crossslope.cross_slope(road)),
+        ("curvature\n[gon/km]", 1000 * GON_PER_RAD * road["curvature"].values),
+        ("cross slope\n[%]", 100 * crossslope.cross_slope(road)),
     )
     for row, (axes, (label, values)) in enumerate(zip(middle.subplots(len(rows), 1, sharex=True), rows)):
         axes.plot(u, values, color=style.ROAD)
