@@ -141,6 +141,9 @@ COMFORT_FIGURES = {
 OF_A_SITE = ("opti_res_", "views_", "spectrum_")
 """How the names of tables and figures begin that end with the name of a site."""
 
+OF_A_MEASURED_SITE = ("located_", "conditions_", "responses_")
+"""How those begin that end with the name of a site with measured drives."""
+
 
 def with_drives(sites: Mapping[str, Mapping]) -> list[str]:
     """Names of the sites that have measured drives, in the order of the study."""
@@ -202,13 +205,17 @@ def figures(sites: Mapping[str, Mapping]) -> dict[str, str]:
     return found | COMFORT_FIGURES
 
 
-def listed(name: str) -> bool:
-    """Whether a study of whatever sites may have a table or figure of this name."""
-    fixed = (
-        INPUT_TABLES, ROAD_TABLES, COMPARISON_TABLES, CALIBRATION_TABLES, COMFORT_TABLES, CLAIMS_TABLES,
-        METHOD_FIGURES, ROAD_FIGURES, SMOOTHING_FIGURES, CALIBRATION_FIGURES, COMPARISON_FIGURES, COMFORT_FIGURES,
-    )  # fmt: skip
-    return name.startswith(OF_A_SITE) or any(name in names for names in fixed)
+def of_another_study(name: str, sites: Mapping[str, Mapping]) -> bool:
+    """Whether a table or figure of this name can only come from a study of other sites; names unknown here cannot."""
+    if name in tables(sites) or name in figures(sites):
+        return False
+    measured = with_drives(sites)
+    if name.startswith(OF_A_MEASURED_SITE):
+        return name.split("_", 1)[1] not in measured
+    if any(name in names for names in (DIFFERENCE_TABLES, DIAGNOSIS_TABLES, SCORE_TABLES, DIFFERENCE_FIGURES, DIAGNOSIS_FIGURES)):
+        return not measured
+    conditional = (COMPARISON_TABLES, CALIBRATION_TABLES, CLAIMS_TABLES, CALIBRATION_FIGURES, COMPARISON_FIGURES)
+    return name.startswith(OF_A_SITE) or any(name in names for names in conditional)
 
 
 def views_caption(site: str) -> str:

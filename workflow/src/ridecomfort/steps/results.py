@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from .. import store
-from ..report.catalogue import calibrated_on, label, listed, with_drives
+from ..report.catalogue import calibrated_on, label, of_another_study, with_drives
 from ..report.study import Compared, Diagnosis, Difference, Site, Study
 
 
@@ -70,11 +70,10 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
     )
 
 
-def drop_others(folder: Path, names) -> None:
-    """Delete tables or figures that an earlier study of other sites left in the folder; ``names`` are this study's."""
+def drop_others(folder: Path, sites: dict) -> None:
+    """Delete the tables or figures that an earlier study of other sites left in the folder."""
     for path in folder.glob("*.*"):
-        name = path.name.split(".")[0]
-        if name not in names and listed(name):
+        if of_another_study(path.name.split(".")[0], sites):
             path.unlink()
 
 

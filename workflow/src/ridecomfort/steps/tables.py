@@ -14,7 +14,7 @@ def main(results, config, output):
         for suffix, written in table.WRITERS.items():
             with replacing(output / f"{name}{suffix}") as part:
                 part.write_text(written(each), encoding="utf-8")
-    study_results.drop_others(output, made)
+    study_results.drop_others(output, config["sites"])
 
 
 if __name__ == "__main__":
