@@ -119,7 +119,8 @@ def smoothing(study: Study) -> Figure:
         vibration.set_ylabel("density of $a_z$ [m²/s³]")
         vibration.set_xlim(0, 50)
         if "smoothed_psd" in found:
-            density.legend(loc="lower left")
+            density.set_ylim(top=100 * density.get_ylim()[1])
+            density.legend(loc="upper right")
         vibration.set_ylim(top=30 * vibration.get_ylim()[1])
         vibration.legend(loc="upper right")
     for axes, text in zip(grid[-1], ("cut-off tried [m]", "wavenumber $n$ [cycles/m]", "frequency [Hz]")):
