@@ -45,11 +45,7 @@ wildcard_constraints:
 rule all:
     input:
         "results/report.html",
-        expand(
-            "results/maps/{site}_{method}.geojson",
-            site=study.names,
-            method=["thresholds", "iso2631", "iri"],
-        ),
+        [study.maps(site) for site in study.names],
 
 
 for site in study.names:
@@ -64,7 +60,7 @@ for site in study.names:
                 model=study.model,
                 method=["thresholds", "iso2631", "iri"],
             ),
-            expand("results/maps/{site}_{method}.geojson", site=site, method=["thresholds", "iso2631", "iri"]),
+            study.maps(site),
             expand(
                 "results/{site}/{model}/comparison.nc",
                 site=[site] if study.drives(site) else [],

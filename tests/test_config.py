@@ -115,7 +115,11 @@ def test_effects_name_the_model_in_whatever_order(project, own_effects):
 
 @pytest.mark.parametrize(
     ("effects", "said"),
-    [(["magic"], "unknown effect 'magic'"), ([{"pull": {"sise": 1.0}}], "effect 'pull' has no parameter 'sise'")],
+    [
+        (["magic"], "unknown effect 'magic'"),
+        ([{"pull": {"sise": 1.0}}], "effect 'pull' has no parameter 'sise'"),
+        ([{"pull": {"size": -3.0}}], "pull: size: -3 N, expected 0 to 10 N (how much)"),
+    ],
 )
 def test_mistake_in_an_effect(project, own_effects, effects, said):
     assert_said(project, {**own_effects, "effects": effects}, f"effects: {said}", config.STUDY)
@@ -186,7 +190,7 @@ STUDY_MISTAKES = [
     ({"comfort": {"exposure": {"trip": 0}}}, "trip: 0, expected at least 1"),
     ({"comfort": {"maps": {"probability": 1.5}}}, "probability: 1.5, expected at most 1"),
     ({"sites": []}, "sites: [], expected at least 1"),
-    ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: own, ts1"),
+    ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: "),
     ({"vehicle": "tank"}, "vehicle: unknown vehicle 'tank'; known vehicles: "),
     ({"effects": ["magic"]}, "effects: unknown effect 'magic'"),
     ({"effects": [{"a": {"b": "c"}}]}, "is not of the expected form"),
@@ -220,6 +224,17 @@ SITE_MISTAKES = [
     ({"road": {"file": "road.crg"}, "drives": [DRIVE]}, "drives: entry 1: file: no such file 'drive.csv'"),
     ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "role": "fix"}]}, "role: 'fix', expected one of fit, check"),
     (
+        {"road": {"file": "road.crg"}, "drives": [{"file": "road.crg", "columns": {"time": {"column": "t", "unit": "m"}}}]},
+        "drives: entry 1: columns: time: unit 'm' does not fit time (expected one of s, ms",
+    ),
+    (
+        {
+            "road": {"file": "road.crg"},
+            "drives": [{"file": "road.crg", "columns": {"roll_rate": {"column": "gyro_x [rad/s]", "unit": "deg/s"}}}],
+        },
+        "drives: entry 1: columns: roll_rate: unit 'deg/s' for roll_rate, but its column is headed 'gyro_x [rad/s]'",
+    ),
+    (
         {"road": {"file": "road.crg"}, "sampling": {"road_friction": {"uniform": [-0.1, 1]}}},
         "-0.1, expected more than 0",
     ),
@@ -229,7 +244,7 @@ SITE_MISTAKES = [
     ),
     ({"road": {"file": "road.crg"}, "sampling": {"lateral_position": {"cauchy": [0, 1]}}}, "unknown key 'cauchy'"),
     ({"road": {"file": "road.crg"}, "calibrated_on": "own"}, "calibrated_on: site 'own' has no measured drives"),
-    ({"road": {"file": "road.crg"}, "standin": True}, "config/standin.yaml has no site 'own'"),
+    ({"road": {"file": "road.crg"}, "standin": True}, "makes no data for 'own'; remove `standin`"),
     ({"road": {"file": "road.crg"}, "vehicle": "tank"}, "vehicle: unknown vehicle 'tank'"),
 ]
 

@@ -120,6 +120,68 @@ def test_units_may_stand_behind_the_names_of_columns(tmp_path):
     np.testing.assert_allclose(second["a_z"], first["a_z"], atol=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("columns", "arguments", "message"),
+    [
+        ({"time": TIME, "a_z [m/s2]": np.sin(TIME)}, ["--unit", "g"], "'g' for a_z, but its column is headed 'a_z [m/s2]'"),
+        ({"time": TIME, "a_z": 150.0 * np.sin(50 * TIME)}, [], "and rms 106 m/s2"),
+        ({"time": TIME, "a_z": 9.81 + np.sin(TIME)}, ["--unit", "g"], "a_z: mean 96"),
+    ],
+)
+def test_accelerations_in_another_unit_are_refused(tmp_path, columns, arguments, message):
+    file = write(tmp_path / "my.csv", **columns)
+    with pytest.raises(SystemExit, match="is the unit right|expected the unit of the header") as end:
+        main(["comfort", "--iso2631", str(file), *arguments])
+    assert message in str(end.value)
+
+
+def test_columns_that_are_not_read_are_named(tmp_path, capsys):
+    file = write(tmp_path / "my.csv", time=TIME, a_x=np.sin(TIME), az=np.cos(TIME), speed=0 * TIME)
+    main(["comfort", "--iso2631", str(file)])
+    assert "columns not read: az (if it is a_z: --column a_z='az'), speed" in capsys.readouterr().out
+
+
+def test_the_first_time_constant_counts_in_no_band(recording):
+    """A steady sine is in one band for all of the time that its running rms is known."""
+    found = alone.ride(alone.recording(recording, {"columns": {"a_z": {"column": "up"}}, "unit": "g"}))
+    assert any(sentence.endswith("FU 100.0 %; bands overlap") for sentence in found.remarks), found.remarks
+    assert np.isnan(found.signals["a_v"][:100]).all() and np.isfinite(found.signals["a_v"][101:]).all()
+    assert "NaN" not in found.text()
+
+
+S = np.arange(0, 400.01, 0.1)
+PROFILE = 0.002 * np.sin(2 * np.pi * S / 12)
+
+
+def test_units_may_stand_behind_the_names_of_a_profile(tmp_path):
+    plain = write(tmp_path / "plain.csv", s=S, elevation=PROFILE)
+    headed = write(tmp_path / "headed.csv", **{"s [m]": S, "elevation [mm]": 1e3 * PROFILE})
+    first, second = (alone.roughness(file, 100.0).table for file in (plain, headed))
+    pd.testing.assert_frame_equal(first, second)
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ({"distance": S, "z": PROFILE}, "expected columns s and any of left, right, elevation (found distance, z)"),
+        ({"s": S, "elevation": 1e3 * PROFILE}, "expected less than 100 m/km: are s and heights in m"),
+        ({"s": S, "elevation [furlong]": PROFILE}, "unit 'furlong' does not fit"),
+    ],
+)
+def test_profiles_that_cannot_be_meant_are_refused(tmp_path, columns, message):
+    file = write(tmp_path / "my.csv", **columns)
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iri", str(file)])
+    assert message in str(end.value) and str(file) in str(end.value)
+
+
+def test_help_says_which_columns_are_needed(capsys):
+    with pytest.raises(SystemExit):
+        main(["comfort", "--help"])
+    said = " ".join(capsys.readouterr().out.split())
+    assert "a column s, the distance" in said and "elevation [mm]" in said
+
+
 def test_a_recording_without_time_is_refused(tmp_path):
     pd.DataFrame({"t": [0.0, 0.01], "a_z": [0.0, 1.0]}).to_csv(tmp_path / "my.csv", index=False)
     with pytest.raises(InputError, match="no column time .found t, a_z.; name it with --column"):

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort import store
-from ridecomfort.drive import configured, readers
+from ridecomfort.drive import configured, readers, units
 from ridecomfort.errors import InputError
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS, STANDARD_GRAVITY
@@ -122,21 +122,35 @@ def broken(column, row, value):
         (table(), COLUMNS | {"a_x": {"column": "ax [g]", "unit": "km/h"}}, ("'ax [g]'", "'km/h' does not fit a_x", "m/s2")),
         (table(), COLUMNS | {"jerk": {"column": "ax [g]", "unit": "g"}}, ("unknown quantity 'jerk'",)),
         (table(), {k: v for k, v in COLUMNS.items() if k != "time"}, ("no column stands for time",)),
-        (table(), COLUMNS | {"v_x": {"column": "speed [km/h]", "unit": "m/s"}, "s": COLUMNS["s"]}, ()),
-        (broken("t [ms]", 500, 0.0), COLUMNS, ("row 501", "strictly increasing")),
+        (table(), COLUMNS | {"v_x": {"column": "speed [km/h]", "unit": "m/s"}}, ("'m/s' for v_x", "'speed [km/h]'")),
+        (broken("t [ms]", 500, 0.0), COLUMNS, ("line 502", "strictly increasing")),
     ],
 )
 def test_what_is_wrong_in_a_table_is_said_in_one_line(tmp_path, frame, columns, words):
     path = write(tmp_path, frame)
-    if not words:  # 72 m/s is possible: alignment, not the reader, finds that it does not fit the distance
-        readers.read(path, columns)
-        return
     with pytest.raises(InputError) as problem:
         readers.read(path, columns)
     message = str(problem.value)
     assert "\n" not in message and message.startswith(str(path))
     for word in words:
         assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("header", "unit"),
+    [("gyro_x [rad/s]", "rad/s"), ("acc (m/s²)", "m/s2"), ("acc [m/s^2]", "m/s2"), ("rate [°/s]", "deg/s"),
+     ("speed", None), ("speed [mph]", None), ("acc [filtered] [g]", "g")],
+)  # fmt: skip
+def test_a_header_may_state_its_unit(header, unit):
+    assert units.of_header(header) == unit
+
+
+def test_an_aligned_drive_whose_speed_fits_no_road_is_refused():
+    """Recorded in m/s but called km/h: 3.6 times the speed fits."""
+    drive = xr.Dataset(attrs={"speed_scale": 1.02})
+    assert configured.check_speed(drive, "fast.csv") is drive
+    with pytest.raises(InputError, match="^fast.csv: v_x: recorded speed times 3.6 .*expected 0.95 to 1.05.*units"):
+        configured.check_speed(drive.assign_attrs(speed_scale=3.6), "fast.csv")
 
 
 def test_files_that_cannot_be_read_are_named(tmp_path):

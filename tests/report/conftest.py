@@ -22,5 +22,4 @@ def own_site():
 def made(paper_like):
     """All tables of the paper-like study, the claims included."""
     found = tables.make(paper_like)
-    found["claims"] = claims.table(paper_like, found)
-    return found
+    return found | claims.tables(paper_like, found)

@@ -57,9 +57,9 @@ def test_nothing_is_said_without_one_of_the_sites(rule, paper):
         (claims.lateral, ("a_y", "PT"), "ts3", 20),  # 4.7 % is not a large share
         (claims.lateral, ("a_y", "ND"), "ts1", 60),  # ts1 leads
         (claims.lateral, ("a_y", "AG"), "ts2", 10),  # ts2 leads
-        (claims.vertical, ("a_z", "ND"), "ts3", 51),  # a tie of ts2 and ts3
+        (claims.vertical, ("a_z", "ND"), "ts3", 52),  # ts3 before ts2
         (claims.vertical, ("a_z", "AG"), "ts2", 50),  # ts2 before ts1
-        (claims.iso2631, ("iso2631", "LU"), "ts2", 54),  # a tie is no lead
+        (claims.iso2631, ("iso2631", "LU"), "ts2", 55),  # ts2 leads
         (claims.iso2631, ("iso2631", "VU"), "ts1", 1),
         (claims.iri, ("iri", "M"), "ts1", 40),
         (claims.iri, ("iri", "P"), "ts3", 2),
@@ -67,6 +67,15 @@ def test_nothing_is_said_without_one_of_the_sites(rule, paper):
 )
 def test_one_figure_undoes_a_claim(rule, key, site, count, paper):
     assert verdict(rule, changed(paper, key, site, count)) == FAILS
+
+
+@pytest.mark.parametrize(
+    "rule, key, site, count",
+    [(claims.vertical, ("a_z", "ND"), "ts3", 51), (claims.iso2631, ("iso2631", "LU"), "ts2", 54)],
+)
+def test_a_tie_decides_nothing(rule, key, site, count, paper):
+    answer = claims.combine(rule(changed(paper, key, site, count)))
+    assert answer.verdict == UNKNOWN and "a tie" in answer.reason
 
 
 def test_no_leader_where_nothing_is_critical(paper):

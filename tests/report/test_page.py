@@ -36,7 +36,7 @@ class Resources(HTMLParser):
 
 def rendered(study):
     made = tables.make(study)
-    made["claims"] = claims.table(study, made)
+    made |= claims.tables(study, made)
     figures = dict.fromkeys(catalogue.figures(study.settings["sites"]), PIXEL)
     text = page.render(study, made, figures)
     parser = Resources()
@@ -68,7 +68,8 @@ def test_every_table_and_figure_is_on_it_once(study):
 def test_claims_and_provenance_are_on_it(study):
     text, found = rendered(study)
     words = " ".join(found.text)
-    assert words.count("by the paper's own tables:") == len(claims.CLAIMS)
+    assert words.count("by the paper's own tables:") == (len(claims.CLAIMS) if study.of_the_paper else 0)
+    assert ("claims" in found.ids) == study.of_the_paper
     for site in study.sites:
         assert site.files["iri"] in words
     assert "seed: 2021" in words and "numpy" in words
@@ -82,6 +83,12 @@ def test_stand_in_is_said_where_it_is_shown_and_not_elsewhere(study):
         assert text.count("Stand-in data.</figcaption>") == len(figures_with_data)
     else:
         assert "tand-in" not in text
+
+
+def test_one_site_of_ones_own_has_no_empty_sections_and_no_claims(own_site):
+    text, found = rendered(own_site)
+    assert not {"calibration", "claims"} & {*found.ids, *(link[1:] for link in found.links)}
+    assert "<td>all sites" not in text and ">all sites," not in text
 
 
 def test_names_with_markup_are_shown_not_run(own_site):

@@ -55,6 +55,22 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     assert all(f'id="{place}"' in page for place in ("fig-located_ts1", "tab-verdict", "fig-error_ladder", "tab-error_ladder"))
 
 
+@pytest.mark.parametrize(
+    ("drives", "kept"),
+    [
+        (True, {"sites.csv", "mine.csv", "views_home.png", "opti_res_home.csv", "located_home.png", "error_ladder.csv"}),
+        (False, {"sites.csv", "mine.csv", "views_home.png"}),
+    ],
+)
+def test_tables_of_sites_that_are_not_in_the_study_go(tmp_path, drives, kept):
+    others = ["opti_res_gone.csv", "opti_res_gone.trace.csv", "views_gone.png", "located_gone.png", "claims.csv"]
+    own = ["sites.csv", "mine.csv", "views_home.png", "opti_res_home.csv", "located_home.png", "error_ladder.csv"]
+    for name in others + own:
+        (tmp_path / name).touch()
+    results.drop_others(tmp_path, {"home": {"has_drives": drives}})
+    assert {file.name for file in tmp_path.iterdir()} == kept
+
+
 def test_traces_name_files_that_exist(written):
     folder, config = written
     tables.main(folder, config, folder / "tables")

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from ridecomfort.report import catalogue, published, table, tables
+from ridecomfort.report import catalogue, claims, published, table, tables
 from ridecomfort.report.table import Column, Source, Table
 from ridecomfort.vocabulary import SIGNALS
 from tests.report import synthetic
@@ -105,16 +105,39 @@ def test_exceedance_counts_sections_of_single_runs(made, paper_like):
     assert found.value(row, "ts1_likely") == (probability > 0.5).sum()
 
 
+def test_shares_of_a_variance_are_printed_within_0_and_100_percent(own_site):
+    assessment = own_site.assessment.copy(deep=True)
+    assessment["first_order"][:] = 0.5
+    assessment["first_order"][dict(place=0, measure=0, factor=0)] = [-0.02, -0.3, 1.2]
+    found = tables.agreement.influence_table(dataclasses.replace(own_site, assessment=assessment))
+    assert found.rows[0][2:5] == (0.0, 0.0, 100.0) and found.rows[0][6] == "cannot be said"
+
+
+def test_a_study_of_few_runs_says_why_it_has_no_number_of_runs(own_site):
+    found = tables.agreement.number_of_runs_table(own_site)
+    assert "home: no figures, 8 runs are too few, at least 160 are needed." in found.notes
+
+
+def test_origins_of_the_exceedance_name_the_method(made):
+    cells = [source.cells for source in made["exceedance"].sources]
+    assert len(set(cells)) == len(cells)
+
+
 @pytest.mark.parametrize("study", ["paper_like", "own_site"])
 def test_names_are_those_of_the_catalogue(study, request):
     study = request.getfixturevalue(study)
-    assert [*tables.make(study), "claims"] == list(catalogue.tables(study.settings["sites"]))
+    made = tables.make(study)
+    made |= claims.tables(study, made)
+    assert list(made) == list(catalogue.tables(study.settings["sites"]))
 
 
 def test_own_site_has_no_published_rows(own_site):
     found = tables.make(own_site)
     assert not any(name.startswith("opti_res") or name in ("baseline_res", "constraints") for name in found)
-    assert all(value is None for row in rows(found["rid_comf_res"], "paper") for value in list(row.values())[2:])
+    for each in found.values():
+        assert not any("paper" in column.key or column.key == "source" for column in each.columns)
+        assert not any("paper" in row for row in each.rows) and not any("paper" in note for note in each.notes)
+        assert all(0 < row < len(each.rows) for row in each.breaks)
     assert not any("tand-in" in note for each in found.values() for note in each.notes)
 
 

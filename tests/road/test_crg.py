@@ -318,6 +318,12 @@ def test_heights_out_of_reason_are_refused_where_they_begin(shared):
         crg.read(path)
 
 
+def test_a_broken_reference_line_is_named_by_channel_and_place(shared):
+    path = shared / "data" / "opencrg" / "belgian_block_damaged.crg"
+    with pytest.raises(InputError, match=r"reference line, u = 731.86 m: heading 7.5\S+ rad, the first of .* no option repairs"):
+        crg.read(path, heights="blank")
+
+
 def test_a_single_wild_height_can_be_blanked_by_name(tmp_path):
     z = np.zeros((30, 5))
     z[12, 2] = 50.0

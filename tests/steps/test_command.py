@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from ridecomfort.errors import InputError
-from ridecomfort.steps.command import Command
+from ridecomfort.steps.command import Command, counted
 
 
 def called_with(**options):
@@ -42,6 +42,13 @@ def test_a_mistake_is_one_line(capsys):
     with pytest.raises(SystemExit) as end:
         Command(main).run(["--output", "o.nc"])
     assert end.value.code == "error: road.crg: line 7: 3e38 m, expected heights below 9000 m"
+
+
+def test_a_long_step_says_how_often_it_called(capsys):
+    simulated = counted(lambda speed, *, step: speed * step, "drives simulated", every=2)
+    assert [simulated(speed, step=2) for speed in (1, 2, 3)] == [2, 4, 6]
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("2 drives simulated in ")
 
 
 def test_a_fault_of_the_program_is_not_hidden():

@@ -80,10 +80,27 @@ def test_records_are_aligned_fitted_and_compared(files, car_file):
     assert list(store.read(files / "comparison.nc")["state"].values) == ["reference", "with_effects"]
 
 
-def test_a_bad_record_ends_the_step_with_one_line_and_no_file(files, car_file, tmp_path):
-    table = pd.read_csv(files / "fit.csv")
+def backwards(table):
     table.loc[200:, "t"] -= 1.0
-    table.to_csv(tmp_path / "bad.csv", index=False)
+    return table
+
+
+def mislabelled(table):
+    """Speeds in m/s that the site file calls km/h."""
+    table["v"] /= 3.6
+    return table
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (backwards, "line 202, column 't': the clock does not advance"),
+        (lambda table: table.iloc[:25], "drive bad: lasts 0.25 s"),
+        (mislabelled, "v_x: recorded speed times 3.6"),
+    ],
+)
+def test_a_bad_record_ends_the_step_with_one_line_and_no_file(files, car_file, tmp_path, change, said):
+    change(pd.read_csv(files / "fit.csv")).to_csv(tmp_path / "bad.csv", index=False)
     config = {"site": "here", "drives": [ENTRY], "simulation": SIMULATION, "alignment": {"search": 0.5}}
     output = tmp_path / "out" / "measured.nc"
     words = ["--road", files / "road.nc", "--vehicle", car_file, "--drives", tmp_path / "bad.csv", "--output", output]
@@ -91,5 +108,5 @@ def test_a_bad_record_ends_the_step_with_one_line_and_no_file(files, car_file, t
     done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert done.returncode == 1
     (line,) = done.stderr.strip().splitlines()
-    assert line.startswith(f"error: {tmp_path / 'bad.csv'}: time") and "does not advance at row 201" in line
+    assert line.startswith(f"error: {tmp_path / 'bad.csv'}: {said}")
     assert not output.parent.exists()

@@ -1,6 +1,7 @@
 """What a person sees of a run, from the records that Snakemake logs."""
 
 import io
+import json
 import logging
 
 import pytest
@@ -48,7 +49,36 @@ def test_time_left_is_that_of_the_jobs_to_come_shared_among_those_that_run(watch
         start(watched, number + 2, "simulate", site="ts1", runs=f"{number + 2}")
     # Eight shards, by two at a time, the target as long as a shard: nine of 8 s.
     assert watched.time_left() == pytest.approx((8 * 8 + 8) / 2)
-    assert watched.said()[-1] == "[ 18 %] simulate ts1 2 done in 8.0 s (2 of 10); 9 to go, about 36 s"
+    assert watched.said()[-1] == "[ 18 %] simulate ts1 2 done in 8.0 s (2 of 10 such jobs); 9 to go, about 36 s"
+
+
+def test_a_run_ends_with_100_percent_and_the_page(watched, clock):
+    log(watched, "run_info", stats={"report": 1, "all": 1, "total": 2})
+    start(watched, 1, "report")
+    clock.now = 4.0
+    log(watched, "job_finished", job_id=1)
+    log(watched, "job_info", jobid=2, rule_name="all", wildcards={}, benchmark=None)
+    log(watched, "job_finished", job_id=2)
+    assert watched.said()[-2:] == ["[ 50 %] report done in 4.0 s; 1 to go", "[100 %] all done in 4.0 s; the page: results/report.html"]
+
+
+def test_a_start_names_the_shard(watched):
+    log(watched, "run_info", stats={"simulate": 2, "total": 2})
+    start(watched, 1, "simulate", site="ts1", model="base", runs="0000-0249")
+    assert watched.said() == ["[  0 %] simulate ts1 base 0000-0249 ..."]
+
+
+def test_a_plan_says_which_settings_changed(tmp_path):
+    stream = io.StringIO()
+    handler = progress.Progress(tmp_path, stream, planning=True)
+    thresholds = {"VG": [0.95] * 50}
+    before, now = ({"site": "one", "iri": {"thresholds": thresholds, "segment": segment}} for segment in (50, 25))
+    reason = (
+        "Params have changed since last execution: Union of exclusive params before and now across all output: "
+        f"before: '{json.dumps(before)}' now: '{json.dumps(now)}' ; Code has changed"
+    )
+    log(handler, "job_info", jobid=1, rule_name="iri", wildcards={"site": "one"}, benchmark=None, reason=reason)
+    assert stream.getvalue() == "iri one: Settings have changed: iri: segment: 50 -> 25; Code has changed\n"
 
 
 def test_no_guess_before_the_main_rule_was_timed(watched, clock):

@@ -73,6 +73,13 @@ def test_a_setting_reruns_the_step_that_uses_it(finished):
     assert jobs == ["iri one base", "maps one"]
 
 
+def test_maps_of_a_model_with_effects_lie_beside_those_of_the_base_model(finished):
+    answer = finished.snakemake("--dry-run", "--summary", "one", "--config", "effects=[payload]")
+    maps = {line.split("\t")[0] for line in answer.text.splitlines() if line.startswith("results/maps/")}
+    assert maps == {f"results/maps/payload/one_{method}.geojson" for method in METHODS}
+    assert {f"results/maps/one_{method}.geojson" for method in METHODS} <= finished.files()
+
+
 def test_results_depend_neither_on_shards_nor_on_where_the_folder_lies(finished):
     moved = type(finished)(finished.folder.with_name("moved"), finished.repository)
     shutil.copytree(finished.folder, moved.folder)

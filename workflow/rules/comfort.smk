@@ -95,17 +95,13 @@ rule maps:
             allow_missing=True,
         ),
     output:
-        expand(
-            "results/maps/{site}_{method}.geojson",
-            method=["thresholds", "iso2631", "iri"],
-            allow_missing=True,
-        ),
+        study.maps("{site}"),
     params:
         config=lambda wildcards: study.config("maps", wildcards.site),
     log:
-        "results/logs/maps/{site}.log",
+        f"results/logs/maps/{{site}}/{study.model}.log",
     benchmark:
-        "results/benchmarks/maps/{site}.tsv"
+        f"results/benchmarks/maps/{{site}}/{study.model}.tsv"
     shell:
         "python -m ridecomfort.steps.maps --road {input.road:q} --thresholds {input.comfort[0]:q}"
         " --iso2631 {input.comfort[1]:q} --iri {input.comfort[2]:q}"

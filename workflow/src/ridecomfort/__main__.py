@@ -20,7 +20,7 @@ def parser() -> argparse.ArgumentParser:
     for name in sorted(module.name for module in pkgutil.iter_modules(commands.__path__)):
         module = importlib.import_module(f"{commands.__name__}.{name}")
         summary = module.__doc__.splitlines()[0]
-        subparser = subcommands.add_parser(name, help=summary, description=summary)
+        subparser = subcommands.add_parser(name, help=summary, description=module.__doc__)
         module.arguments(subparser)
         subparser.set_defaults(run=module.run)
     return answer

@@ -12,7 +12,7 @@ import yaml
 
 from . import stepsettings
 from .comfort import bands
-from .drive import readers
+from .drive import readers, units
 from .effects import library
 from .errors import InputError
 from .schema import defaults, read_yaml, validate
@@ -37,6 +37,9 @@ TAKEN = frozenset(
     "benchmarks bench none".split()
 )
 """Names of targets and of folders in results/, which no site may have."""
+
+METHODS = ("thresholds", "iso2631", "iri")
+"""The comfort methods."""
 
 NO_CALIBRATION = "none"
 """What a site file's ``calibrated_on`` says to drive the nominal vehicle."""
@@ -74,6 +77,11 @@ class Study:
         return [
             f"{first:0{width}}-{min(first + size, runs) - 1:0{width}}" for first in range(0, runs, size)
         ]
+
+    def maps(self, site: str) -> list[str]:
+        """Files of the maps of a site, one a method; those of a model with effects have a folder of its name."""
+        folder = "results/maps" if self.model == BASE else f"results/maps/{self.model}"
+        return [f"{folder}/{site}_{method}.geojson" for method in METHODS]
 
     def effects(self, model: str | None = None) -> dict[str, dict]:
         """The effects of a model by name, each with the values set for it; default is the configured model."""
@@ -285,7 +293,11 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
     file = SITES / f"{name}.yaml"
     site = {"title": name, **validate(read_yaml(folder / file), "site", file)}
     if site["standin"] and name not in standin.get("sites", {}):
-        raise InputError(f"{STANDIN} has no site {name!r}", file=file, place="standin")
+        raise InputError(
+            f"{STANDIN} makes no data for {name!r}; remove `standin` from the site file if its road and drives are yours",
+            file=file,
+            place="standin",
+        )
     if ("file" in site["road"]) == ("scan" in site["road"]):
         raise InputError("expected either a file or a scan", file=file, place="road")
     for place, needed in _files(site):
@@ -294,6 +306,9 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
                 raise InputError(f"{needed!r}, expected a file in {DATA / name}/ for a stand-in", file=file, place=place)
         elif not (folder / needed).is_file():
             raise InputError(f"no such file {needed!r}", file=file, place=place)
+    for number, drive in enumerate(site["drives"], start=1):
+        for quantity, entry in drive.get("columns", {}).items():
+            units.of_column(quantity, entry, file=file, place=f"drives: entry {number}: columns: {quantity}")
     names = [drive.setdefault("name", Path(drive["file"]).stem) for drive in site["drives"]]
     for twice in {drive for drive in names if names.count(drive) > 1}:
         raise InputError(f"two drives are named {twice!r}", file=file, place="drives")
@@ -319,7 +334,7 @@ def _check_effects(study: Study, given: list[str]) -> None:
         raise InputError(f"no such folder {str(folder)!r}", file=_source("effects_folder", given), place="effects_folder")
     if study.effects():
         try:
-            library.choose(study.effects(), folder)
+            library.check_plausible(library.choose(study.effects(), folder))
         except InputError as problem:
             raise InputError(str(problem), file=_source("effects", given), place="effects") from None
 

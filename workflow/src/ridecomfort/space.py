@@ -11,18 +11,20 @@ from numba import njit
 from .errors import InputError
 
 
-def places(start: float, end: float, *, spacing: float, run_in: float, run_out: float) -> np.ndarray:
+def places(start: float, end: float, *, spacing: float, run_in: float, run_out: float, file=None) -> np.ndarray:
     """Distances in m along the road at which drives are evaluated, ``spacing`` apart.
 
     They cover the road from ``run_in`` behind its start to ``run_out`` before its end.
-    Raises InputError where nothing is left.
+    Raises InputError, naming the ``file`` of the road, where nothing is left.
     """
     first, last = start + run_in, end - run_out
     count = int(np.floor((last - first) / spacing + 1e-9)) + 1
     if count < 2:
         raise InputError(
-            f"a road of {end - start:g} m leaves nothing to evaluate between run_in {run_in:g} m and run_out {run_out:g} m",
-            place="space",
+            f"a road of {end - start:g} m, expected more than run_in {run_in:g} m and run_out {run_out:g} m together "
+            "(`space` in config/study.yaml)",
+            file=file,
+            place="u",
         )
     return first + spacing * np.arange(count)
 

@@ -87,7 +87,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 "sampling": own["sampling"],
             }
         case "simulate":
-            return {**simulated, "speed": own["speed"]}
+            return {**simulated, "speed": own["speed"], "space": chosen["space"]}
         case "handed_in":
             return {**at, "rate": chosen["simulation"]["rate"]}
         case "space":

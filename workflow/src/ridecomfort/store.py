@@ -100,4 +100,4 @@ def read(path, variables: Iterable[str] | None = None) -> xr.Dataset:
     except InputError:
         raise
     except (OSError, RuntimeError, ValueError) as problem:
-        raise InputError(f"not a readable NetCDF file ({problem})", file=path) from None
+        raise InputError(f"not a readable NetCDF file ({problem}); if the study made it: delete it and run again", file=path) from None

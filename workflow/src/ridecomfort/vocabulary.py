@@ -42,7 +42,7 @@ VARIABLES = _table(
     ("heading", "rad", "heading of the reference line, counterclockwise from x"),
     ("curvature", "1/m", "curvature of the reference line, positive to the left"),
     ("slope", "1", "slope of the reference line, positive uphill"),
-    ("bank", "1", "cross slope of the road, positive with the left side up"),
+    ("bank", "1", "cross slope that the file stores heights against (of a scan: roll of the scanner), left side up"),
     ("wavenumber", "1/m", "wavenumber of the road profile, in cycles"),
     ("band", "1/m", "centre wavenumber of the band, in cycles"),
     ("displacement_psd", "m3", "power spectral density of the height of the road"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -12,7 +13,7 @@ import xarray as xr
 from ..drive import sampling, units
 from ..drive.readers import csv
 from ..errors import InputError
-from ..vocabulary import STANDARD_GRAVITY, describe
+from ..vocabulary import STANDARD_GRAVITY, VARIABLES, describe
 from . import bands, exposure, iri, iso2631, jerk, quantities, seat, thresholds, total
 
 AXES = ("a_x", "a_y", "a_z")
@@ -21,6 +22,18 @@ NEAR_GRAVITY = 1.0
 """m/s2; a mean of a_z this close to gravity is gravity."""
 
 HEIGHTS = ("left", "right", "elevation")
+
+LARGEST_MEAN, LARGEST_RMS = 20.0, 30.0
+"""m/s2; an acceleration whose mean, or rms about it, lies beyond is in another unit: no passenger bears it."""
+
+LARGEST_IRI = 100.0
+"""m/km; unpaved roads, eroded and slow, reach 20 (Sayers, Gillespie and Paterson 1986, WBTP 46, figure 2)."""
+
+TIME_CONSTANT = 1.0
+"""s, of the running rms; it knows too little of the past before (ISO 2631-1:1997, 6.3.1)."""
+
+_HEADER = re.compile(r"\s*(\w+)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*")
+"""A name, and a unit in brackets behind it or none."""
 
 
 @dataclass(frozen=True)
@@ -37,28 +50,30 @@ class Result:
 
     def text(self) -> str:
         """Title, table and remarks for a terminal."""
-        table = self.table.to_string(index=False, float_format=lambda number: f"{number:.4g}")
+        table = self.table.to_string(index=False, float_format=lambda number: f"{number:.4g}", na_rep="–")
         return "\n".join([self.title, "", table, *(["", *self.remarks] if self.remarks else [])])
 
 
 def recording(file, settings: Mapping | None = None) -> xr.Dataset:
     """The accelerations of a CSV file in m/s2 over uniform ``time``; attribute ``rate`` in Hz.
 
-    ``settings``: ``columns`` (quantity to {"column": name}) and ``unit``. Without
-    columns the file has ``time`` and any of AXES, their units behind them in brackets
-    or as in ``unit``. Time stamps that jitter are
-    brought to a uniform clock; a file that skips samples is refused.
+    ``settings``: ``columns`` (quantity to {"column": name}) and ``unit``, that of the accelerations.
+    Without columns the file has ``time`` and any of AXES. Units are those in brackets behind the
+    names (which ``unit`` must not contradict), else s and m/s2. Time stamps that jitter are
+    brought to a uniform clock; a file that skips samples is refused, and so is an acceleration
+    that is out of reason in its unit. Attribute ``unused``: a sentence about columns that were not read, or "".
     """
     settings = settings or {}
-    unit = settings.get("unit", "m/s2")
     present = list(_table(file, rows=0).columns)
-    columns = {**_headed(present), **settings.get("columns", {})}
+    columns = {**_headed(present, ("time", *AXES)), **settings.get("columns", {})}
     if "time" not in columns:
         raise InputError(f"no column time (found {', '.join(present)}); name it with --column time=COLUMN", file=file)
-    for name in AXES:
+    for name in ("time", *AXES):
         if name in columns:
-            columns[name] = {"unit": unit, **columns[name]}
-            units.factor(name, columns[name]["unit"], file=file, place="--unit")
+            asked = settings.get("unit") if name in AXES else None
+            unit = asked or columns[name].get("unit") or units.of_header(columns[name]["column"])
+            columns[name] = {**columns[name], "unit": unit or VARIABLES[name].unit}
+            units.of_column(name, columns[name], file=file, place="--unit" if asked else f"column {columns[name]['column']!r}")
     found, _ = csv.read(file, columns)
     if not found:
         raise InputError(f"no column {', '.join(AXES)} (found {', '.join(present)})", file=file)
@@ -73,18 +88,44 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
         name: ("time", sampling.resample_inertial(clock, values, time, rate, file=file)[0])
         for name, (_, values) in found.items()
     }
-    answer = xr.Dataset(signals, {"time": time - time[0]}, {"rate": float(rate), "file": str(file)})
+    for name, (_, values) in signals.items():
+        _check_reason(name, values, file)
+    attributes = {"rate": float(rate), "file": str(file), "unused": _unused(present, columns)}
+    answer = xr.Dataset(signals, {"time": time - time[0]}, attributes)
     return describe(answer)
 
 
-def _headed(present) -> dict[str, dict[str, str]]:
-    """The columns that are headed by the name of a quantity, with the unit in brackets behind it: ``a_z [m/s2]``."""
+def _headed(present, names) -> dict[str, dict[str, str]]:
+    """The columns that are headed by one of the names, with the unit in brackets behind it: ``a_z [m/s2]``."""
     answer = {}
     for column in present:
-        name, bracket, unit = str(column).partition("[")
-        if name.strip() in ("time", *AXES):
-            answer[name.strip()] = {"column": column, **({"unit": unit.strip(" ]")} if bracket else {})}
+        match = _HEADER.fullmatch(str(column))
+        if match and match[1] in names:
+            unit = {"unit": units.of_header(column) or match[2]} if match[2] else {}
+            answer[match[1]] = {"column": column, **unit}
     return answer
+
+
+def _unused(present, columns) -> str:
+    """A sentence about the columns that are not read, with a hint where the name of one looks like an axis."""
+    read = {entry["column"] for entry in columns.values()}
+    named = []
+    for column in (column for column in present if column not in read):
+        match = re.match(r"a(?:cc\w*)?[_ ]?([xyz])\b", str(column), re.IGNORECASE)
+        axis = f"a_{match[1].lower()}" if match else None
+        named.append(f"{column} (if it is {axis}: --column {axis}={column!r})" if axis and axis not in columns else str(column))
+    return f"columns not read: {', '.join(named)}" if named else ""
+
+
+def _check_reason(name: str, values: np.ndarray, file) -> None:
+    mean, rms = float(np.mean(values)), float(np.std(values))
+    if abs(mean) > LARGEST_MEAN or rms > LARGEST_RMS:
+        raise InputError(
+            f"mean {mean:.3g} m/s2 and rms {rms:.3g} m/s2 about it (expected within {LARGEST_MEAN:g} and {LARGEST_RMS:g}; "
+            "is the unit right? Name it in brackets behind the name of the column, or with --unit)",
+            file=file,
+            place=name,
+        )
 
 
 def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.Seat | None = None) -> Result:
@@ -130,12 +171,15 @@ def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.
         )
         remarks += [f"{name}: {sentence}" for sentence in quantities.advice(found)]
     running["a_v"] = np.sqrt(squares)
+    if duration > 2 * TIME_CONSTANT:
+        running = running.where(running["time"] >= TIME_CONSTANT)
     value = float(total.total_value(rms))
     rows.append({"axis": "a_v", "a_w [m/s2]": value, "MTVV [m/s2]": float(running["a_v"].max())})
     verdicts = [f"a_v over the whole recording: {' and '.join(bands.names(value))}"]
-    shares = bands.membership(running["a_v"].values).mean(axis=1)
+    known = running["a_v"].values[np.isfinite(running["a_v"].values)]
+    shares = bands.membership(known).mean(axis=1)
     verdicts.append(
-        "running a_v (1 s), share of time: "
+        f"running a_v ({TIME_CONSTANT:g} s), share of time: "
         + ", ".join(f"{name} {100 * share:.1f} %" for name, share in zip(bands.BANDS, shares) if share > 0)
         + "; bands overlap"
     )
@@ -151,6 +195,7 @@ def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.
         verdicts.append(_sickness(recording["a_z"], rate, duration, trip))
     if len(names) < len(AXES):
         verdicts.append(f"only {', '.join(names)}: a_v lacks the other axes")
+    verdicts += [recording.attrs["unused"]] if recording.attrs.get("unused") else []
     title = f"ISO 2631-1 comfort on the seat, {duration:.1f} s at {rate:g} Hz"
     return Result("iso2631", title, pd.DataFrame(rows), verdicts + remarks, describe(running), "m/s2", bands.BANDS)
 
@@ -185,6 +230,7 @@ def styles(recording: xr.Dataset) -> Result:
                 _outside(f"jerk of {name}", style, jerk.of_drive(signal, rate), band, "m/s3", rate)
                 for style, band in jerk.BANDS.items()
             ]
+    remarks += [recording.attrs["unused"]] if recording.attrs.get("unused") else []
     title = f"Accelerations and jerk against driving styles, {recording.sizes['time'] / rate:.1f} s at {rate:g} Hz"
     return Result("thresholds", title, pd.DataFrame(rows), remarks, describe(signals), "m/s2", thresholds.ACCELERATION)
 
@@ -206,20 +252,20 @@ def _outside(quantity: str, style: str, signal: np.ndarray, band: thresholds.Ban
 
 
 def roughness(file, segment: float, *, smoothed: bool = False, local: float | None = None) -> Result:
-    """IRI per segment of a profile in a CSV file: columns ``s`` and any of HEIGHTS in m; of two tracks MRI and HRI.
+    """IRI per segment of a profile in a CSV file: columns ``s`` and any of HEIGHTS; of two tracks MRI and HRI.
 
-    ``local``: m/km; the stretches whose continuous IRI lies above are named (``iri.local_roughness``).
+    Columns are in m, or in the unit that stands in brackets behind the name: ``elevation [mm]``. ``local``: m/km; the stretches whose continuous IRI lies above are named (``iri.local_roughness``).
     """
     table = _table(file)
-    names = [name for name in HEIGHTS if name in table.columns]
-    if "s" not in table.columns or not names:
-        raise InputError(f"expected columns s and any of {', '.join(HEIGHTS)}", file=file)
-    text = [name for name in ("s", *names) if table[name].dtype.kind not in "fiu"]
-    if text:
-        raise InputError(f"column {text[0]!r} holds something else than numbers", file=file)
-    s = table["s"].to_numpy(float)
+    columns = _headed(table.columns, ("s", *HEIGHTS))
+    names = [name for name in HEIGHTS if name in columns]
+    if "s" not in columns or not names:
+        found = ", ".join(map(str, table.columns))
+        raise InputError(f"expected columns s and any of {', '.join(HEIGHTS)} (found {found})", file=file)
+    values = {name: _metres(table, name, columns[name], file) for name in ("s", *names)}
+    s = values.pop("s")
     settings = {"moving_average": None} if smoothed else {}
-    profiles = {name: table[name].to_numpy(float) for name in names}
+    profiles = values
     try:
         start, stop = iri.segments(s[0], s[-1], segment)
         found = {f"IRI {name}": iri.iri(profile, s, segment, **settings) for name, profile in profiles.items()}
@@ -231,10 +277,18 @@ def roughness(file, segment: float, *, smoothed: bool = False, local: float | No
         }
     except InputError as problem:
         raise InputError(str(problem), file=file) from None
-    columns = {f"{name} [m/km]": each for name, each in found.items()}
-    rows = pd.DataFrame({"from [m]": start, "to [m]": stop, **columns})
+    for name, each in found.items():
+        if np.max(each) > LARGEST_IRI:
+            raise InputError(
+                f"{name} of {np.max(each):.4g} m/km, expected less than {LARGEST_IRI:g} m/km: are s and heights in m? "
+                "(a unit may stand behind the name, as in elevation [mm])",
+                file=file,
+            )
+    rows = pd.DataFrame({"from [m]": start, "to [m]": stop, **{f"{name} [m/km]": each for name, each in found.items()}})
     signals = xr.Dataset({name: ("segment", each) for name, each in found.items()}, {"s": s})
     remarks = ["profile taken as averaged over 250 mm already" if smoothed else "moving average of 250 mm applied"]
+    unused = _unused(table.columns, columns)
+    remarks += [unused] if unused else []
     for name, stretches in spots.items():
         remarks.append(f"{name}: {len(stretches)} stretch{'' if len(stretches) == 1 else 'es'} with more than {local:g} m/km over 7.62 m (25 ft)")
         remarks += [
@@ -242,6 +296,15 @@ def roughness(file, segment: float, *, smoothed: bool = False, local: float | No
             for each in stretches
         ]
     return Result("iri", f"IRI at 80 km/h, segments of {segment:g} m", rows, remarks, describe(signals), "m/km")
+
+
+def _metres(table: pd.DataFrame, name: str, entry: Mapping, file) -> np.ndarray:
+    """A column of a profile in m. Raises InputError where it holds something else."""
+    column = entry["column"]
+    if table[column].dtype.kind not in "fiu":
+        raise InputError(f"column {column!r} holds something else than numbers", file=file)
+    scale = units.of_column("elevation", {"unit": "m", **entry}, file=file, place=f"column {column!r}")
+    return scale * table[column].to_numpy(float)
 
 
 def _table(file, rows: int | None = None) -> pd.DataFrame:

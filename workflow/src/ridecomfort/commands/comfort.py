@@ -1,8 +1,8 @@
 """Comfort of one recording or profile of your own: ISO 2631-1, thresholds or IRI.
 
-Recordings are CSV files with one row of column names, a column ``time`` in s and any of
-``a_x``, ``a_y``, ``a_z``; profiles have a column ``s`` in m and one or two of ``left``,
-``right``, ``elevation`` in m.
+Files are CSV with one row of column names. A recording has a column time and any of a_x, a_y, a_z; a
+profile has a column s, the distance, and one or two of left, right (the wheel tracks) and elevation, the
+heights. Units stand in brackets behind the names, as in a_z [g] or elevation [mm]; without, they are s, m/s2 and m.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from ..store import replacing
 
 def arguments(parser) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
-    what.add_argument("--iso2631", type=Path, metavar="CSV", help="comfort, health and sickness by ISO 2631-1")
-    what.add_argument("--thresholds", type=Path, metavar="CSV", help="acceleration and jerk against driving styles")
-    what.add_argument("--iri", type=Path, metavar="CSV", help="IRI of a profile, per segment")
-    parser.add_argument("--unit", default="m/s2", help="unit of the accelerations: m/s2 or g (default m/s2)")
+    what.add_argument("--iso2631", type=Path, metavar="CSV", help="comfort, health and sickness by ISO 2631-1 (time; a_x, a_y, a_z)")
+    what.add_argument("--thresholds", type=Path, metavar="CSV", help="acceleration and jerk against driving styles (the same columns)")
+    what.add_argument("--iri", type=Path, metavar="CSV", help="IRI of a profile, per segment (s; left, right or elevation)")
+    parser.add_argument("--unit", help="of the accelerations: m/s2 or g (default that of the header, else m/s2)")
     parser.add_argument(
         "--column", action="append", default=[], metavar="NAME=COLUMN", help="which column is a_x, a_y, a_z or time"
     )

@@ -13,6 +13,9 @@ from . import readers
 PASSED_ON = ("name", "role", "gravity", "lateral_position", "road_friction", "distance_start")
 """Keys of a drive's entry that ``record.from_arrays`` knows by the same name."""
 
+SPEED_SCALE = 0.05
+"""Largest share by which a recorded speed may be off; speedometers and wheel sizes explain less."""
+
 
 def read(path, entry: Mapping, vehicle, *, rate: float = 100.0) -> xr.Dataset:
     """The drive in the file, by the entry of a site file (workflow/schemas/site.yaml, ``drive``).
@@ -32,6 +35,19 @@ def read(path, entry: Mapping, vehicle, *, rate: float = 100.0) -> xr.Dataset:
     if entry.get("distance_of", "body") == "front_axle":
         drive["s"] = drive["s"].copy(data=drive["s"].values - vehicle["cg_to_front_axle"])
     return drive
+
+
+def check_speed(aligned: xr.Dataset, path) -> xr.Dataset:
+    """The aligned drive, or InputError where its speed had to be scaled by more than SPEED_SCALE to fit the road."""
+    scale = float(aligned.attrs["speed_scale"])
+    if abs(scale - 1.0) > SPEED_SCALE:
+        raise InputError(
+            f"recorded speed times {scale:.4g} fits the road (expected {1 - SPEED_SCALE:g} to {1 + SPEED_SCALE:g}; "
+            "are the units of v_x and s right, is it the road of this drive?)",
+            file=path,
+            place="v_x",
+        )
+    return aligned
 
 
 def sensor_place(vehicle, *, behind_front_axle: float, above_wheel_centres: float, left: float = 0.0):

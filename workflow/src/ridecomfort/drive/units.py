@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Mapping
 
 from ..errors import InputError
 from ..vocabulary import STANDARD_GRAVITY, VARIABLES
@@ -29,3 +31,44 @@ def factor(quantity: str, unit: str, *, file=None, place: str | None = None) -> 
             f"unit {unit!r} does not fit {quantity} (expected one of {', '.join(accepted)})", file=file, place=place
         )
     return accepted[unit]
+
+
+SPELLINGS = {"²": "2", "^": "", "°": "deg", "µ": "u"}
+"""What headers write and ``FACTORS`` spells otherwise."""
+
+_BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
+
+
+def of_header(column: str) -> str | None:
+    """The unit that a header states in brackets, as ``FACTORS`` spells it: "m/s2" of "acc_x [m/s²]".
+
+    None where it states none, or none that is known here.
+    """
+    known = {unit for accepted in FACTORS.values() for unit in accepted}
+    for match in _BRACKETS.finditer(str(column)):
+        unit = (match[1] or match[2] or "").strip()
+        for written, meant in SPELLINGS.items():
+            unit = unit.replace(written, meant)
+        if unit in known:
+            return unit
+    return None
+
+
+def of_column(quantity: str, entry: Mapping, *, file=None, place: str | None = None) -> float:
+    """``factor`` of a column by the ``unit`` of its entry, 1 without one; the sign of its axis is left to the caller.
+
+    Raises InputError for a unit that does not measure the quantity, and for one that the header
+    of the column (``column`` of the entry) contradicts.
+    """
+    if "unit" not in entry:
+        return 1.0
+    unit, stated = entry["unit"], of_header(entry["column"])
+    scale = factor(quantity, unit, file=file, place=place)
+    same = stated is None or FACTORS[VARIABLES[quantity].unit].get(stated) == scale
+    if not same:
+        raise InputError(
+            f"unit {unit!r} for {quantity}, but its column is headed {entry['column']!r} (expected the unit of the header)",
+            file=file,
+            place=place,
+        )
+    return scale

@@ -66,6 +66,18 @@ def choose(effects: Iterable[str] | Mapping[str, Mapping[str, float]], folder=No
     return chosen
 
 
+def check_plausible(chosen) -> None:
+    """Raise InputError for the first value of the effects from ``choose`` that lies outside of what is plausible."""
+    for entry, values in chosen:
+        for parameter in entry.effect.parameters:
+            low, high = parameter.plausible
+            if not low <= values[parameter.name] <= high:
+                raise InputError(
+                    f"{entry.effect.name}: {parameter.name}: {values[parameter.name]:g} {parameter.unit}, "
+                    f"expected {low:g} to {high:g} {parameter.unit} ({parameter.meaning})"
+                )
+
+
 def _scan(paths: Iterable[Path]) -> dict[str, Entry]:
     return {path.stem: _load(path, path.stat().st_mtime_ns) for path in paths}
 

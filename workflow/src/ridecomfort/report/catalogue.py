@@ -12,10 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+OF_THE_PAPER = ("ts1", "ts2", "ts3")
+"""The sites of the paper: what it publishes is shown in studies of at least one of them."""
+
 INPUT_TABLES = {
-    "sites": "The sites: what the paper publishes of its roads beside the roads of this study.",
+    "sites": "The sites and their roads.",
     "quantities": "Vehicle dynamics quantities for model validation and calibration.",
-    "lhs_input": "Probabilistic input parameters: as published, as configured and as sampled.",
+    "lhs_input": "Probabilistic input parameters: their distributions, and what was drawn from them.",
     "thresholds_manual": "Thresholds in m/s² for public transport (PT), normal (ND) and aggressive driving (AG).",
     "acc_thresholds": "Bands of the vibration total value in m/s² (ISO 2631-1, Annex C).",
     "IRI_thresholds": "Upper edges of the IRI classes in m/km as a function of speed.",
@@ -53,6 +56,9 @@ COMFORT_TABLES = {
     "confusion": "Number of sections by the grade that one method and the other give.",
     "influence": "What of the comfort of a run is owed to its speed, its lateral position and the road's friction.",
     "number_of_runs": "Width of the 95 % interval of a section's probability of being critical, by number of runs.",
+}
+
+CLAIMS_TABLES = {
     "claims": "The paper's claims, answered from the tables of this study.",
 }
 
@@ -97,12 +103,12 @@ SMOOTHING_FIGURES = {
 
 METHOD_FIGURES = {
     "framework": "The study from road surface to comfort: what flows into what.",
-    "leastsquare": "One block of the calibration: bounded nonlinear least squares.",
     "validation_iso": "Frequency weighting after ISO 2631-1 against the exact analogue filter, "
     "and the paper's bilinear transform without prewarping.",
 }
 
 CALIBRATION_FIGURES = {
+    "leastsquare": "One block of the calibration: bounded nonlinear least squares.",
     "optichain": "The calibration as a chain of least-squares blocks: what each block set and what it cost.",
     "convergence": "Cost of the calibration and its parameters after each block.",
 }
@@ -122,7 +128,7 @@ COMFORT_FIGURES = {
     f"from its lower edge to that of the next; {STRIPS}",
     "IRI_thresholds": "IRI along the sites as a survey reports it and in full resolution, on the classes at the mean "
     f"speed of the runs; {STRIPS}",
-    "critical_shares": "Share of critical sections by method and class, this study beside the paper.",
+    "critical_shares": "Share of critical sections by method and class.",
     "iri_resolution": "Share of the road by the class of the IRI, of a survey and in full resolution.",
     "agreement": "Agreement of the methods on each site and on all: weighted kappa, rank correlation along the road, "
     "and by how much the first method lags behind the second; 95 % intervals by block bootstrap.",
@@ -131,6 +137,12 @@ COMFORT_FIGURES = {
     "number_of_runs": "Width of the 95 % interval of a section's probability of being critical against the number "
     "of runs, for Latin hypercubes and for plain Monte Carlo.",
 }
+
+OF_A_SITE = ("opti_res_", "views_", "spectrum_")
+"""How the names of tables and figures begin that end with the name of a site."""
+
+OF_A_MEASURED_SITE = ("located_", "conditions_", "responses_")
+"""How those begin that end with the name of a site with measured drives."""
 
 
 def with_drives(sites: Mapping[str, Mapping]) -> list[str]:
@@ -163,6 +175,11 @@ def difference_figures(sites: Iterable[str]) -> dict[str, str]:
     return found | DIFFERENCE_FIGURES
 
 
+def of_the_paper(sites: Iterable[str]) -> bool:
+    """Whether the paper has at least one of these sites."""
+    return any(name in OF_THE_PAPER for name in sites)
+
+
 def tables(sites: Mapping[str, Mapping]) -> dict[str, str]:
     """Name and caption of every table of a study of these sites, in the order of the page."""
     found = INPUT_TABLES | ROAD_TABLES
@@ -171,7 +188,8 @@ def tables(sites: Mapping[str, Mapping]) -> dict[str, str]:
     if calibrated_on(sites):
         found |= CALIBRATION_TABLES
     found |= {f"opti_res_{name}": opti_res_caption(name) for name in with_drives(sites)}
-    return found | COMFORT_TABLES
+    found |= COMFORT_TABLES
+    return found | CLAIMS_TABLES if of_the_paper(sites) else found
 
 
 def figures(sites: Mapping[str, Mapping]) -> dict[str, str]:
@@ -187,10 +205,23 @@ def figures(sites: Mapping[str, Mapping]) -> dict[str, str]:
     return found | COMFORT_FIGURES
 
 
+def of_another_study(name: str, sites: Mapping[str, Mapping]) -> bool:
+    """Whether a table or figure of this name can only come from a study of other sites; names unknown here cannot."""
+    if name in tables(sites) or name in figures(sites):
+        return False
+    measured = with_drives(sites)
+    if name.startswith(OF_A_MEASURED_SITE):
+        return name.split("_", 1)[1] not in measured
+    if any(name in names for names in (DIFFERENCE_TABLES, DIAGNOSIS_TABLES, SCORE_TABLES, DIFFERENCE_FIGURES, DIAGNOSIS_FIGURES)):
+        return not measured
+    conditional = (COMPARISON_TABLES, CALIBRATION_TABLES, CLAIMS_TABLES, CALIBRATION_FIGURES, COMPARISON_FIGURES)
+    return name.startswith(OF_A_SITE) or any(name in names for names in conditional)
+
+
 def views_caption(site: str) -> str:
     """Caption of a site's views of its road."""
     return (
-        f"{label(site)}: plan, height, slope, curvature and bank of the reference line, and the height of every cell "
+        f"{label(site)}: plan, height, slope, curvature and cross slope of the road, and the height of every cell "
         "above the median of 5 m of its track, with the dips, bumps, joints, outliers and holes that were found."
     )
 
@@ -210,4 +241,4 @@ def opti_res_caption(site: str) -> str:
 
 def label(site: str) -> str:
     """How a site is called in print: the paper's Ts1 for ``ts1``, any other name as it is."""
-    return site.capitalize() if site in ("ts1", "ts2", "ts3") else site
+    return site.capitalize() if site in OF_THE_PAPER else site

@@ -20,7 +20,9 @@ HOLDS = "holds"
 FAILS = "does not hold"
 UNKNOWN = "cannot be said"
 
-SITES = ("ts1", "ts2", "ts3")
+SITES = catalogue.OF_THE_PAPER
+TIE = ": a tie, which a run more or less would break"
+
 LARGE_SHARE = 10.0
 """Percent; what counts as a large share (the smallest that the paper calls so is 11.71 %)."""
 
@@ -118,6 +120,11 @@ def combine(parts: Iterable[Answer]) -> Answer:
     return Answer(verdict, "; ".join(part.reason for part in parts) + ".")
 
 
+def tables(study: Study, made: Mapping[str, Table]) -> dict[str, Table]:
+    """The table of claims by its name, none for a study without any of the paper's sites: they are about these."""
+    return {"claims": table(study, made)} if study.of_the_paper else {}
+
+
 def table(study: Study, tables: Mapping[str, Table]) -> Table:
     """The claims with the verdict of this study, its reason, and the verdict of the paper's own figures."""
     origin = {site.name: site.calibrated_on for site in study.sites if site.calibrated_on}
@@ -141,7 +148,7 @@ def table(study: Study, tables: Mapping[str, Table]) -> Table:
     )
     note = study.standin_note()
     notes = (f"{note} The verdicts are about these sites.",) if note else ()
-    return Table("claims", catalogue.COMFORT_TABLES["claims"], columns, rows, sources, notes)
+    return Table("claims", catalogue.CLAIMS_TABLES["claims"], columns, rows, sources, notes)
 
 
 def longitudinal(found: Evidence) -> list[Answer]:
@@ -170,10 +177,9 @@ def vertical(found: Evidence) -> list[Answer]:
     parts = []
     for style in ("ND", "AG"):
         counts = found.counts("a_z", style)
-        falls = _complete(counts, lambda counts=counts: counts["ts1"] > counts["ts2"] > counts["ts3"])
-        if falls == FAILS and not any(counts.values()):
-            falls = UNKNOWN
-        parts.append(Answer(falls, f"a_z {style} {_list(counts)}"))
+        rising = _complete(counts, lambda counts=counts: counts["ts1"] >= counts["ts2"] >= counts["ts3"])
+        tied = rising == HOLDS and len(set(counts.values())) < len(counts)
+        parts.append(Answer(UNKNOWN if tied else rising, f"a_z {style} {_list(counts)}{TIE if tied else ''}"))
     return parts
 
 
@@ -209,7 +215,7 @@ def agreement(found: Evidence) -> list[Answer]:
     clear = named.count(reference) * 2 > len(named)
     share = {method: (sites.count(reference), len(sites)) for method, sites in leaders.items()}
     iso, thresholding = share["ISO 2631"], share["Thresholding"]
-    closer = iso[0] * thresholding[1] > thresholding[0] * iso[1]
+    ahead = iso[0] * thresholding[1] - thresholding[0] * iso[1]
     site = catalogue.label(reference)
     leading = Answer(
         HOLDS if clear and reference == "ts2" else FAILS,
@@ -218,7 +224,7 @@ def agreement(found: Evidence) -> list[Answer]:
     reason = f"so it is in {iso[0]} of {iso[1]} bands of ISO 2631 and {thresholding[0]} of {thresholding[1]} thresholds"
     if found.closer:
         return [leading, _closer_by_kappa(found.closer, reason)]
-    return [leading, Answer(HOLDS if closer else FAILS, reason)]
+    return [leading, Answer(HOLDS if ahead > 0 else FAILS if ahead < 0 else UNKNOWN, reason)]
 
 
 def _closer_by_kappa(kappas: Mapping[str, tuple[float, float, float]], reason: str) -> Answer:
@@ -232,7 +238,7 @@ def _closer_by_kappa(kappas: Mapping[str, tuple[float, float, float]], reason: s
 def perception(found: Evidence) -> list[Answer]:
     """The vibration perception threshold (0.01-0.02 m/s^2) is exceeded everywhere."""
     if not found.lowest:
-        return [Answer(UNKNOWN, "no total value a_v along the sites")]
+        return [Answer(UNKNOWN, "no values of a_v along the sites of the paper")]
     exceeded = _complete(found.lowest, lambda: min(found.lowest.values()) > PERCEPTION[1])
     if exceeded == FAILS and min(found.lowest.values()) > PERCEPTION[0]:
         exceeded = UNKNOWN
@@ -280,12 +286,14 @@ _METHODS = {
 
 
 def _first(found: Evidence, method: str, name: str, site: str, by: str = "count") -> Answer:
-    """Whether a site leads alone in a class; with nothing critical on any site nobody leads."""
+    """Whether a site leads alone in a class; with nothing critical on any site, or in a tie, nobody can tell."""
     values = found.counts(method, name) if by == "count" else found.shares(method, name)
     reason = f"{_title(method)} {name} {_list(values) if by == 'count' else _list(values, '.2f', ' %')}"
     if set(values) == set(SITES) and not any(values.values()):
         return Answer(UNKNOWN, f"{reason}: nothing to compare")
-    leads = _complete(values, lambda: all(values[site] > other for key, other in values.items() if key != site))
+    leads = _complete(values, lambda: values[site] == max(values.values()))
+    if leads == HOLDS and list(values.values()).count(values[site]) > 1:
+        return Answer(UNKNOWN, f"{reason}{TIE}")
     most = "most" if by == "count" else "largest"
     return Answer(leads, f"{reason} ({most} on {catalogue.label(site)}: {_yes(leads)})")
 

@@ -78,7 +78,7 @@ def render(study: Study, tables: Mapping[str, Table], figures: Mapping[str, byte
         title="Critical ride comfort along the road",
         lead=_lead(study),
         standin=_standin(study),
-        claims=[_claim(row) for row in tables["claims"].rows],
+        claims=[_claim(row) for row in tables["claims"].rows] if "claims" in tables else [],
         sections=list(_sections(study, tables, figures)),
         files=_files(study),
         software=sorted(study.software.items()),

@@ -51,7 +51,7 @@ def _styles(result: Result):
             axes.axhline(band.lower, color=style.SEVERITY[label], linewidth=0.8, label=label)
             axes.axhline(band.upper, color=style.SEVERITY[label], linewidth=0.8)
         axes.set(ylabel=style.axis_label(name), xlim=_ends(result.signals["time"]))
-        axes.legend(loc="upper right", ncols=3)
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderpad=0.0, ncols=3)
     axes.set_xlabel("Time [s]")
     return figure
 
@@ -67,7 +67,7 @@ def _roughness(result: Result):
         )
     axes.set(xlabel="Distance [m]", ylabel=f"IRI [{notation.unit(result.unit)}]", xlim=_ends(result.signals["s"]))
     axes.set_ylim(bottom=0)
-    axes.legend(loc="upper left", ncols=4)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderpad=0.0, ncols=4)
     return figure
 
 

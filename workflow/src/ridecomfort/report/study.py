@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import xarray as xr
 
-from .catalogue import label
+from .catalogue import label, of_the_paper
 
 
 STANDIN = "Stand-in data: "
@@ -116,6 +116,11 @@ class Study:
     def site(self, name: str) -> Site | None:
         """The site of that name, None where the study has none."""
         return next((site for site in self.sites if site.name == name), None)
+
+    @property
+    def of_the_paper(self) -> bool:
+        """Whether there is anything published to stand beside these sites."""
+        return of_the_paper(site.name for site in self.sites)
 
     @property
     def compared(self) -> tuple[Site, ...]:

@@ -14,6 +14,9 @@ from ..errors import InputError
 HEIGHT_LIMIT = 10_000.0
 """m; no road lies higher or lower."""
 
+TURN_LIMIT = 1e4
+"""rad; no road winds more than a thousand times around."""
+
 STEP_LIMIT = 10.0
 """m that a height may lie above or below the median of its cross section."""
 
@@ -201,11 +204,21 @@ def size(head: pycrg.CrgHeader, u: np.ndarray, v: np.ndarray) -> None:
 
 def reference_line(grid: pycrg.CrgGrid, path) -> None:
     """InputError unless every point, slope and bank of the line is finite and its points lie as far apart as u says."""
-    line = np.stack([grid.x, grid.y, grid.phi, grid.ref_z, grid.bank])
-    wrong = ~np.isfinite(line).all(axis=0) | (np.abs(line[3]) > HEIGHT_LIMIT)
-    if wrong.any():
-        problem = f"not finite, or higher than any road, at u = {grid.u[wrong.argmax()]:g} m"
-        raise InputError(problem, file=path, place="reference line")
+    # The heading first: x and y that follow from a broken one are broken from the start.
+    channels = (
+        ("heading", grid.phi, TURN_LIMIT, "rad"), ("height", grid.ref_z, HEIGHT_LIMIT, "m"), ("bank", grid.bank, np.inf, ""),
+        ("x", grid.x, np.inf, "m"), ("y", grid.y, np.inf, "m"),
+    )  # fmt: skip
+    for name, values, limit, unit in channels:
+        wrong = ~np.isfinite(values) | (np.abs(np.nan_to_num(values)) > limit)
+        if wrong.any():
+            i = int(wrong.argmax())
+            raise InputError(
+                f"{name} {f'{values[i]:.4g} {unit}'.strip()}, the first of {wrong.sum()} that are none, expected a finite number"
+                f"{f' within {limit:g}' if np.isfinite(limit) else ''}; no option repairs a reference line: take another copy of the file",
+                file=path,
+                place=f"reference line, u = {grid.u[i]:g} m",
+            )
     du = grid.u[1] - grid.u[0]
     step = np.hypot(np.diff(grid.x), np.diff(grid.y))
     worst = int(np.abs(step - du).argmax())

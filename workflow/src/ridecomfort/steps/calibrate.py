@@ -1,8 +1,10 @@
 """Fit the vehicle, and the effects of the model, to the drives measured on a site."""
 
+import sys
+
 from ridecomfort import calibrate, simulate, store
 from ridecomfort.effects import library
-from ridecomfort.steps.command import Command
+from ridecomfort.steps.command import Command, counted
 from ridecomfort.vehicle import parameters
 
 
@@ -14,12 +16,17 @@ def main(road, measured, vehicle, config, output):
         store.read(measured),
         simulate.prepare(store.read(road)),
         parameters.read(vehicle),
+        simulate=counted(simulate.run, "drives simulated"),
         bounds={**settings.pop("bounds"), **bounds},
         units=units,
         effects={entry.effect.name: sizes for entry, sizes in chosen},
         options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
         **settings,
     )
+    for step in result["step"].values:
+        block = result.sel(step=step)
+        print(f"{step}: cost {float(block['cost']):.6g} after {int(block['iterations'])} iterations", file=sys.stderr)
+    print(result.attrs["remarks"], file=sys.stderr)
     result.attrs["calibrated_on"] = config["site"]
     store.write(
         result, output, title=f"Calibration on {config['site']}", configuration=config, seed=settings["seed"]

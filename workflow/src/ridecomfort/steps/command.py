@@ -61,6 +61,20 @@ class Command:
         print(f"done in {time.perf_counter() - start:.1f} s", file=sys.stderr)
 
 
+def counted(function: Callable, what: str, every: int = 50) -> Callable:
+    """The function, with a line every so many calls that says how many there were, for what ends nobody knows when."""
+    start, calls = time.perf_counter(), 0
+
+    def call(*arguments, **options):
+        nonlocal calls
+        calls += 1
+        if calls % every == 0:
+            print(f"{calls} {what} in {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
+        return function(*arguments, **options)
+
+    return call
+
+
 def countdown(total: int, what: str) -> Callable[[int], None]:
     """A function to call with the number done so far; every tenth of them it says how long it still takes."""
     start = time.perf_counter()

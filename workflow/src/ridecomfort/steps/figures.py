@@ -13,6 +13,7 @@ def main(results, config, output):
         for suffix in style.METADATA:
             with replacing(output / f"{name}{suffix}") as part:
                 style.save(drawn, part)
+    study_results.drop_others(output, config["sites"])
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from ridecomfort import simulate, store
 from ridecomfort.drive import align, configured, record
+from ridecomfort.errors import InputError
 from ridecomfort.steps.command import Command
 from ridecomfort.vehicle import parameters
 
@@ -11,19 +12,21 @@ def main(road, vehicle, drives, config, output):
     car = parameters.read(vehicle)
     rate, step = config["simulation"]["rate"], config["simulation"]["step"]
     aligned = [
-        align.align(
-            configured.read(path, entry, car, rate=rate),
-            course,
-            car,
-            simulate=simulate.run,
-            options={"step": step},
-            **config["alignment"],
-        )
+        _aligned(path, configured.read(path, entry, car, rate=rate), course, car, {"step": step}, config["alignment"])
         for path, entry in zip(drives, config["drives"], strict=True)
     ]
     store.write(
         record.stack(aligned), output, title=f"Measured drives on {config['site']}", configuration=config
     )
+
+
+def _aligned(path, drive, course, car, options, settings):
+    """The drive aligned with the road; whatever speaks against it is said of its file."""
+    try:
+        found = align.align(drive, course, car, simulate=simulate.run, options=options, **settings)
+    except InputError as problem:
+        raise InputError(str(problem), file=path) from None
+    return configured.check_speed(found, path)
 
 
 if __name__ == "__main__":

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import logging
+import re
 import sys
 import time
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -16,6 +18,12 @@ SILENCED = ("job_info", "job_started", "job_finished", "job_error", "progress")
 
 CHATTER = ("Removing temporary output", "Would remove temporary output", "Select jobs to execute", "Singularity containers: ignored")
 """Beginnings of messages that say nothing to a person who waits."""
+
+PAGE = "results/report.html"
+"""What a run that makes the page ends with."""
+
+CHANGED_SETTINGS = re.compile(r"Params have changed since last execution: .*?before: '(\{.*\})' now: '(\{.*\})' ?")
+"""How Snakemake says so, with the settings of the step before and now (JSON)."""
 
 LOG_LINES = 15
 """Lines shown of the log of a job that failed unexpectedly."""
@@ -50,6 +58,7 @@ class Progress(logging.Handler):
         self.announced: set[tuple[str, str]] = set()
         self.together = 1
         self.done = 0
+        self.begun = time.monotonic()
 
     def emit(self, record: logging.LogRecord) -> None:
         try:
@@ -103,7 +112,7 @@ class Progress(logging.Handler):
         site = str(next(iter(wildcards.values()), ""))
         if record.benchmark and (record.rule_name, site) not in self.announced:
             self.announced.add((record.rule_name, site))
-            self._print(f"{_joined(record.rule_name, site)} ...")
+            self._print(f"{_joined(record.rule_name, where)} ...")
 
     def _finished(self, number: int) -> None:
         job = self.running.pop(number, None)
@@ -111,11 +120,16 @@ class Progress(logging.Handler):
             return
         self.done += 1
         self.todo[job.rule] -= 1
-        if not job.benchmark:
-            return
+        if job.benchmark:
+            self._tell(job)
+        if not +self.todo:
+            page = f"; the page: {PAGE}" if self.counts["report"] else ""
+            self._print(f"all done in {_duration(time.monotonic() - self.begun)}{page}")
+
+    def _tell(self, job: Job) -> None:
         took = time.monotonic() - job.start
         self.seconds[job.rule].append(took)
-        of = f" ({self.counts[job.rule] - self.todo[job.rule]} of {self.counts[job.rule]})"
+        of = f" ({self.counts[job.rule] - self.todo[job.rule]} of {self.counts[job.rule]} such jobs)"
         of = of if self.counts[job.rule] > 1 else ""
         self._print(f"{_joined(job.rule, job.where)} done in {_duration(took)}{of}{self._left()}")
 
@@ -138,7 +152,8 @@ class Progress(logging.Handler):
 
     def _print(self, text: str) -> None:
         total = sum(self.counts.values())
-        self._write(f"[{100 * self.done // total if total else 0:3} %] {text}")
+        share = min(self.done / total, 1.0) if total else 0.0
+        self._write(f"[{int(100 * share):3} %] {text}")
 
     def _write(self, text: str) -> None:
         print(text, file=self.stream, flush=True)
@@ -179,7 +194,24 @@ def _joined(rule: str, where: str) -> str:
 
 
 def _shortened(reason: str, length: int = 150) -> str:
+    """A reason to run in one line, with the settings that differ in place of all settings of the step."""
+    if found := CHANGED_SETTINGS.search(reason):
+        try:
+            changed = list(_differences(*(json.loads(text) for text in found.groups())))
+        except ValueError:  # several outputs with settings of their own
+            changed = []
+        if changed:
+            reason = reason.replace(found[0], f"Settings have changed: {', '.join(changed)}")
     return reason if len(reason) <= length else f"{reason[: length - 3].rstrip(' ,')}..."
+
+
+def _differences(before, now, place: str = "") -> Iterator[str]:
+    """What differs between two settings, ``key: inner key: old -> new`` each."""
+    if isinstance(before, dict) and isinstance(now, dict):
+        for key in {**before, **now}:
+            yield from _differences(before.get(key), now.get(key), f"{place}{key}: ")
+    elif before != now:
+        yield f"{place}{json.dumps(before)} -> {json.dumps(now)}"
 
 
 def _duration(seconds: float) -> str:

@@ -16,7 +16,7 @@ PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "numba", "pandas", "matplotli
 def main(results, config, output):
     study = study_results.whole(results, config, software())
     made = tables.make(study)
-    made["claims"] = claims.table(study, made)
+    made |= claims.tables(study, made)
     made |= differing.tables(study.difference) if study.difference else {}
     made |= diagnosed.tables(study.diagnosis) | diagnosed.scores(study.diagnosis) if study.diagnosis else {}
     figures = {name: (results / "figures" / f"{name}.png").read_bytes() for name in page.captions(study)}

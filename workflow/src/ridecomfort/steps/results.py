@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from .. import store
-from ..report.catalogue import calibrated_on, label, with_drives
+from ..report.catalogue import calibrated_on, label, of_another_study, with_drives
 from ..report.study import Compared, Diagnosis, Difference, Site, Study
 
 
@@ -68,6 +68,13 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
         standin=tuple(label(site) for site in sites if config["sites"][site]["standin"]),
         score=json.loads(files["score"].read_text(encoding="utf-8")) if "score" in files else None,
     )
+
+
+def drop_others(folder: Path, sites: dict) -> None:
+    """Delete the tables or figures that an earlier study of other sites left in the folder."""
+    for path in folder.glob("*.*"):
+        if of_another_study(path.name.split(".")[0], sites):
+            path.unlink()
 
 
 def _site(results: Path, name: str, model: str, settings: dict) -> Site:

@@ -1,12 +1,14 @@
 """Simulate some of a site's runs: each its own speed, lateral position and road friction."""
 
 from ridecomfort import calibrated, simulate, store
+from ridecomfort.space import places
 from ridecomfort.steps.command import Command, countdown
 from ridecomfort.vehicle import driver, parameters
 
 
 def main(road, samples, vehicle, calibration, runs, config, output):
     course = simulate.prepare(store.read(road))
+    places(course.u[0], course.u[-1], **config["space"], file=road)  # a road too short is told before it is driven on
     found = None if calibration is None else store.read(calibration)
     car, effects = calibrated.apply(found, parameters.read(vehicle), config["effects"])
     first, last = (int(number) for number in runs.split("-"))

@@ -13,7 +13,7 @@ KEPT_BITS = 10
 
 def main(drives, road, config, output):
     u = store.read(road, ["u"])["u"].values
-    s = places(u[0], u[-1], **config["space"])
+    s = places(u[0], u[-1], **config["space"], file=road)
     runs = store.read(drives, ["s", "v_x", "a_x", "a_y", "a_z"])
     weighting = config["iso2631"]
     averaging = weighting["time_constant"], weighting["averaging"]

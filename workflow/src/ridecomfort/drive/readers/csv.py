@@ -35,10 +35,10 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
         if column not in table.columns:
             found = ", ".join(map(str, table.columns))
             raise InputError(f"no column {column!r} for {quantity} (found {found})", file=path)
-        scale = entry.get("factor", 1.0)
-        if "unit" in entry:
-            scale *= units.factor(quantity, entry["unit"], file=path, place=f"column {column!r}")
-        values[quantity] = scale * _numbers(table[column], path, column)
+        scale = units.of_column(quantity, entry, file=path, place=f"column {column!r}")
+        if quantity == "time":
+            _check_clock(scale * _numbers(table[column], path, column), path, column)
+        values[quantity] = entry.get("factor", 1.0) * scale * _numbers(table[column], path, column)
     time = values.pop("time")
     return {quantity: (time, series) for quantity, series in values.items()}, {}
 
@@ -60,3 +60,15 @@ def _numbers(series: pd.Series, path, column: str) -> np.ndarray:
             f"line {i + 2}, column {column!r} holds {value} (expected a number)", file=path
         )
     return numbers
+
+
+def _check_clock(time: np.ndarray, path, column: str) -> None:
+    """Raise InputError that names the line where time (s) does not advance."""
+    back = np.flatnonzero(np.diff(time) <= 0)
+    if back.size:
+        i = back[0]
+        raise InputError(
+            f"line {i + 3}, column {column!r}: the clock does not advance, {time[i + 1]:.6g} s after {time[i]:.6g} s "
+            "(expected strictly increasing time)",
+            file=path,
+        )

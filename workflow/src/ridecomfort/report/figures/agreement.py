@@ -13,7 +13,7 @@ from ...comfort.agreement import SUBSTANTIAL
 from .. import style
 from ..notation import symbol, words
 from ..study import Study
-from ..tables.agreement import measure_title, pair_title, place_title
+from ..tables.agreement import measure_title, pair_title, place_title, places, why_no_width
 
 SPREAD = 0.62
 """Height that the marks of one row share; rows are 1 apart."""
@@ -27,13 +27,13 @@ SCHEMES = {"latin_hypercube": ("Latin hypercube", 0), "monte_carlo": ("plain Mon
 def agreement(study: Study) -> Figure:
     """Weighted kappa, rank correlation and lag of every pair of methods, per site and pooled."""
     found = study.assessment
-    sites, pairs = found["site"].values.tolist(), found["pair"].values.tolist()
+    sites, pairs = places(study), found["pair"].values.tolist()
     drawn = style.figure(style.DOUBLE, 1.1 + 0.55 * len(sites))
     panels = drawn.subplots(1, 3, sharey=True)
     quantities = (("kappa", "weighted kappa [-]"), ("spearman", "rank correlation [-]"), ("lag", "lag of the first [m]"))
     for axes, (name, label) in zip(panels, quantities):
         for offset, pair, (colour, marker) in zip(_offsets(len(pairs)), pairs, style.LINES):
-            values = found[name].sel(pair=pair).transpose("site", "bound").values
+            values = found[name].sel(pair=pair, site=sites).transpose("site", "bound").values
             _intervals(axes, np.arange(len(sites)) + offset, values, colour, [marker] * len(sites))
         axes.axvline(0, color=style.FAINT, linewidth=0.6, zorder=0)
         axes.set_xlabel(label)
@@ -55,18 +55,18 @@ def agreement(study: Study) -> Figure:
 def influence(study: Study) -> Figure:
     """First-order share of each factor in every measure of a run's comfort, with the direction of its influence."""
     found = study.assessment
-    factors, places = found["factor"].values.tolist(), found["place"].values.tolist()
+    factors, sites = found["factor"].values.tolist(), found["place"].values.tolist()
     measures = found["measure"].values.tolist()
-    drawn = style.figure(style.DOUBLE, 1.0 + (0.3 + 0.11 * len(places)) * len(measures))
+    drawn = style.figure(style.DOUBLE, 1.0 + (0.3 + 0.11 * len(sites)) * len(measures))
     panels = drawn.subplots(1, len(factors), sharex=True, sharey=True, squeeze=False)[0]
     for axes, factor in zip(panels, factors):
-        for offset, place, (colour, _) in zip(_offsets(len(places)), places, _repeated(len(places))):
+        for offset, place, (colour, _) in zip(_offsets(len(sites)), sites, _repeated(len(sites))):
             rank, share = (
                 found[name].sel(factor=factor, place=place).transpose("measure", "bound").values
                 for name in ("rank_correlation", "first_order")
             )
             markers = [_direction(*row) for row in rank]
-            _intervals(axes, np.arange(len(measures)) + offset, 100.0 * share, colour, markers)
+            _intervals(axes, np.arange(len(measures)) + offset, np.clip(100.0 * share, 0.0, 100.0), colour, markers)
         axes.axvline(0, color=style.FAINT, linewidth=0.6, zorder=0)
         axes.set_title(f"{words(factor)} {symbol(factor)}")
         axes.set_xlabel("share of the variance [%]")
@@ -75,7 +75,7 @@ def influence(study: Study) -> Figure:
         panels[0].annotate("too few runs", (0.5, 0.5), xycoords="axes fraction", ha="center")
         panels[0].set_xlim(0, 100)
     handles = [
-        Line2D([], [], color=colour, label=place_title(place)) for place, (colour, _) in zip(places, _repeated(len(places)))
+        Line2D([], [], color=colour, label=place_title(place)) for place, (colour, _) in zip(sites, _repeated(len(sites)))
     ]
     directions = {"^": "more, worse", "v": "more, better", "o": "no direction"}
     handles += [
@@ -100,7 +100,7 @@ def number_of_runs(study: Study) -> Figure:
         axes.set_xscale("log")
         axes.set_yscale("log")
         if not sizes.size:
-            axes.annotate("too few runs,\nor no section open", (0.5, 0.5), xycoords="axes fraction", ha="center")
+            axes.annotate(why_no_width(runs).replace(", ", ",\n"), (0.5, 0.5), xycoords="axes fraction", ha="center")
             axes.set(xlim=(10, 1000), ylim=(0.01, 1))
             continue
         for scheme, (_, look) in SCHEMES.items():

@@ -1,11 +1,11 @@
-"""What the sites look like: plan, height, slope, curvature and bank of their reference lines, and a height map."""
+"""What the sites look like: plan, height, slope, curvature and cross slope of the roads, and a height map."""
 
 from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...road import defects
+from ...road import crossslope, defects
 from .. import style
 from ..study import Study
 from ..tables.inputs import GON_PER_RAD, length, mean_curvature, mean_slope
@@ -61,12 +61,15 @@ MARKS = {
 COLUMN = 1.0
 """m along the road that a column of the height map stands for: its cell furthest from the rest is shown."""
 
-SCALE_MM = 15.0
-"""mm at either end of the colours of the height map."""
+SCALES_MM = (15.0, 30.0, 60.0, 120.0)
+"""mm at either end of the colours of a height map, which takes the first that SHOWN of its cells stay within."""
+
+SHOWN = 99.0
+"""Percent of the cells of a height map that its colours tell apart at least, but on the roughest roads."""
 
 
 def views(study: Study, name: str) -> Figure:
-    """Plan, height, slope, curvature and bank of a site's reference line, and its height map with what was found."""
+    """Plan, height, slope, curvature and cross slope of a site's road, and its height map with what was found."""
     site = study.site(name)
     road = site.road
     u = road["u"].values
@@ -80,8 +83,8 @@ def views(study: Study, name: str) -> Figure:
     rows = (
         ("height [m]", line),
         ("slope [%]", 100 * road["slope"].values),
-        ("curvature [1/km]", 1000 * road["curvature"].values),
-        ("bank [%]", 100 * road["bank"].values),
+        ("curvature\n[gon/km]", 1000 * GON_PER_RAD * road["curvature"].values),
+        ("cross slope\n[%]", 100 * crossslope.cross_slope(road)),
     )
     for row, (axes, (label, values)) in enumerate(zip(middle.subplots(len(rows), 1, sharex=True), rows)):
         axes.plot(u, values, color=style.ROAD)
@@ -105,7 +108,12 @@ def _plan(axes, site) -> None:
     for at in np.arange(0.0, u[-1] - u[0], every):
         i = np.searchsorted(u, u[0] + at)
         axes.plot(x[i], y[i], "o", color=style.ROAD, markersize=3 if i else 5)
-        style.note(axes, f"{u[0] + at:.0f} m", (x[i], y[i]))
+        # Beside the line, to its left: the name of a place must not lie on the road that it names.
+        towards = road["heading"].values[i] + 0.5 * np.pi
+        axes.annotate(
+            f"{u[0] + at:.0f} m", (x[i], y[i]), xytext=(12 * np.cos(towards), 8 * np.sin(towards)),
+            textcoords="offset points", fontsize=6, ha="center", va="center",
+        )  # fmt: skip
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("east [m]")
     axes.set_ylabel("north [m]")
@@ -124,13 +132,15 @@ def _map(figure, site, strips) -> None:
     road, found = site.road, site.inspection
     u, v = road["u"].values, road["v"].values
     away = 1e3 * defects.deviation(road)
+    needed = np.nanpercentile(np.abs(away), SHOWN)
+    scale = next((limit for limit in SCALES_MM if needed <= limit), SCALES_MM[-1])
     panels = figure.subplots(len(strips), 1, squeeze=False)[:, 0]
     for axes, (first, last) in zip(panels, strips):
         inside = slice(*np.searchsorted(u, [first, last]))
         image = axes.imshow(
             _thinned(away[inside], max(1, round(COLUMN / (u[1] - u[0])))).T,
             extent=(first, last, v[0], v[-1]), origin="lower", aspect="auto", interpolation="nearest",
-            cmap="PuOr_r", vmin=-SCALE_MM, vmax=SCALE_MM,
+            cmap="PuOr_r", vmin=-scale, vmax=scale,
         )  # fmt: skip
         here = found.isel(defect=(found["u_middle"].values >= first) & (found["u_middle"].values <= last))
         for kind, (marker, colour) in MARKS.items():

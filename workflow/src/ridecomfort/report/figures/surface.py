@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from ...road import roughness
 from .. import style
@@ -59,13 +59,14 @@ def _classes(axes, n) -> None:
 def _tracks(axes, stages, found) -> None:
     before = stages["smoothed_psd"].sel(stage="measured")
     changed = bool(np.isfinite(before).all()) and not np.array_equal(before, found["smoothed_psd"])
-    for colour, track in zip(TRACK_COLOURS, found["track"].values):
+    # The second line is narrower, so that tracks that are alike show both.
+    for colour, width, track in zip(TRACK_COLOURS, (2.0, 0.9), found["track"].values):
         one = found.sel(track=track)
         side = "left" if track > 0 else "right"
         level, waviness = one["unevenness"].item(), one["waviness"].item()
         text = f"{side}: class {one['class'].item()}, $G_d(n_0)$ = {1e6 * level:.1f} cm³, w = {waviness:.2f}"
         axes.plot(found["wavenumber"], one["displacement_psd"], color=colour, linewidth=0.3, alpha=0.35)
-        axes.plot(found["band"], one["smoothed_psd"], color=colour, linewidth=1.1, label=text)
+        axes.plot(found["band"], one["smoothed_psd"], color=colour, linewidth=width, label=text)
         fitted = np.array(roughness.FITTED)
         line = level * (fitted / roughness.REFERENCE_WAVENUMBER) ** -waviness
         axes.plot(fitted, line, color=colour, linewidth=0.8, linestyle=(0, (4, 2)))
@@ -99,7 +100,8 @@ def smoothing(study: Study) -> Figure:
             tried, missed = one["trial_cutoff"].values, 1e3 * one["held_out_error"].values
             error.loglog(tried, missed, color=colour, label=f"{direction}: {one['cutoff'].item():.2f} m")
             error.plot(tried[missed.argmin()], missed.min(), marker, color=colour, markersize=4)
-        error.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        low, high = error.get_ylim()
+        error.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)) if high > 10 * low else MaxNLocator(4))
         error.yaxis.set_major_formatter("{x:g}")
         error.yaxis.set_minor_formatter(NullFormatter())
         error.set_ylabel("held-out error [mm]")
@@ -117,7 +119,9 @@ def smoothing(study: Study) -> Figure:
         vibration.set_ylabel("density of $a_z$ [m²/s³]")
         vibration.set_xlim(0, 50)
         if "smoothed_psd" in found:
+            density.set_ylim(top=100 * density.get_ylim()[1])
             density.legend(loc="upper right")
+        vibration.set_ylim(top=30 * vibration.get_ylim()[1])
         vibration.legend(loc="upper right")
     for axes, text in zip(grid[-1], ("cut-off tried [m]", "wavenumber $n$ [cycles/m]", "frequency [Hz]")):
         axes.set_xlabel(text)

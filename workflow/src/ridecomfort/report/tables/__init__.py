@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..study import Study
 from ..table import Table
 from . import agreement, calibration, comfort, inputs, passengers, roads, roughness, weighting
+from .comfort import PAPER
 
 
 def make(study: Study) -> dict[str, Table]:
-    """All tables of a study by name, in the order of ``catalogue.tables`` but for the claims."""
+    """All tables of a study by name, in the order of ``catalogue.tables`` but for the claims.
+
+    Where none of the sites is the paper's, no table has a column, row or note for what it published.
+    """
     made = {
         "sites": inputs.sites(study),
         "quantities": inputs.quantities(study),
@@ -41,5 +47,28 @@ def make(study: Study) -> dict[str, Table]:
     made["confusion"] = agreement.confusion_table(study)
     made["influence"] = agreement.influence_table(study)
     made["number_of_runs"] = agreement.number_of_runs_table(study)
-    return made
+    return made if study.of_the_paper else {name: _ours(table) for name, table in made.items()}
+
+
+def _ours(table: Table) -> Table:
+    """The table without what stands in it for the paper's figures."""
+    rows = [row for row, cells in enumerate(table.rows) if PAPER not in cells]
+    dropped = ("source",) if any(column.key == "source" for column in table.columns) else ()
+    columns = [
+        number
+        for number, column in enumerate(table.columns)
+        if not column.key.startswith("paper_") and column.key not in dropped
+    ]
+    place = {(row, column): (i, j) for i, row in enumerate(rows) for j, column in enumerate(columns)}
+    breaks = {sum(row < above for row in rows) for above in table.breaks}
+    return replace(
+        table,
+        columns=tuple(table.columns[column] for column in columns),
+        rows=tuple(tuple(table.rows[row][column] for column in columns) for row in rows),
+        sources=tuple(source for source in table.sources if source.cells != PAPER),
+        notes=tuple(note for note in table.notes if "paper" not in note),
+        marks={place[cell]: mark for cell, mark in table.marks.items() if cell in place},
+        bold=frozenset(place[cell] for cell in table.bold if cell in place),
+        breaks=tuple(sorted(breaks - {0, len(rows)})),
+    )
 

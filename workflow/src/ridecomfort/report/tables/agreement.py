@@ -36,6 +36,12 @@ def place_title(name: str) -> str:
     return "all sites" if name == POOLED else catalogue.label(name)
 
 
+def places(study: Study) -> list[str]:
+    """The sites that agreement is told of: each, and all together where there are several."""
+    names = study.assessment["site"].values.tolist()
+    return names if len(study.sites) > 1 else [name for name in names if name != POOLED]
+
+
 def agreement_table(study: Study) -> Table:
     """Weighted kappa, equal grades, rank correlation and lag of each pair of methods, per site and pooled."""
     found = study.assessment
@@ -50,7 +56,7 @@ def agreement_table(study: Study) -> Table:
     columns.append(Column("verdict", ("", "Substantially similar")))
     rows, breaks = [], []
     for pair in found["pair"].values.tolist():
-        for site in found["site"].values.tolist():
+        for site in places(study):
             chosen = found.sel(pair=pair, site=site)
             kappa = measures.Estimate(*chosen["kappa"].values.tolist())
             cells = [
@@ -61,7 +67,7 @@ def agreement_table(study: Study) -> Table:
             ]
             rows.append((pair_title(pair), place_title(site), *cells, measures.verdict(kappa)))
         breaks.append(len(rows))
-    for site in found["site"].values.tolist():
+    for site in places(study):
         closer = found["kappa_difference"].sel(site=site).values.tolist()
         rows.append((DIFFERENCE, place_title(site), *closer, *(None,) * 9, ""))
     sources = (
@@ -89,7 +95,7 @@ def confusion_table(study: Study) -> Table:
         Column("pair", ("", "Methods")),
         Column("first", ("", "Grade by the first")),
     ]
-    sites, grades = found["site"].values.tolist(), found.sizes["second_grade"]
+    sites, grades = places(study), found.sizes["second_grade"]
     for site in sites:
         heading = f"{place_title(site)}, grade by the second"
         columns += [Column(f"{site}_{grade}", (heading, str(grade)), "d") for grade in range(grades)]
@@ -97,7 +103,7 @@ def confusion_table(study: Study) -> Table:
     for pair in found["pair"].values.tolist():
         first, _ = pair.split(" - ")
         for grade, name in enumerate(GRADES.get(first, methods.THRESHOLD_GRADES)):
-            cells = found["confusion"].sel(pair=pair).values[:, grade].ravel().tolist()
+            cells = found["confusion"].sel(pair=pair, site=sites).values[:, grade].ravel().tolist()
             rows.append((pair_title(pair), f"{grade}: {name}", *cells))
         breaks.append(len(rows))
     sources = (Source("all", study.assessment_file, "confusion", "as in the file; rows that a method lacks left out"),)
@@ -129,20 +135,23 @@ def influence_table(study: Study) -> Table:
             row, explained = [place_title(place), measure_title(measure)], 0.0
             for factor in factors:
                 share = 100.0 * chosen["first_order"].sel(factor=factor).values
+                verdict = influence.verdict(share[1] / 100.0, share[2] / 100.0)
+                share = np.clip(share, 0.0, 100.0)
                 rank = float(chosen["rank_correlation"].sel(factor=factor, bound="estimate"))
-                row += [*share.tolist(), rank, influence.verdict(share[1] / 100.0, share[2] / 100.0)]
+                row += [*share.tolist(), rank, verdict]
                 explained += share[0]
-            rows.append((*row, 100.0 - float(explained)))
+            rows.append((*row, float(np.clip(100.0 - explained, 0.0, 100.0))))
         breaks.append(len(rows))
     sources = (
-        Source("share", study.assessment_file, "first_order", "as in the file, in percent"),
+        Source("share", study.assessment_file, "first_order", "as in the file, in percent, within 0 to 100"),
         Source("rank corr.", study.assessment_file, "rank_correlation", "as in the file"),
         Source("verdict", "this table", "lower, upper", "ridecomfort/comfort/influence.py, verdict"),
     )
     notes = (
         "Share of the variance between runs that the factor explains alone (first-order Sobol' index, of an additive "
         "model of all factors), 95 % interval by jackknife. It matters where the interval lies from "
-        f"{100 * influence.MATTERS:g} % on, it does not where the interval lies below. Fewer than {influence.LEAST_RUNS} runs, or a measure that is the same in all runs: no figure.",
+        f"{100 * influence.MATTERS:g} % on, it does not where the interval lies below. Fewer than {influence.LEAST_RUNS} runs, or a measure that is the same in all runs: no figure. "
+        "Estimates scatter a little beyond 0 and 100 % and are printed as these.",
         "Measures of a run: mean of $a_v$ over the site; share of the sections outside the PT band; share of the "
         "sections of class F or worse by the IRI at the speed of the run.",
     )
@@ -167,6 +176,7 @@ def number_of_runs_table(study: Study) -> Table:
         if not known.size:
             rows.append((site.label, None, None, None, None, None))
             breaks.append(len(rows))
+            notes.append(f"{site.label}: no figures, {why_no_width(site.samples.sizes['run'])}.")
             continue
         chosen = chosen.isel(size=known)
         for size in chosen["size"].values.tolist():
@@ -199,6 +209,14 @@ def number_of_runs_table(study: Study) -> Table:
         f"{enough.LEAST_SIZE} runs, or they were drawn as plain Monte Carlo.",
     )
     return _table(study, "number_of_runs", columns, rows, sources, notes, breaks[:-1])
+
+
+def why_no_width(runs: int) -> str:
+    """Why the width of an interval cannot be told from smaller designs."""
+    least = enough.LEAST_DESIGNS * enough.LEAST_SIZE
+    if runs < least:
+        return f"{runs} runs are too few, at least {least} are needed"
+    return "no outcome is open, or the runs are no sliced Latin hypercube"
 
 
 def _printed(reason: str) -> str:

@@ -17,6 +17,8 @@ MISPRINT = "†"
 PERCEPTION = bands.PERCEPTION[0], bands.PERCEPTION[-1]
 """Threshold of vibration perception in m/s2, lower and upper value (sec:iso_comfort)."""
 
+TITLES = {"thresholds": "thresholding", "iso2631": "ISO 2631", "iri": "IRI"}
+
 COUNTS = (("C", "$C$ [-]", "d"), ("R_c", "$R_c$ [%]", ".2f"), ("N", "$N$ [-]", "d"), ("R_n", "$R_n$ [%]", ".2f"))
 
 
@@ -35,7 +37,11 @@ def thresholding_table(study: Study) -> Table:
         rows,
         lambda dataset, key: dataset.sel(axis=key[0], style=key[1]),
         breaks=(6, 12),
-        notes=("The paper prints no PT row for $a_z$, where its PT and ND thresholds are equal.",),
+        notes=(
+            "Along $x$ the simulated driver brakes and accelerates as the site file asks for (speed: acceleration, "
+            "deceleration), so that counts of $a_x$ tell how the site was set, not what the road is like.",
+            "The paper prints no PT row for $a_z$, where its PT and ND thresholds are equal.",
+        ),
     )
 
 
@@ -101,10 +107,11 @@ def exceedance(study: Study) -> Table:
     for site in study.sites:
         for dataset in ("thresholds", "iso2631", "iri"):
             file = site.files.get(dataset, "")
-            sources.append(Source(f"{site.label}, mean run", file, "critical_count", "as in the file"))
+            of = f"{site.label}, {TITLES[dataset]}"
+            sources.append(Source(f"{of}, mean run", file, "critical_count", "as in the file"))
             sources.append(
                 Source(
-                    f"{site.label}, per run, p > 0.5, p > 0",
+                    f"{of}, per run, p > 0.5, p > 0",
                     file,
                     "exceedance_probability",
                     "sum over the sections; number of sections above 0.5; above 0",

@@ -37,7 +37,7 @@ def sites(study: Study) -> Table:
             (
                 site.label,
                 OURS,
-                site.title.removeprefix(f"{site.label}, ") or None,
+                site.title.removeprefix(f"{site.label}, ") if site.title not in ("", site.label) else None,
                 length(site.road) / 1000.0,
                 100.0 * mean_slope(site.road),
                 mean_curvature(site.road) * 1000.0 * GON_PER_RAD,
@@ -151,8 +151,8 @@ def lhs_input(study: Study) -> Table:
         ]
     sources.append(Source.paper("sampling", "tab:lhs_input"))
     notes = [
-        "Gaussian: mean $\\mu$ and standard deviation $\\sigma$; uniform: from a to b. The paper does not state the "
-        "unit of the speed deviation; m/s is assumed.",
+        "Gaussian: mean $\\mu$ and standard deviation $\\sigma$; uniform: from a to b.",
+        "The paper does not state the unit of the speed deviation; m/s is assumed.",
     ]
     lengths = [
         f"{site.label} {known['length_km_lhs_table']:.1f} km (text: {known['length_km']:.2f} km), "
@@ -222,7 +222,7 @@ def acc_thresholds(study: Study) -> Table:
         Source.paper("iso2631_bands", "tab:acc_thresholds"),
     )
     notes = (
-        f"{ERRATUM} left out in the paper's table, though tab:rid_comf_res reports it; ISO 2631-1, Annex C. "
+        f"{ERRATUM} left out in the paper's table, though tab:rid_comf_res reports it; ISO 2631-1, Annex C.",
         "Bands overlap on purpose.",
     )
     caption = catalogue.INPUT_TABLES["acc_thresholds"]
