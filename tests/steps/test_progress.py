@@ -62,6 +62,15 @@ def test_a_run_ends_with_100_percent_and_the_page(watched, clock):
     assert watched.said()[-2:] == ["[ 50 %] report done in 4.0 s; 1 to go", "[100 %] all done in 4.0 s; the page: results/report.html"]
 
 
+def test_jobs_that_a_checkpoint_adds_count(watched, clock):
+    log(watched, "run_info", stats={"diagnosis": 1, "report": 1, "total": 2})
+    for number, rule in enumerate(("diagnosis", "calibrate", "report")):
+        start(watched, number, rule)
+        log(watched, "job_finished", job_id=number)
+    shares = [int(line[1:4]) for line in watched.said() if " done in" in line]
+    assert shares == [50, 66, 100, 100] and watched.said()[-1].startswith("[100 %] all done")
+
+
 def test_a_start_names_the_shard(watched):
     log(watched, "run_info", stats={"simulate": 2, "total": 2})
     start(watched, 1, "simulate", site="ts1", model="base", runs="0000-0249")

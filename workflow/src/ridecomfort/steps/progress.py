@@ -107,6 +107,10 @@ class Progress(logging.Handler):
         if self.planning:
             self._write(f"{_joined(record.rule_name, where)}: {_shortened(record.reason)}")
             return
+        if self.todo[record.rule_name] <= sum(job.rule == record.rule_name for job in self.running.values()):
+            # A job that nobody knew of before a checkpoint: what a diagnosis names is computed next.
+            self.counts[record.rule_name] += 1
+            self.todo[record.rule_name] += 1
         self.running[record.jobid] = Job(record.rule_name, where, time.monotonic(), record.benchmark)
         self.together = max(1, len(self.running))
         site = str(next(iter(wildcards.values()), ""))
@@ -152,8 +156,7 @@ class Progress(logging.Handler):
 
     def _print(self, text: str) -> None:
         total = sum(self.counts.values())
-        share = min(self.done / total, 1.0) if total else 0.0
-        self._write(f"[{int(100 * share):3} %] {text}")
+        self._write(f"[{100 * self.done // total if total else 0:3} %] {text}")
 
     def _write(self, text: str) -> None:
         print(text, file=self.stream, flush=True)
