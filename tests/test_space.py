@@ -38,7 +38,7 @@ def test_places_start_where_the_road_starts():
 
 
 def test_a_road_too_short_is_refused():
-    with pytest.raises(InputError, match="nothing to evaluate"):
+    with pytest.raises(InputError, match="a road of 70 m, expected more than run_in 50 m and run_out 25 m together"):
         places(0, 70, spacing=0.25, run_in=50, run_out=25)
 
 
