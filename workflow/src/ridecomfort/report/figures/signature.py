@@ -17,12 +17,15 @@ BAND = 1.645
 POORLY_KNOWN = 8.0
 """Times the largest force within reach beyond which an interval is cut off: where the car was hardly ever."""
 
+NOTHING = 0.01
+"""Share of the largest force within reach below which the named effects show nothing."""
+
 AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
 
 
 def signature(found: Diagnosis) -> Figure:
     """Estimated missing force with its 90 % interval at every place it could act, a column each axle, and what the named
-    effects would show."""
+    effects would show together."""
     ranking = found.ranking
     drawn = style.figure(style.DOUBLE, 5.8)
     if "missing_force" not in ranking:
@@ -46,26 +49,24 @@ def signature(found: Diagnosis) -> Figure:
             axes.axhline(0.0, color=style.FLOOR, linewidth=0.7)
             axes.fill_between(at[known], (force - error)[known], (force + error)[known], color=colour, alpha=0.2, linewidth=0)
             axes.plot(at[known], force[known], color=colour, marker=marker, markersize=3.5)
-            for effect in ranking["named_effect"].values:
-                shown = own["named_force"].sel(named_effect=effect).values
-                if np.isfinite(shown[known]).any():
-                    axes.plot(at[known], shown[known], color=style.ERROR, linestyle="--")
-                    axes.annotate(words(str(effect)), (at[known][-1], shown[known][-1]), fontsize=6, color=style.ERROR,
-                                  ha="right", va="bottom")  # fmt: skip
+            shown = own["named_force"].fillna(0.0).sum("named_effect").values
+            if np.abs(shown[known]).max(initial=0.0) > NOTHING * reach:
+                axes.plot(at[known], shown[known], color=style.ERROR, linestyle="--")
             axes.set_ylim(-reach, reach)
             most = ", explains most" if place == places[strongest] else ""
             axes.set_title(f"{axle} {place}{most}")
             axes.set_xlabel(f"{place} [{unit}]")
         row[0].set_ylabel("missing force [N]")
+    together = " and ".join(words(str(effect)) for effect in ranking["named_effect"].values)
     handles = [
         Line2D([], [], color=colour, marker=marker, markersize=3.5, label=f"estimated, {axle}")
         for axle, (colour, marker) in AXLE_LINES.items()
     ]
     handles += [
         Patch(color=style.FAINT, alpha=0.5, label="90 % interval"),
-        Line2D([], [], color=style.ERROR, linestyle="--", label="what the named effect would show"),
+        Line2D([], [], color=style.ERROR, linestyle="--", label=f"what would show: {together or 'nothing is named'}"),
     ]
-    drawn.legend(handles=handles, loc="outside upper center", ncols=4)
+    drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
 
 
