@@ -112,7 +112,7 @@ class Car:
         force = simulated.signals[:3, kept] + up * float(again.drive.attrs.get("gravity", 0))
         rates = simulated.signals[3:, kept]
         columns = [hat * simulated.slopes[:, kept] for hat in hats]
-        aside = again.aside(vehicle, effects)[:, kept]
+        aside = again.aside(vehicle, {**self.quiet, **effects})[:, kept]
         columns += [hat * aside for hat in hats]
         zero = np.zeros_like(force)
         columns += [np.concatenate([force, zero]), np.concatenate([zero, rates])]
@@ -121,7 +121,6 @@ class Car:
             columns.append(np.concatenate(turned))
         columns += list(np.eye(6)[:, :, None] * np.ones(kept.sum()))
         return np.stack(columns).astype(np.float32)
-
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""
