@@ -43,7 +43,7 @@ def _kernel(course, car, drive=None) -> tuple[int, float]:
     """Steps of a drive and the least time in s that a kernel needs for them, by default the one with no effects."""
     drive = drive or compose.compose([]).drive
     targets = np.stack([np.full(course.u.size, SPEED), np.zeros(course.u.size), course.curvature], axis=1)
-    record, accelerations = np.empty((20000, 11)), np.empty((200000, 3))
+    record, accelerations = np.empty((20000, 11)), np.empty((3, 200000))
 
     def call():
         return drive(
@@ -61,7 +61,7 @@ def _reference(course, car) -> float:
     _, accelerations = reference.drive(
         car, course.surface, course.elevation, targets, 0.8, 4.0, 24.0, simulate.STEP, 10
     )
-    return (time.process_time() - start) / len(accelerations)
+    return (time.process_time() - start) / accelerations.shape[1]
 
 
 def _best(call, repeats: int = 7) -> float:

@@ -199,14 +199,14 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     ]
     steps = int(seconds / step)
     record = np.empty((steps // every + 1, len(COLUMNS)))
-    accelerations = np.empty((steps, 3))
+    accelerations = np.empty((3, steps))
     records, steps = compiled.drive(
         constants(vehicle), wheel_table(vehicle), course.surface, course.elevation, targets, float(friction),
         float(start), float(end), float(step), every, tuple(float(place) for place in sensor),
         np.array(sizes, dtype=float), compiled.state_count, record, accelerations,
     )  # fmt: skip
-    record, accelerations = record[:records], accelerations[:steps]
-    if not np.isfinite(record[:, :3]).all() or not np.isfinite(accelerations).all():
+    record = record[:records]
+    if not np.isfinite(record[:, :3]).all() or not np.isfinite(accelerations[:, :steps]).all():
         raise InputError(
             "the simulated drive did not stay finite; is a parameter or an effect out of reason?",
             place=f"vehicle {vehicle.name}",
@@ -217,7 +217,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
             "is the friction too low for the grade or the bend?",
             place=f"vehicle {vehicle.name}",
         )
-    _low_pass(accelerations, _taps(every), every, record[:, ACCELERATIONS])
+    _low_pass(accelerations, steps, _taps(every), every, record[:, ACCELERATIONS])
     return record
 
 
@@ -230,15 +230,19 @@ def _taps(every: int) -> np.ndarray:
     return taps / taps.sum()
 
 
-@njit(cache=True)
-def _low_pass(values, taps, every, filtered):
-    """Convolve (steps, channels) with symmetric taps at every record; the ends are held."""
-    steps, channels = values.shape
+@njit(cache=True, fastmath={"contract", "reassoc", "nsz"})
+def _low_pass(values, steps, taps, every, filtered):
+    """Convolve the first ``steps`` of (channels, steps) with symmetric taps at every record; the ends are held."""
     middle = len(taps) // 2
     for k in range(len(filtered)):
-        for c in range(channels):
-            filtered[k, c] = 0.0
-        for j in range(len(taps)):
-            n = min(max(k * every + j - middle, 0), steps - 1)
-            for c in range(channels):
-                filtered[k, c] += taps[j] * values[n, c]
+        first = k * every - middle
+        for c in range(len(values)):
+            total = 0.0
+            if first >= 0 and first + len(taps) <= steps:
+                part = values[c, first : first + len(taps)]
+                for j in range(len(taps)):
+                    total += taps[j] * part[j]
+            else:
+                for j in range(len(taps)):
+                    total += taps[j] * values[c, min(max(first + j, 0), steps - 1)]
+            filtered[k, c] = total

@@ -111,7 +111,7 @@ class Car:
 def drive(
     vehicle, surface, elevation, targets, friction, start, end, step, every, sensor=(0.0, 0.0, 0.0), watch=None
 ):
-    """Records (records, COLUMNS) and accelerations (steps, 3) of the sensor, as ``kernel.drive`` gives them.
+    """Records (records, COLUMNS) and accelerations (3, steps) of the sensor, as ``kernel.drive`` gives them.
 
     ``watch`` is called at every step with a dictionary of what the car does at that instant.
     """
@@ -249,7 +249,7 @@ def drive(
         s, e, heading = s + step * rates[0], e + step * rates[1], heading + step * rates[2]
         z, roll, pitch = z + step * q[3], roll + step * q[4], pitch + step * q[5]
         ground = [ahead, *ground[:2]]
-    return np.array(records), np.array(accelerations)
+    return np.array(records), np.array(accelerations).T
 
 
 def _in_body_axes(vector, roll, pitch):
