@@ -103,7 +103,7 @@ def ports_source(effects: Sequence[Effect]) -> tuple[str, int]:
     for effect in effects:
         lines.append(f"from {{kernel}}_{effect.name} import act as {effect.name}")
     lines += ["", 'PHYSICS = {"error_model": "numpy", "_nrt": False}', ""]
-    lines += [f'{effect.name} = njit(inline="always", **PHYSICS)({effect.name})' for effect in effects]
+    lines += [f'{effect.name} = njit(forceinline=True, **PHYSICS)({effect.name})' for effect in effects]
     first_parameter, first_state, places = 0, 0, []
     for effect in effects:
         places.append((effect, first_parameter, first_state))
@@ -117,7 +117,7 @@ def ports_source(effects: Sequence[Effect]) -> tuple[str, int]:
 def _port_source(name: str, places) -> list[str]:
     port = PORTS[name]
     signature = ", ".join((*port.sees, "parameters", "states", "slopes"))
-    lines = ['@njit(inline="always", **PHYSICS)', f"def {name}_port({signature}):"]
+    lines = ['@njit(forceinline=True, **PHYSICS)', f"def {name}_port({signature}):"]
     lines += [f"    {result} = 0.0" for result in port.returns if result not in port.sees]
     for effect, parameter, state in places:
         count = len(effect.states)

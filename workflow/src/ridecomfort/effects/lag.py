@@ -8,7 +8,7 @@ SHORTEST = 0.005
 """s; five steps of the kernel. States that answer faster could not be integrated explicitly."""
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def lag(value, state, time):
     """``value`` behind a lag of ``time`` in s, and the slope of the lag's ``state``.
 

@@ -12,49 +12,49 @@ from __future__ import annotations
 from numba import njit
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def road_port(wheel, u, v, height, rotation, surface, elevation, parameters, states, slopes):
     """Extra height in m that the tyre feels."""
     return 0.0
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def suspension_port(wheel, deflection, velocity, stiffness, damping, force_x, force_y, parameters, states, slopes):
     """Extra force in N between body and wheel, positive pushing them apart."""
     return 0.0
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def tyre_vertical_port(wheel, deflection, velocity, stiffness, rest, rotation, spin, parameters, states, slopes):
     """Extra radial force in N of the tyre, positive pushing the wheel up."""
     return 0.0
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def tyre_planar_port(wheel, slip_x, slip_y, load, speed, slope, force_x, parameters, states, slopes):
     """Longitudinal slip and tangent of the slip angle that the tyre's force answers to, extra force in N forward."""
     return slip_x, slip_y, 0.0
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def body_port(motion, parameters, states, slopes):
     """Extra force (N) and moment (N m) on the sprung mass about its centre of gravity: x, y, z, x, y, z."""
     return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def flexing_port(motion, x, y, z, parameters, states, slopes):
     """Acceleration in m/s2 of the place (x, y, z) in m of the sensor against the rigid body."""
     return 0.0, 0.0, 0.0
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def drive_port(force, speed, parameters, states, slopes):
     """Driving force in N at the wheels for the force that the driver asks for."""
     return force
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def steer_port(angle, speed, force_y, parameters, states, slopes):
     """Angle in rad of the front wheels for the angle that the driver asks for."""
     return angle

@@ -7,7 +7,7 @@ from math import floor, pi
 from numba import njit
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def wave(angle):
     """Sine of any ``angle`` in rad to 4e-6, by its series over the quarter that the angle falls into."""
     turns = angle * (0.5 / pi) + 0.25

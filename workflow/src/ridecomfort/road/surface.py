@@ -9,7 +9,7 @@ from numba import njit
 from . import edges
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def _cell(position, origin, spacing, count):
     """Index of the cell a position falls in and the place inside it (0 to 1), clamped to the grid."""
     place = (position - origin) / spacing
@@ -21,7 +21,7 @@ def _cell(position, origin, spacing, count):
     return index, place - index
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def linear(elevation, u0, du, v0, dv, u, v):
     """Height in m by bilinear interpolation, clamped to the grid at its borders (OpenCRG 1.2)."""
     i, p = _cell(u, u0, du, elevation.shape[0])
@@ -31,7 +31,7 @@ def linear(elevation, u0, du, v0, dv, u, v):
     return right + q * (left - right)
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def cubic(elevation, u0, du, v0, dv, u, v):
     """Height in m by Catmull-Rom splines along u and v, clamped to the grid at its borders (sec:road_surf)."""
     nu, nv = elevation.shape

@@ -93,7 +93,7 @@ def _moving_average(values: np.ndarray, u: np.ndarray, length: float) -> np.ndar
     return (total[width:] - total[:-width]) / width
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def steering(e, course, speed, target, curvature, wheelbase):
     """Angle of the front wheels in rad: the bend itself, and pure pursuit of the target offset.
 
@@ -117,7 +117,7 @@ def path_demand(offset: np.ndarray, interval: float, speed: np.ndarray) -> np.nd
     return offset + preview * rate + 0.5 * preview**2 * np.gradient(rate, interval)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def acceleration_demand(speed, target, target_ahead, distance_ahead, integral):
     """Acceleration in m/s2 that the speed controller asks for.
 

@@ -19,7 +19,7 @@ class Surface(NamedTuple):
     smooth: bool
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def height(surface, elevation, u, v):
     """Height in m of the road at (u, v), by the interpolation that the surface asks for."""
     i, j = (u - surface.u0) * surface.per_u, (v - surface.v0) * surface.per_v

@@ -189,19 +189,19 @@ def _drive(
     return records, steps
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _locate(surface, targets, s):
     place = (s - surface.u0) * surface.per_u
     index = min(max(int(place), 0), targets.shape[0] - 2)
     return index, min(max(place - index, 0.0), 1.0)
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _target(targets, index, fraction, column):
     return targets[index, column] + fraction * (targets[index + 1, column] - targets[index, column])
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _plane(car, ground):
     """Slopes, forward and to the left, of the plane through the heights under the wheels."""
     front, rear = ground[0] + ground[1], ground[2] + ground[3]
@@ -239,7 +239,7 @@ def _settle(
         spin[i] = speed / car.tyre_radius
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _speed_control(car, surface, targets, index, fraction, s, v_x, pace, integral, step):
     """Force in N that the driver asks for, and the integral of the speed error in m."""
     target = _target(targets, index, fraction, SPEED)
@@ -250,7 +250,7 @@ def _speed_control(car, surface, targets, index, fraction, s, v_x, pace, integra
     return car.total_mass * acceleration_demand(v_x, target, ahead, distance, integral), integral
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _feel(
     wheels, surface, elevation, pose, pose_rate, curvature, step, spin, rotation, parameters, states, slopes, ground
 ):
@@ -277,7 +277,7 @@ def _feel(
         ground[0, i] = raw + road_port(i, u, v, raw, turn, surface, elevation, parameters, states, slopes)
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _vertical(
     car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
     force_x, force_y, side_push, parameters, states, slopes, load, suspension, travel_rate,
@@ -324,7 +324,7 @@ def _vertical(
         travel_rate[i] = wheel_speed - corner_speed
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _planar(
     car, wheels, now, travel_rate, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
     friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
@@ -369,7 +369,7 @@ def _planar(
         force_y[i] = side
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _accelerate(
     car, wheels, pose, now, slope_y, change, force_x, force_y, torque, suspension,
     sensor, parameters, states, slopes,
@@ -413,7 +413,7 @@ def _accelerate(
     return flexing_port(motion, sensor[0], sensor[1], sensor[2], parameters, states, slopes)
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _advance(step, curvature, pose, pose_rate, speeds, change):
     """Speeds and then the pose one step on; the rates of place and heading are kept."""
     for k in range(6):

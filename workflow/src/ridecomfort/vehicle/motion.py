@@ -53,7 +53,7 @@ class BodyMotion(NamedTuple):
     rear: float
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def sensor_acceleration(row, sensor, pose, speeds, change):
     """Put the acceleration in body axes (m/s2) of a sensor fixed to the body into row[0:3].
 
@@ -76,7 +76,7 @@ def sensor_acceleration(row, sensor, pose, speeds, change):
     row[2] = a_z + pitch * a_x - roll * a_y
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def body_rates(row, pose, speeds):
     """Put place, speed, rates about the body's axes and angles into a row of COLUMNS."""
     roll, pitch = pose[ROLL], pose[PITCH]
@@ -91,7 +91,7 @@ def body_rates(row, pose, speeds):
     row[10] = pitch
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def sin_cos(angle):
     """Sine and cosine by their series: exact to 1e-9 up to 0.8 rad, beyond what the driver steers."""
     x = angle * angle

@@ -7,7 +7,7 @@ from math import sqrt
 from numba import njit
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def brush(slip_x, slip_y, load, friction, stiffness_x, stiffness_y):
     """Forces in N of a brush tyre with parabolic pressure under combined slip, and its give.
 
