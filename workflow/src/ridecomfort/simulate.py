@@ -230,7 +230,7 @@ def _taps(every: int) -> np.ndarray:
     return taps / taps.sum()
 
 
-@njit(cache=True, fastmath={"contract", "reassoc", "nsz"})
+@njit(cache=True, nogil=True, fastmath={"contract", "reassoc", "nsz"})
 def _low_pass(values, steps, taps, every, filtered):
     """Convolve the first ``steps`` of (channels, steps) with symmetric taps at every record; the ends are held."""
     middle = len(taps) // 2

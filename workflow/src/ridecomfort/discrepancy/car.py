@@ -37,8 +37,10 @@ HIGHEST = 0.85
 BLOCK = 1.0
 """s at the mean speed; white errors farther apart are independent."""
 
-KNOTS = 150.0
-"""m between the points of what alignment may still get wrong of the place along and across the road."""
+KNOTS, FINER_KNOTS = 150.0, 30.0
+"""m between the points of what alignment may still get wrong of the place along and across the road: while many candidates
+are tried, and for the sizes that are told in the end. Paths wander within some ten metres; a size fitted on a path that is
+straighter than the driven one comes out too small and too sure."""
 
 SAME_SPEED = 0.05
 """Relative difference of mean speeds within which drives repeat one another."""
@@ -88,6 +90,8 @@ class Car:
     quiet: Mapping[str, Mapping[str, float]]
     """Effects that are in every simulation at neutral values, so that one compiled kernel serves for all of them."""
     channels: tuple[str, ...] = SIGNALS
+    each_record: Callable = map
+    knots: float = KNOTS
     simulations: int = 0
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
@@ -107,7 +111,7 @@ class Car:
         kept = again.compared
         simulated = self.simulated(values, index)
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        hats = _hats(again.place[kept])
+        hats = _hats(again.place[kept], self.knots)
         up = STANDARD_GRAVITY * upward(simulated.roll, simulated.pitch)[:, kept]
         force = simulated.signals[:3, kept] + up * float(again.drive.attrs.get("gravity", 0))
         rates = simulated.signals[3:, kept]
@@ -122,13 +126,17 @@ class Car:
         columns += list(np.eye(6)[:, :, None] * np.ones(kept.sum()))
         return np.stack(columns).astype(np.float32)
 
+    def finer(self) -> Car:
+        """The same with what alignment may get wrong asked for at FINER_KNOTS."""
+        return replace(self, knots=FINER_KNOTS)
+
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""
         replays, records = list(self.replays), list(self.records)
         for index, found in amounts.items():
             again = replays[index]
             kept = again.compared
-            hats = _hats(again.place[kept])
+            hats = _hats(again.place[kept], self.knots)
             later, left = found[: len(hats)] @ hats, found[len(hats) : 2 * len(hats)] @ hats
             shift = np.interp(again.time, again.time[kept], later)
             place = np.interp(again.time - shift, again.time, again.place)
@@ -151,23 +159,29 @@ def car(
     library_names: Sequence[str] | None = None,
     simulate: Callable[..., xr.Dataset] = simulator.run,
     options: Mapping | None = None,
+    each_record: Callable = map,
 ) -> Car:
     """The experiment of these drives. ``vehicle`` and ``effects`` are the calibrated ones.
 
     Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, all others are held out.
     ``bounds``: of calibrated parameters, beside tab:constraints. ``uncertain``: share by which further
     parameters of the vehicle may be wrong (default UNCERTAIN). ``library_names``: the effects to look
-    among, by default all of the library and of the user's folder but those of the model.
+    among, by default all of the library and of the user's folder but those of the model. ``each_record``: a ``map`` over drives.
     """
     effects = {name: dict(sizes or {}) for name, sizes in (effects or {}).items()}
     fitted_on = list(fitted_on) if fitted_on else [sites[0].name]
     options = {"effects_folder": effects_folder, **(options or {})}
+
+    def tuned(job: tuple[Site, xr.Dataset]) -> Replay:
+        site, drive = job
+        return replay(drive, site.course, simulate, options=options).tuned(vehicle, effects)
+
+    ready = iter(each_record(tuned, [(site, drive) for site in sites for drive in site.drives]))
     records, replays = [], []
     for site in sites:
         speeds: list[float] = []
         for drive in site.drives:
-            again = replay(drive, site.course, simulate, options=options)
-            again = again.tuned(vehicle, effects)
+            again = next(ready)
             first = again.time[again.compared][0] + SETTLING
             again = replace(again, compared=again.compared & (again.time >= first))
             role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
@@ -189,7 +203,7 @@ def car(
     wanted = sorted(known if library_names is None else library_names)
     candidates = tuple(candidate(known[name].effect) for name in wanted if name not in effects)
     quiet = {n: known[n].effect.neutral for n in wanted if n not in effects and known[n].effect.port in COMPILED}
-    return Car(records, replays, vehicle, effects, tuple(free), tuple(c for c in candidates if c.sizes), quiet)
+    return Car(records, replays, vehicle, effects, tuple(free), tuple(c for c in candidates if c.sizes), quiet, each_record=each_record)
 
 
 def sites_of(measured: Mapping[str, tuple]) -> list[Site]:
@@ -259,7 +273,7 @@ def _record(site: str, again: Replay, role: str, speeds: list[float], several: b
     )  # fmt: skip
 
 
-def _hats(place: np.ndarray) -> np.ndarray:
+def _hats(place: np.ndarray, spacing: float) -> np.ndarray:
     """Piecewise linear functions that are one at a knot each, (knot, sample)."""
-    knots = np.linspace(place[0], place[-1], max(2, int(round(np.ptp(place) / KNOTS)) + 1))
+    knots = np.linspace(place[0], place[-1], max(2, int(round(np.ptp(place) / spacing)) + 1))
     return np.maximum(1 - np.abs(place - knots[:, None]) / (knots[1] - knots[0]), 0.0)

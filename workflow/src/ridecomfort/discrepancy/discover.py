@@ -134,6 +134,7 @@ def discover(
     ``most``: terms of its force. All terms of a proposal act at the place of the first.
     """
     vehicle, effects = calibrated.apply(calibration, vehicle, effects)
+    count = pool.workers() if workers is None else workers
     with tempfile.TemporaryDirectory() as folder:
         for path in sorted(Path(effects_folder).glob("*.py")) if effects_folder else ():
             (Path(folder) / path.name).write_bytes(path.read_bytes())
@@ -144,8 +145,9 @@ def discover(
         experiment = cars.car(
             cars.sites_of(measured), vehicle, effects=effects, effects_folder=folder, fitted_on=fitted_on, bounds=bounds,
             library_names=[_name(place, term) for place, term in unknown], options=options,
+            each_record=pool.side_by_side(count),
         )  # fmt: skip
-        return _search(experiment, name, most, seed, pool.mapped(pool.workers() if workers is None else workers), say)
+        return _search(experiment, name, most, seed, pool.mapped(count), say)
 
 
 def _search(experiment, name, most, seed, each, say) -> Discovery:

@@ -6,7 +6,7 @@ parameters. Everything else, which effect, how sure, how large, is done with tho
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -84,12 +84,17 @@ class Experiment(Protocol):
     channels: Sequence[str]
     free: Sequence[Size]
     candidates: Sequence[Candidate]
+    each_record: Callable
+    """A ``map`` over records, whose residuals may be asked for side by side."""
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """Simulated minus measured, (channel, sample), of a record."""
 
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """What the alignment of a record may still get wrong, (direction, channel, sample)."""
+
+    def finer(self) -> Experiment:
+        """The same with nuisances on the finest scale on which they matter, for the last fit."""
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Experiment:
         """The same with these amounts of the nuisances (direction,) taken out of its records."""
@@ -208,7 +213,14 @@ def condition_spectra(experiment: Experiment, residuals: Mapping[int, np.ndarray
 
 def simulate(experiment: Experiment, values: Mapping[str, float], indices: Iterable[int]) -> dict[int, np.ndarray]:
     """Residuals of several records."""
-    return {index: experiment.residual(values, index) for index in indices}
+    indices = list(indices)
+    return dict(zip(indices, experiment.each_record(lambda index: experiment.residual(values, index), indices)))
+
+
+def nuisances(experiment: Experiment, values: Mapping[str, float], indices: Iterable[int]) -> dict[int, np.ndarray]:
+    """Nuisances of several records."""
+    indices = list(indices)
+    return dict(zip(indices, experiment.each_record(lambda index: experiment.nuisances(values, index), indices)))
 
 
 def secant(

@@ -125,12 +125,18 @@ class OneMass:
             raise InputError("the response does not stay finite", place=self.records[index].name)
         return response
 
+    each_record = staticmethod(map)
+
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         return (self.simulated(values, index) - self.outputs[index])[None, :]
 
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """An offset of the recorded output."""
         return np.ones((1, 1, len(self.outputs[index])))
+
+    def finer(self) -> OneMass:
+        """The same: an offset has no scale."""
+        return self
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> OneMass:
         """The same: an offset is linear."""

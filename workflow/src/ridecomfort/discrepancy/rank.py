@@ -45,11 +45,12 @@ def rank(
     their gains, shares and objections; over ``model``: the ladder; and what ``signature`` returns. Raises InputError.
     """
     vehicle, effects = calibrated.apply(calibration, vehicle, effects)
+    count = pool.workers() if workers is None else workers
     experiment = cars.car(
         cars.sites_of(measured), vehicle, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
-        bounds=bounds, library_names=among, options=options,
+        bounds=bounds, library_names=among, options=options, each_record=pool.side_by_side(count),
     )  # fmt: skip
-    each = pool.mapped(pool.workers() if workers is None else workers)
+    each = pool.mapped(count)
     selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
     verdict = judge(selection, experiment.candidates, suspicions(experiment, selection))
     table = dataset(experiment, selection)

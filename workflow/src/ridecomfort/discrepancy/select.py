@@ -119,8 +119,8 @@ class _Search:
             self._grounds(base, check)
             ladder.append(self._state(turn.winner.name, base, check))
         sizes = {size.key: size for size in self._sizes()}
-        final = self._final(base)
-        bounds = {key: refit.interval(final, self.frame, sizes[key]) for key in final.keys}
+        final, finer = self._final(base)
+        bounds = {key: refit.interval(final, finer, sizes[key]) for key in final.keys}
         return Selection(
             tuple(rounds), tuple(ladder), self.ground, self.held_out_ground, self.repeats, self.frame,
             tuple(self.accepted), bounds, final, *self._remaining(ladder[0].fit, final),
@@ -131,8 +131,7 @@ class _Search:
         return [*self.experiment.free, *(size for name in names for size in self.by_name[name].sizes)]
 
     def _frame(self, residuals, values) -> Frame:
-        nuisances = {index: self.experiment.nuisances(values, index) for index in residuals}
-        return exp.frame(self.experiment, residuals, nuisances)
+        return exp.frame(self.experiment, residuals, exp.nuisances(self.experiment, values, residuals))
 
     def _aligned(self, values, indices) -> tuple[dict[int, np.ndarray], Frame | None]:
         """Residuals and frame of records whose alignment has been brought up to date, where that brings them closer.
@@ -164,12 +163,16 @@ class _Search:
             frame = exp.frame(self.experiment, fit.residuals, frame.nuisances, self._cleaned(frame, fit.residuals))
         return frame, fit
 
-    def _final(self, base: Fit) -> Fit:
-        raw = probe.secants(self.experiment, base.values, base.residuals, self._sizes(), self.each)
-        columns = probe.white(self.frame, raw)
-        return refit.refit(
-            self.experiment, self.frame, base.values, self._sizes(), columns, iterations=1, residuals=base.residuals
+    def _final(self, base: Fit) -> tuple[Fit, Frame]:
+        """The fit whose sizes are told, with its frame: nuisances are as fine as they matter."""
+        self.experiment = self.experiment.finer()
+        residuals, frame = self._aligned(base.values, self.fitted)
+        raw = probe.secants(self.experiment, base.values, residuals, self._sizes(), self.each)
+        columns = probe.white(frame, raw)
+        fit = refit.refit(
+            self.experiment, frame, base.values, self._sizes(), columns, iterations=2, residuals=residuals
         )
+        return fit, frame
 
     def _cleaned(self, frame: Frame, residuals) -> dict[int, np.ndarray]:
         return {index: frame.cleaned(index, residuals[index]) for index in residuals}
@@ -244,11 +247,11 @@ class _Search:
         gain = np.array([found.group_gain[best[name]] for name in names])
         order = [name for _, name in sorted(zip(-gain, names)) if p_value[names.index(name)] <= LEVEL][:PROPOSED]
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
-        first = list(self.each(_Try(self, base, check), [jobs[best[name]] for name in order]))
-        leading = sorted((trial for trial in first if trial is not None), key=_merit, reverse=True)
+        first = list(self.each(_Try(self, base), [jobs[best[name]] for name in order]))
+        leading = sorted((trial for trial in first if trial is not None), key=lambda trial: trial.bic, reverse=True)
         large = [trial for trial in leading[:SETTLED] if trial.gain > LARGE * self._count()]
-        settled = self.each(_Settle(self, base, check), large)
-        trials = [*(trial for trial in settled if trial is not None), *(trial for trial in leading if trial not in large)]
+        settled = [*self.each(_Settle(self, base), large), *(trial for trial in leading if trial not in large)]
+        trials = [trial for trial in self.each(_Judge(self, base, check), settled) if trial is not None]
         winner = max((t for t in trials if not t.objection), key=_merit, default=None)
         like, correlation, apart = (), {}, {}
         if winner is not None:
@@ -264,7 +267,7 @@ class _Search:
         )  # fmt: skip
         return turn, winner.fit if winner is not None else base
 
-    def _try(self, job: tuple[str, int], base: Fit, check) -> Trial | None:
+    def _try(self, job: tuple[str, int], base: Fit) -> Trial | None:
         """The refit of a candidate in one shape; None where it cannot be simulated."""
         candidate, raw = self.by_name[job[0]], {**self.raw, **self.columns[job]}
         shape = candidate.shapes[job[1]]
@@ -281,11 +284,11 @@ class _Search:
                 )
                 before = float(np.sum(self.frame.flat(base.residuals) ** 2))
                 fit = inside if before - inside.loss > CONTENT * (before - fit.loss) else fit
-            return self._judge(candidate, shape, fit, base, check)
+            return self._trial(candidate, shape, fit, base)
         except (InputError, ValueError):
             return None
 
-    def _settle(self, trial: Trial, base: Fit, check) -> Trial | None:
+    def _settle(self, trial: Trial, base: Fit) -> Trial:
         """The refit repeated in the frame of its own residuals while the error falls by much.
 
         A large error makes itself white: what is missing weighs least where it is largest.
@@ -303,20 +306,29 @@ class _Search:
                     self.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own],
                     residuals=fit.residuals,
                 )  # fmt: skip
-                judged = self._judge(candidate, trial.shape, fit, base, check)
-                gained = judged.gain - trial.gain
-                trial = judged if gained > 0 else trial
+                settled = self._trial(candidate, trial.shape, fit, base)
+                gained = settled.gain - trial.gain
+                trial = settled if gained > 0 else trial
                 if gained < LARGE * self._count():
                     break
         except (InputError, ValueError):
             pass
         return trial
 
-    def _judge(self, candidate: Candidate, shape, fit: Fit, base: Fit, check) -> Trial:
-        fit = replace(fit, columns=np.zeros((0, 0)))
-        held = exp.simulate(self.experiment, fit.values, self.held_out)
+    def _trial(self, candidate: Candidate, shape, fit: Fit, base: Fit) -> Trial:
+        """What a refit gains on the drives that it was fitted to; the others have not been asked."""
         gain = refit.information(self.frame, fit.residuals) - refit.information(self.frame, base.residuals)
         bic = gain - len(candidate.sizes) * np.log(len(np.unique(self.frame.blocks())))
+        unknown = (float("nan"),) * 4
+        return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
+
+    def _judge(self, trial: Trial, base: Fit, check) -> Trial | None:
+        """A trial with what it does to the drives held out; None where these cannot be simulated."""
+        candidate, fit = self.by_name[trial.name], trial.fit
+        try:
+            held = exp.simulate(self.experiment, fit.values, self.held_out)
+        except (InputError, ValueError):
+            return None
         held_gain, held_z = float("nan"), float("nan")
         if self.check_frame is not None:
             held_gain = refit.information(self.check_frame, held) - refit.information(self.check_frame, check)
@@ -326,7 +338,9 @@ class _Search:
         held_share = floor.explained_share(
             before.held_out_squares, now.held_out_squares, first.held_out_squares, self.held_out_ground
         )
-        trial = Trial(candidate.name, shape, fit, gain, bic, held_gain, held_z, share, held_share, "")
+        trial = replace(
+            trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share
+        )
         return replace(trial, objection=self._objection(trial, candidate))
 
     def _count(self) -> float:
@@ -386,17 +400,25 @@ def _ranks(found: evidence.Evidence, candidates: int) -> bool:
 class _Try:
     search: _Search
     base: Fit
-    check: Mapping[int, np.ndarray]
 
     def __call__(self, job: tuple[str, int]) -> Trial | None:
-        return self.search._try(job, self.base, self.check)
+        return self.search._try(job, self.base)
 
 
 @dataclass(frozen=True)
 class _Settle:
     search: _Search
     base: Fit
+
+    def __call__(self, trial: Trial) -> Trial:
+        return self.search._settle(trial, self.base)
+
+
+@dataclass(frozen=True)
+class _Judge:
+    search: _Search
+    base: Fit
     check: Mapping[int, np.ndarray]
 
     def __call__(self, trial: Trial) -> Trial | None:
-        return self.search._settle(trial, self.base, self.check)
+        return self.search._judge(trial, self.base, self.check)

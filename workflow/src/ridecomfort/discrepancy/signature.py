@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -76,26 +76,36 @@ def signature(
     the estimate would show were the effect the truth (nan where it acts elsewhere); ``seen_gain`` (fall of
     the white sum of squares) says which place explains most.
     """
-    each = pool.mapped(pool.workers() if workers is None else workers)
+    count = pool.workers() if workers is None else workers
+    each = pool.mapped(count)
     with tempfile.TemporaryDirectory() as folder:
         for path in sorted(Path(effects_folder).glob("*.py")) if effects_folder else ():
             (Path(folder) / path.name).write_bytes(path.read_bytes())
         for number, seen in enumerate(SEEN.values()):
             (Path(folder) / f"{_name(number)}.py").write_text(_source(_name(number), seen), encoding="utf-8")
         experiment = cars.car(
-            cars.sites_of(measured), vehicle, effects=effects, effects_folder=folder, fitted_on=fitted_on, bounds=bounds,
+            _fitted_only(measured, fitted_on), vehicle, effects=effects, effects_folder=folder, fitted_on=fitted_on, bounds=bounds,
             library_names=[_name(number) for number in range(len(SEEN))], options=options,
+            each_record=pool.side_by_side(count),
         )  # fmt: skip
         experiment.candidates = tuple(_candidate(number, seen) for number, seen in enumerate(SEEN.values()))
         fitted = [index for index, record in enumerate(experiment.records) if record.role == "fit"]
         residuals = exp.simulate(experiment, values, fitted)
-        frame = exp.frame(experiment, residuals, {index: experiment.nuisances(values, index) for index in fitted})
+        frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, fitted))
         free = probe.secants(experiment, values, residuals, experiment.free, each)
         found = each(probe.Probe(experiment, values, residuals), [(c.name, 0) for c in experiment.candidates])
         curves = [_curve(frame, residuals, free, columns, seen) for columns, seen in zip(found, SEEN.values())]
     known = library.find(effects_folder)
     names = [name for name in named or {} if known[name].effect.port in ARGUMENTS]
     return _dataset(curves, names, [_shapes(known[name], (named or {})[name]) for name in names])
+
+
+def _fitted_only(measured: Mapping[str, tuple], fitted_on: Sequence[str] | None) -> list[cars.Site]:
+    """The sites with the drives that are fitted, and no others."""
+    wanted = list(fitted_on) if fitted_on else list(measured)[:1]
+    sites = cars.sites_of({name: measured[name] for name in wanted})
+    own = [[drive for drive in site.drives if drive.attrs.get("role", "fit") == "fit"] for site in sites]
+    return [replace(site, drives=drives) for site, drives in zip(sites, own)]
 
 
 @dataclass(frozen=True)

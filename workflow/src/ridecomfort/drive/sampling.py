@@ -113,7 +113,7 @@ def low_pass_matrix(count: int, interval: float, cut_off: float) -> csr_array:
     return csr_array((np.tile(taps, count), (rows, columns)), shape=(count, count))
 
 
-@njit(cache=True, fastmath=True)
+@njit(cache=True, nogil=True, fastmath=True)
 def _convolve(values, taps):
     """Symmetric taps on (time, channel); the ends are held."""
     count, channels = values.shape
@@ -140,7 +140,7 @@ def resampled(values: np.ndarray, interval: float, places: np.ndarray, cut_off: 
     return result, slopes / interval
 
 
-@njit(cache=True, fastmath=True)
+@njit(cache=True, nogil=True, fastmath=True)
 def _resample(values, places, kernel, slope, fine):
     """Tables ``kernel`` and ``slope`` have ``fine`` points an interval and are straight between; the ends are held."""
     count, channels = values.shape

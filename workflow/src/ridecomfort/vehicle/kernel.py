@@ -88,7 +88,7 @@ GRADE_LENGTH = 20.0
 """m of road whose grade the speed controller knows of at the start."""
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def drive(
     car, wheels, surface, elevation, targets, friction, start, end, step, every, sensor,
     parameters, state_count, record, accelerations,
