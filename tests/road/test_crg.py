@@ -37,6 +37,29 @@ def edited(source, target, *replacements):
     return target
 
 
+def same_reference_line(road, u, asam):
+    """Assert that the reference line at u is ASAM's, also beyond its ends."""
+    line, grid, spacing = surface.reference_line(road, u), asam.grid(), float(road.u[1] - road.u[0])
+    x, y = asam.uv_to_xy_many(u, 0.0)
+    np.testing.assert_allclose(line.x, x, rtol=0, atol=1e-6)
+    np.testing.assert_allclose(line.y, y, rtol=0, atol=1e-6)
+    heading, curvature = asam.uv_to_pk_many(u, 0.0)
+    # Within 0.5 m of the ends ASAM's library has the heading of the end and no curvature.
+    reach = spacing * max(1, int(0.5 / spacing * (1 + 1e-9)))
+    if "closed_from" in road.attrs:
+        u = road.closed_from + np.mod(u - road.closed_from, road.closed_to - road.closed_from)
+    inner = (u > grid.u[0] + reach) & (u < grid.u[-1] - reach)
+    turn = np.angle(np.exp(1j * (line.heading.values - heading)))
+    outer = (u < grid.u[0]) | (u > grid.u[-1] + reach)
+    np.testing.assert_allclose(turn[inner | outer], 0.0, atol=1e-9)
+    np.testing.assert_allclose(line.curvature[inner], curvature[inner], rtol=0, atol=1e-9)
+    assert inner.any() and (line.curvature.values[outer] == 0.0).all()
+    inside = (u > grid.u[0]) & (u < grid.u[-1])
+    segment = np.searchsorted(grid.u, u[inside]) - 1
+    np.testing.assert_allclose(line.slope[inside], (np.diff(grid.ref_z) / spacing)[segment], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(line.bank[inside], np.interp(u[inside], grid.u, grid.bank), rtol=0, atol=1e-9)
+
+
 @pytest.mark.parametrize("name", READABLE)
 def test_every_sample_agrees_with_asams_library(shared, name):
     path = shared / "data" / "opencrg" / f"{name}.crg"
@@ -46,14 +69,7 @@ def test_every_sample_agrees_with_asams_library(shared, name):
     v = rng.uniform(road.v[0] - 1, road.v[-1] + 1, 5000)
     with pycrg.RoadSurface.open(path) as asam:
         np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
-        x, y = asam.uv_to_xy_many(road.u.values, 0.0)
-        np.testing.assert_allclose(road.x, x, rtol=0, atol=1e-6)
-        np.testing.assert_allclose(road.y, y, rtol=0, atol=1e-6)
-        heading, curvature = asam.uv_to_pk_many(road.u.values + 1e-9, 0.0)
-        inner = (road.u > road.u[0] + 0.6) & (road.u < road.u[-1] - 0.6 - float(road.u[1] - road.u[0]))
-        turn = np.angle(np.exp(1j * (road.heading.values - heading)))
-        np.testing.assert_allclose(turn[inner], 0.0, atol=1e-9)
-        np.testing.assert_allclose(road.curvature[inner], curvature[inner], rtol=0, atol=1e-9)
+        same_reference_line(road, u, asam)
 
 
 @pytest.mark.parametrize("name", ["fileref", "fileref_mods", "fileref_opts"])
@@ -69,6 +85,7 @@ def test_file_references_are_followed_from_the_file_that_names_them(shared, tmp_
     u, v = np.meshgrid(np.linspace(0, 22, 50), np.linspace(-1.5, 1.5, 30), indexing="ij")
     with pycrg.RoadSurface.open(path) as asam:
         np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
+        same_reference_line(road, np.random.default_rng(0).uniform(-5, 30, 2000), asam)
     assert f"read from {target} by way of {name}.crg" in road.treatment
 
 
@@ -116,6 +133,43 @@ def test_random_files_agree_with_asams_library_inside_and_beyond_the_grid(tmp_pa
     v = rng.uniform(-1, 2, 2000) * float(road.v[-1] - road.v[0]) + float(road.v[0])
     with pycrg.RoadSurface.open(path) as asam:
         np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
+        same_reference_line(road, u, asam)
+
+
+@pytest.mark.parametrize("mode_v", [1, 2])
+@pytest.mark.parametrize("mode_u", range(5))
+def test_slope_and_bank_are_those_of_asams_heights_also_beyond_the_ends(tmp_path, mode_u, mode_v):
+    """On a road that is smooth but for its reference line they are the differences of its heights."""
+    rng = np.random.default_rng(mode_u)
+    path = tmp_path / "road.crg"
+    small(
+        path, z=np.zeros((30, 5)), phi=np.cumsum(rng.normal(0, 0.002, 30)), slope=rng.normal(0, 0.05, 30),
+        banking=rng.normal(0, 0.03, 30), z0=2.0, opts={"border_mode_u": mode_u, "border_mode_v": mode_v},
+    )  # fmt: skip
+    u, step = rng.uniform(-10, 13, 2000), 1e-4
+    to_node = np.abs((u + 0.05) % 0.1 - 0.05)
+    u = u[to_node > 2 * step]
+    line = surface.reference_line(crg.read(path), u)
+    with pycrg.RoadSurface.open(path) as asam:
+        ahead, behind, left, right = (
+            asam.uv_to_z_many(u + du, dv) for du, dv in ((step, 0), (-step, 0), (0, 1), (0, -1))
+        )
+    np.testing.assert_allclose(line.slope, (ahead - behind) / (2 * step), rtol=0, atol=1e-7)
+    np.testing.assert_allclose(line.bank, (left - right) / 2, rtol=0, atol=1e-7)
+    beyond = (u < 0) | (u > 2.9)
+    assert np.isnan(line.slope[beyond]).all() == np.isnan(line.bank[beyond]).all() == (mode_u == 0)
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "cubic"])
+def test_a_closed_track_goes_round(shared, interpolation):
+    road = crg.read(shared / "data" / "opencrg" / "Barber.crg", interpolation=interpolation)
+    length = road.closed_to - road.closed_from
+    u = np.random.default_rng(0).uniform(road.u[0] + 1, road.u[-1] - 1, 500)
+    line = surface.reference_line(road, u)
+    for rounds in (-2, -1, 1, 3):
+        again = surface.reference_line(road, u + rounds * length)
+        for name in surface.LINE:
+            np.testing.assert_allclose(again[name], line[name], rtol=0, atol=1e-6 if name in "xy" else 1e-3)
 
 
 @pytest.mark.parametrize("mode", range(5))
