@@ -103,6 +103,7 @@ def read(path, **options: str) -> xr.Dataset:
             checks.size(head, stored.u, stored.v)
             wild = _wild(path, stored, chosen["heights"], treatment)
             checks.reference_line(stored, path)
+            checks.ends(head, stored)
             _apply(data, stated, chosen["modifiers"], treatment)
             grid = data.grid()
             attributes = _evaluation(data, treatment)
