@@ -105,7 +105,7 @@ def cubic(elevation, u0, du, v0, dv, u, v):
     return r1 + 0.5 * p * (r2 - r0 + p * (2.0 * r0 - 5.0 * r1 + 4.0 * r2 - r3 + p * (3.0 * (r1 - r2) + r3 - r0)))
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy")
 def _close(u, at):
     """A position on a closed track brought back to its first round."""
     if not at.closed or at.closed_from <= u <= at.closed_to:
@@ -114,7 +114,7 @@ def _close(u, at):
     return round_trip + (at.closed_from if round_trip > 0.0 else at.closed_to)
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy")
 def _fold(position, start, end, mode):
     """A position brought back into the grid by repeating or reflecting it."""
     if start <= position <= end:
@@ -179,13 +179,13 @@ def _heights(elevation, bank, u0, du, v0, dv, at, smooth, u, v, heights):
             heights[k] = linear(elevation, u0, du, v0, dv, along, across)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def _spline(a, b, c, d, p):
     """Catmull-Rom spline from b to c, at the share p of the way."""
     return b + 0.5 * p * (c - a + p * (2.0 * a - 5.0 * b + 4.0 * c - d + p * (3.0 * (b - c) + d - a)))
 
 
-@njit(inline="always", error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def along(line, u0, du, at, smooth, u):
     """The reference line at one position, as `reference_line` gives it: `LINE`, from ``line`` (u, `LINE`)."""
     if not math.isfinite(u):
