@@ -37,6 +37,29 @@ def edited(source, target, *replacements):
     return target
 
 
+def same_reference_line(road, u, asam):
+    """Assert that the reference line at u is ASAM's, also beyond its ends."""
+    line, grid, spacing = surface.reference_line(road, u), asam.grid(), float(road.u[1] - road.u[0])
+    x, y = asam.uv_to_xy_many(u, 0.0)
+    np.testing.assert_allclose(line.x, x, rtol=0, atol=1e-6)
+    np.testing.assert_allclose(line.y, y, rtol=0, atol=1e-6)
+    heading, curvature = asam.uv_to_pk_many(u, 0.0)
+    # Within 0.5 m of the ends ASAM's library has the heading of the end and no curvature.
+    reach = spacing * max(1, int(0.5 / spacing * (1 + 1e-9)))
+    if "closed_from" in road.attrs:
+        u = road.closed_from + np.mod(u - road.closed_from, road.closed_to - road.closed_from)
+    inner = (u > grid.u[0] + reach) & (u < grid.u[-1] - reach)
+    turn = np.angle(np.exp(1j * (line.heading.values - heading)))
+    outer = (u < grid.u[0]) | (u > grid.u[-1] + reach)
+    np.testing.assert_allclose(turn[inner | outer], 0.0, atol=1e-9)
+    np.testing.assert_allclose(line.curvature[inner], curvature[inner], rtol=0, atol=1e-9)
+    assert inner.any() and (line.curvature.values[outer] == 0.0).all()
+    inside = (u > grid.u[0]) & (u < grid.u[-1])
+    segment = np.searchsorted(grid.u, u[inside]) - 1
+    np.testing.assert_allclose(line.slope[inside], (np.diff(grid.ref_z) / spacing)[segment], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(line.bank[inside], np.interp(u[inside], grid.u, grid.bank), rtol=0, atol=1e-9)
+
+
 @pytest.mark.parametrize("name", READABLE)
 def test_every_sample_agrees_with_asams_library(shared, name):
     path = shared / "data" / "opencrg" / f"{name}.crg"
@@ -46,14 +69,7 @@ def test_every_sample_agrees_with_asams_library(shared, name):
     v = rng.uniform(road.v[0] - 1, road.v[-1] + 1, 5000)
     with pycrg.RoadSurface.open(path) as asam:
         np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
-        x, y = asam.uv_to_xy_many(road.u.values, 0.0)
-        np.testing.assert_allclose(road.x, x, rtol=0, atol=1e-6)
-        np.testing.assert_allclose(road.y, y, rtol=0, atol=1e-6)
-        heading, curvature = asam.uv_to_pk_many(road.u.values + 1e-9, 0.0)
-        inner = (road.u > road.u[0] + 0.6) & (road.u < road.u[-1] - 0.6 - float(road.u[1] - road.u[0]))
-        turn = np.angle(np.exp(1j * (road.heading.values - heading)))
-        np.testing.assert_allclose(turn[inner], 0.0, atol=1e-9)
-        np.testing.assert_allclose(road.curvature[inner], curvature[inner], rtol=0, atol=1e-9)
+        same_reference_line(road, u, asam)
 
 
 @pytest.mark.parametrize("name", ["fileref", "fileref_mods", "fileref_opts"])
@@ -69,6 +85,7 @@ def test_file_references_are_followed_from_the_file_that_names_them(shared, tmp_
     u, v = np.meshgrid(np.linspace(0, 22, 50), np.linspace(-1.5, 1.5, 30), indexing="ij")
     with pycrg.RoadSurface.open(path) as asam:
         np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
+        same_reference_line(road, np.random.default_rng(0).uniform(-5, 30, 2000), asam)
     assert f"read from {target} by way of {name}.crg" in road.treatment
 
 
@@ -98,7 +115,12 @@ def random_file(path, rng, even=False):
     even = even or rng.random() < 0.6
     v = np.linspace(-2, 2, nv) if even else 0.1 * np.sort(rng.choice(np.arange(-20, 21), nv, replace=False))
     if even and rng.random() < 0.5:  # at uneven positions the reference point may have no height that could be moved
-        modifiers |= dict(refpoint_u=0.6, refpoint_v=0.0, refpoint_x=5.0, refpoint_y=1.0, refpoint_z=0.4)
+        modifiers |= dict(refpoint_u=0.6, refpoint_v=0.0, refpoint_x=5.0, refpoint_y=1.0, refpoint_z=0.4, refpoint_phi=2.0)
+    else:
+        modifiers |= some(
+            refline_rotcenter_x=20.0, refline_rotcenter_y=-3.0, refline_offset_phi=-2.5, refline_offset_x=40.0,
+            refline_offset_y=30.0, refline_offset_z=-5.0,
+        )  # fmt: skip
     pycrg.write(
         path, z, 0.25, v, np.cumsum(rng.normal(0, 0.002, nu)), u0=rng.choice([0.0, 100.0]),
         x0=10.0, y0=5.0, z0=2.0, slope=rng.normal(0, 0.05, nu), banking=rng.normal(0, 0.03, nu),
@@ -116,6 +138,43 @@ def test_random_files_agree_with_asams_library_inside_and_beyond_the_grid(tmp_pa
     v = rng.uniform(-1, 2, 2000) * float(road.v[-1] - road.v[0]) + float(road.v[0])
     with pycrg.RoadSurface.open(path) as asam:
         np.testing.assert_allclose(surface.height(road, u, v), asam.uv_to_z_many(u, v), rtol=0, atol=1e-6)
+        same_reference_line(road, u, asam)
+
+
+@pytest.mark.parametrize("mode_v", [1, 2])
+@pytest.mark.parametrize("mode_u", range(5))
+def test_slope_and_bank_are_those_of_asams_heights_also_beyond_the_ends(tmp_path, mode_u, mode_v):
+    """On a road that is smooth but for its reference line they are the differences of its heights."""
+    rng = np.random.default_rng(mode_u)
+    path = tmp_path / "road.crg"
+    small(
+        path, z=np.zeros((30, 5)), phi=np.cumsum(rng.normal(0, 0.002, 30)), slope=rng.normal(0, 0.05, 30),
+        banking=rng.normal(0, 0.03, 30), z0=2.0, opts={"border_mode_u": mode_u, "border_mode_v": mode_v},
+    )  # fmt: skip
+    u, step = rng.uniform(-10, 13, 2000), 1e-4
+    to_node = np.abs((u + 0.05) % 0.1 - 0.05)
+    u = u[to_node > 2 * step]
+    line = surface.reference_line(crg.read(path), u)
+    with pycrg.RoadSurface.open(path) as asam:
+        ahead, behind, left, right = (
+            asam.uv_to_z_many(u + du, dv) for du, dv in ((step, 0), (-step, 0), (0, 1), (0, -1))
+        )
+    np.testing.assert_allclose(line.slope, (ahead - behind) / (2 * step), rtol=0, atol=1e-7)
+    np.testing.assert_allclose(line.bank, (left - right) / 2, rtol=0, atol=1e-7)
+    beyond = (u < 0) | (u > 2.9)
+    assert np.isnan(line.slope[beyond]).all() == np.isnan(line.bank[beyond]).all() == (mode_u == 0)
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "cubic"])
+def test_a_closed_track_goes_round(shared, interpolation):
+    road = crg.read(shared / "data" / "opencrg" / "Barber.crg", interpolation=interpolation)
+    length = road.closed_to - road.closed_from
+    u = np.random.default_rng(0).uniform(road.u[0] + 1, road.u[-1] - 1, 500)
+    line = surface.reference_line(road, u)
+    for rounds in (-2, -1, 1, 3):
+        again = surface.reference_line(road, u + rounds * length)
+        for name in surface.LINE:
+            np.testing.assert_allclose(again[name], line[name], rtol=0, atol=1e-6 if name in "xy" else 1e-3)
 
 
 @pytest.mark.parametrize("mode", range(5))
@@ -278,9 +337,22 @@ REFUSALS = {
         lambda text: text.replace("$ROAD_CRG ", "$ROAD_CRG\nREFERENCE_LINE_END_X = 20\nREFERENCE_LINE_END_Y = 9\n* "),
         "contradict its headings",
     ),
+    "an end elsewhere than a straight line leads": (
+        "handmade_straight",
+        lambda text: text.replace("LINE_END_X     = 22.0", "LINE_END_X     = 25.0"),
+        "reference_line_end_x: (25, 0) m, but the line ends at (22, 0) m",
+    ),
     "a modifier in words": (
         "handmade_curved", lambda text: text.replace("$ROAD_CRG ", "$ROAD_CRG_MODS\nscale_z_grid = big\n$\n$ROAD_CRG "),
         "scale_z_grid: 'big', expected a number",
+    ),
+    "a decimal comma": (
+        "handmade_straight", lambda text: text.replace("LINE_END_U     = 22.0", "LINE_END_U     = 22,9"),
+        "reference_line_end_u: '22,9', expected a number with a decimal point",
+    ),
+    "a border mode that is none": (
+        "handmade_sloped_opts", lambda text: text.replace("  BORDER_MODE_U = 2 ", "  BORDER_MODE_U = 5 "),
+        "border_mode_u: 5, expected one of 0, 1, 2, 3, 4",
     ),
     "a modifier out of reason": (
         "handmade_curved", lambda text: text.replace("$ROAD_CRG ", "$ROAD_CRG_MODS\nscale_z_grid = 1e9\n$\n$ROAD_CRG "),
@@ -312,6 +384,31 @@ def test_binary_files_that_were_cut_off_or_grew_are_refused(tmp_path):
             crg.read(path)
 
 
+@pytest.mark.parametrize("height", [None, 0.5])
+@pytest.mark.parametrize("format", ["KRBI", "KDBI"])
+def test_numbers_with_their_bytes_the_wrong_way_round_are_called_so(tmp_path, format, height):
+    """Heights of 0.5 m would be read as 1e-43 m: level, and in no way out of reason."""
+    path = small(tmp_path / "road.crg", fmt=format, **({} if height is None else {"z": np.full((30, 5), height)}))
+    whole = path.read_bytes()
+    start, size = whole.index(b"\n", whole.index(b"\n$$$$") + 1) + 1, int(format == "KDBI") * 4 + 4
+    values = np.frombuffer(whole[start : start + 150 * size], f">f{size}")
+    path.write_bytes(whole[:start] + values.byteswap().tobytes() + whole[start + 150 * size :])
+    with pytest.raises(InputError, match="data: numbers stored with their last byte first"):
+        crg.read(path)
+
+
+@pytest.mark.parametrize("column, channel", list(enumerate(("heading", "slope", "bank"))))
+def test_channels_of_the_reference_line_without_a_number_are_named_with_their_place(tmp_path, column, channel):
+    values = {name: np.random.default_rng(1).normal(0, 0.01, 30) for name in ("phi", "slope", "banking")}
+    path = small(tmp_path / "road.crg", fmt="KDBI", **values)
+    whole = bytearray(path.read_bytes())
+    at = whole.index(b"\n", whole.index(b"\n$$$$") + 1) + 1 + 8 * (12 * 8 + column)
+    whole[at : at + 8] = np.array(np.nan, ">f8").tobytes()
+    path.write_bytes(whole)
+    with pytest.raises(InputError, match=rf"reference line, u = 1.2 m: {channel} nan.*, the first of 1 that are none"):
+        crg.read(path)
+
+
 def test_heights_out_of_reason_are_refused_where_they_begin(shared):
     path = shared / "data" / "opencrg" / "belgian_block_damaged.crg"
     with pytest.raises(InputError, match=r"u = 73\d\.\d+ m, v = .* heights out of reason"):
@@ -324,11 +421,15 @@ def test_a_broken_reference_line_is_named_by_channel_and_place(shared):
         crg.read(path, heights="blank")
 
 
-def test_a_single_wild_height_can_be_blanked_by_name(tmp_path):
+@pytest.mark.parametrize("height", [50.0, np.inf])
+def test_a_single_wild_height_can_be_blanked_by_name(tmp_path, height):
     z = np.zeros((30, 5))
     z[12, 2] = 50.0
     path = small(tmp_path / "road.crg", z=z)
-    with pytest.raises(InputError, match="1 heights out of reason, the first 50 m"):
+    stored = np.array(50.0, ">f4").tobytes()
+    assert path.read_bytes().count(stored) == 1
+    path.write_bytes(path.read_bytes().replace(stored, np.array(height, ">f4").tobytes()))
+    with pytest.raises(InputError, match=f"1 heights out of reason, the first {height:g} m"):
         crg.read(path)
     with pytest.raises(InputError, match="no height inside the road"):
         crg.read(path, heights="blank")

@@ -104,8 +104,66 @@ def test_edges_and_holes_are_told_apart():
     assert np.argwhere(edges.holes(heights)).tolist() == [[0, 3]]
 
 
-def test_the_reference_line_is_interpolated(alpine):
-    at = np.array([3.25, 1000.05])
-    line = surface.reference_line(alpine, at)
-    assert set(line) == {"x", "y", "heading", "curvature", "slope", "bank"}
-    np.testing.assert_allclose(line.bank, 0.05 * np.sin(2 * np.pi * at / 300.0), atol=1e-6)
+@pytest.mark.parametrize("interpolation", ["linear", "cubic"])
+def test_the_reference_line_passes_through_its_cross_sections(alpine, interpolation):
+    line = surface.reference_line(alpine, alpine.u.values, interpolation=interpolation)
+    assert tuple(line) == surface.LINE
+    turning = () if interpolation == "linear" else ("heading", "slope")
+    for name in surface.LINE:
+        atol = 1e-3 if name in turning else 1e-9
+        np.testing.assert_allclose(line[name], alpine[name], rtol=0, atol=atol, err_msg=name)
+
+
+def arc(spacing, radius=50.0):
+    """A road along an arc, slope and bank rising evenly, as a file would hold it: heading and slope of segments."""
+    u = np.arange(0, 60 + spacing / 2, spacing)
+    road = road_of(np.zeros((len(u), 5)), u)
+    turn, rise = u / radius, 1e-3 * u
+    line = {"x": radius * np.sin(turn), "y": radius * (1 - np.cos(turn)), "heading": turn + 0.5 * spacing / radius}
+    line["heading"][-1] = line["heading"][-2]
+    line |= {"curvature": np.full(len(u), 1 / radius), "slope": rise - 0.5e-3 * spacing, "bank": 2 * rise}
+    return road.assign({name: ("u", values) for name, values in line.items()})
+
+
+def test_the_cubic_line_follows_an_arc():
+    """Directions and curvature of the arc itself; distance from it falls as the fourth power of the spacing."""
+    at = np.random.default_rng(6).uniform(5, 55, 500)
+    off = []
+    for spacing in (2.0, 1.0):
+        line = surface.reference_line(arc(spacing), at, interpolation="cubic")
+        np.testing.assert_allclose(line.heading, at / 50.0, atol=1e-12)
+        np.testing.assert_allclose(line.curvature, 1 / 50.0, atol=1e-12)
+        np.testing.assert_allclose(line.slope, 1e-3 * at, atol=1e-12)
+        np.testing.assert_allclose(line.bank, 2e-3 * at, atol=1e-12)
+        off.append(np.abs(np.hypot(line.x, line.y - 50.0) - 50.0).max())
+    assert off[0] / off[1] == pytest.approx(16, rel=0.1)
+
+
+def test_the_heading_is_the_direction_of_the_line_up_to_its_ends():
+    """Linear: of the polygon. Cubic: of the spline, to the third power of the turn from one segment to the next."""
+    road, step = arc(1.0), 1e-5
+    at = np.random.default_rng(7).uniform(0.0, 60.0, 500)
+    at = at[np.abs(at - np.round(at)) > 2 * step]
+    for interpolation, atol in (("linear", 1e-9), ("cubic", 1e-5)):
+        before, on, after = (surface.reference_line(road, at + d, interpolation=interpolation) for d in (-step, 0, step))
+        way = np.arctan2(after.y - before.y, after.x - before.x)
+        np.testing.assert_allclose(on.heading, way, atol=atol)
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "cubic"])
+def test_the_line_goes_straight_on_beyond_its_ends(interpolation):
+    line = surface.reference_line(arc(1.0), [[-3.0, -1.0, 0.0], [60.0, 61.0, 63.0]], interpolation=interpolation)
+    along, across = np.diff(line.x), np.diff(line.y)
+    np.testing.assert_allclose(np.hypot(along, across), [[2.0, 1.0], [1.0, 2.0]], atol=1e-12)
+    np.testing.assert_allclose(np.arctan2(across, along), line.heading[:, :2], atol=1e-12)
+    assert (line.curvature.values > 0).tolist() == [[False, False, True], [True, False, False]]
+    assert line.slope.values[0, :2].tolist() == [0.0, 0.0] and (line.bank[1, 1:] == line.bank[1, 0]).all()
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "cubic"])
+def test_the_reference_line_keeps_the_shape_of_positions_and_knows_no_number_from_none(alpine, interpolation):
+    line = surface.reference_line(alpine, [[1.0, np.nan, np.inf]], interpolation=interpolation)
+    for name in surface.LINE:
+        assert line[name].shape == (1, 3)
+        assert np.isfinite(line[name].values).tolist() == [[True, False, False]]
+    assert surface.reference_line(alpine, 5.0).x.shape == ()

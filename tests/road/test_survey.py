@@ -202,6 +202,10 @@ def test_equal_seeds_make_equal_scans(road):
         (lambda t: t.isel(time=slice(None, None, -1)), "trajectory.time: expected at least 10 equal steps forward"),
         (lambda t: t.assign(z=t.z.where(t.time != t.time[7])), "trajectory.z: nan at 0.035 s"),
         (lambda t: t.isel(time=slice(0, 50)), "trajectory"),
+        (lambda t: t.assign(x=t.x + 5.0 * (t.time > 1)), r"trajectory.x: leaps by 5\.\d* m at 1\.\d+ s \(1 such place"),
+        (lambda t: t.assign(z=t.z - 0.5 * (t.time > 1)), r"trajectory.z: leaps by -0\.\d+ m at 1\.\d+ s"),
+        (lambda t: t.assign(roll=np.degrees(t["roll"])), "trajectory.roll: .* rad at .*degrees"),
+        (lambda t: t.assign(pitch=np.degrees(t["pitch"])), "trajectory.pitch: .* rad at .*degrees"),
         (lambda t: t.assign(heading=t.heading + 1.0), "trajectory.heading: .* degrees off .*azimuth"),
     ],
 )
@@ -218,6 +222,7 @@ def test_unusable_trajectories_are_refused(road, spoil, message):
         (lambda b: b._replace(time=np.where(b.time > 1, np.nan, b.time)), "profiles.time: nan"),
         (lambda b: b._replace(time=b.time + 100), "profiles.time: from 100 .* trajectory from 0"),
         (lambda b: b._replace(across=b.across * np.nan), "profiles.across: not a number"),
+        (lambda b: b._replace(height=-b.height), r"profiles.height: \S+ m on the whole from .*, expected the road below"),
         (lambda b: b._replace(height=b.height * np.nan), "no point lies within the grid"),
         (lambda b: b._replace(time=b.time[:2], height=b.height[:2]), "profiles: 2 profiles reach over . cross sections"),
     ],

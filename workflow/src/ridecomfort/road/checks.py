@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +27,9 @@ _TEXT_FIELD = {"LRFI": (10, 8), "LDFI": (20, 4)}
 _NO_VALUE = re.compile(rb"\*.*|nan", re.IGNORECASE)
 """What stands in a text field without a value: asterisks, or a word that begins with one."""
 
+_END_TOLERANCE = 1e-4
+"""Of the length of a reference line, within which its ends lie where the header says."""
+
 _SPACING_TOLERANCE = 0.03
 """Of the reference line's points; what the ASAM library grants where a file gives x and y (crgLoader.c)."""
 
@@ -34,6 +38,14 @@ _BINARY_VALUE = {"KRBI": 4, "KDBI": 8}
 
 _BINARY_BLOCK = 80
 """Bytes that binary data are padded to."""
+
+_MAGNITUDES = 1e-30, 1e9
+"""Between which numbers of a road lie that are not zero, of all channels."""
+
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d.*")
+
+_MODES = {"border_mode_u": 5, "border_mode_v": 5, "refline_continuation": 2, "grid_nan_mode": 3}
+"""How many values those options and modifiers have that choose; they count from 0."""
 
 
 def headers(path: Path) -> list[pycrg.CrgHeader]:
@@ -74,13 +86,37 @@ def _expand(reference: str, path: Path) -> str:
 
 
 def numbers(found: list[pycrg.CrgHeader]) -> None:
-    """InputError for a word where a parameter, option or modifier has its number; the library reads it as zero."""
+    """InputError unless every parameter, option and modifier is a number, and one that is a choice is among its values.
+
+    The library takes words for zero, 1,5 for 1, and a choice that it does not know for its default.
+    """
     for head in found:
-        for key, value in {**head.road, **(head.options or {}), **(head.modifiers or {})}.items():
+        values = {**head.road, **(head.options or {}), **(head.modifiers or {})}
+        for key, text in _entries(head):
+            if key in values and _DECIMAL_COMMA.fullmatch(text):
+                raise InputError(f"{text!r}, expected a number with a decimal point", file=head.path, place=key)
+        for key, value in values.items():
             if isinstance(value, str):
                 raise InputError(f"{value!r}, expected a number", file=head.path, place=key)
             if not np.isfinite(value):
                 raise InputError(f"{value:g}, expected a finite number", file=head.path, place=key)
+            if key in _MODES and value not in range(_MODES[key]):
+                raise InputError(f"{value:g}, expected one of {', '.join(map(str, range(_MODES[key])))}", file=head.path, place=key)
+
+
+def _entries(head: pycrg.CrgHeader) -> Iterator[tuple[str, str]]:
+    """Key, in small letters, and first word of the value of all entries of a header, comments aside."""
+    comment = False
+    with open(head.path, encoding="latin-1") as lines:
+        for line in lines:
+            line = line.strip()
+            if line.startswith("$$$$"):
+                return
+            if line.startswith("$"):
+                comment = not comment and line.upper().startswith("$CT")
+            elif not comment and "=" in line and not line.startswith("*"):
+                key, _, value = line.partition("!")[0].partition("=")
+                yield key.strip().lower(), (value.split() or [""])[0]
 
 
 def extent(head: pycrg.CrgHeader) -> None:
@@ -100,7 +136,8 @@ def payload(head: pycrg.CrgHeader, cross_sections: int) -> None:
     if head.data_format in _TEXT_FIELD:
         _text(head, cross_sections, channels, *_TEXT_FIELD[head.data_format])
     elif head.data_format in _BINARY_VALUE:
-        size = len(_data(head))
+        data = _data(head)
+        size = len(data)
         wanted = cross_sections * channels * _BINARY_VALUE[head.data_format]
         if not wanted <= size < wanted + 2 * _BINARY_BLOCK:
             raise InputError(
@@ -108,10 +145,22 @@ def payload(head: pycrg.CrgHeader, cross_sections: int) -> None:
                 file=head.path,
                 place="data",
             )
+        _byte_order(head, np.frombuffer(data[:wanted], f">f{_BINARY_VALUE[head.data_format]}"))
     else:
         raise InputError(
             f"{head.data_format!r}, expected LRFI, LDFI, KRBI or KDBI", file=head.path, place="$KD_DEFINITION"
         )
+
+
+def _byte_order(head: pycrg.CrgHeader, values: np.ndarray) -> None:
+    """InputError for numbers that make sense only when their bytes are read the other way round."""
+
+    def sensible(numbers: np.ndarray) -> bool:
+        size = np.abs(numbers[np.isfinite(numbers) & (numbers != 0.0)], dtype=np.float64)
+        return bool(((size > _MAGNITUDES[0]) & (size < _MAGNITUDES[1])).all())
+
+    if not sensible(values) and sensible(values.byteswap()):
+        raise InputError("numbers stored with their last byte first, expected the first byte first", file=head.path, place="data")
 
 
 def _data(head: pycrg.CrgHeader) -> bytes:
@@ -206,8 +255,9 @@ def reference_line(grid: pycrg.CrgGrid, path) -> None:
     """InputError unless every point, slope and bank of the line is finite and its points lie as far apart as u says."""
     # The heading first: x and y that follow from a broken one are broken from the start.
     channels = (
-        ("heading", grid.phi, TURN_LIMIT, "rad"), ("height", grid.ref_z, HEIGHT_LIMIT, "m"), ("bank", grid.bank, np.inf, ""),
-        ("x", grid.x, np.inf, "m"), ("y", grid.y, np.inf, "m"),
+        ("heading", grid.phi, TURN_LIMIT, "rad"), ("slope", np.append(0.0, grid.slope[1:]), np.inf, ""),
+        ("height", grid.ref_z, HEIGHT_LIMIT, "m"), ("bank", grid.bank, np.inf, ""), ("x", grid.x, np.inf, "m"),
+        ("y", grid.y, np.inf, "m"),
     )  # fmt: skip
     for name, values, limit, unit in channels:
         wrong = ~np.isfinite(values) | (np.abs(np.nan_to_num(values)) > limit)
@@ -228,6 +278,21 @@ def reference_line(grid: pycrg.CrgGrid, path) -> None:
             file=path,
             place="reference line",
         )
+
+
+def ends(head: pycrg.CrgHeader, grid: pycrg.CrgGrid) -> None:
+    """InputError when the line that was read, modifiers aside, starts or ends elsewhere than the header says."""
+    du = grid.u[1] - grid.u[0]
+    for side, verb, k in (("start", "starts", 0), ("end", "ends", -1)):
+        wanted = [head.road.get(f"reference_line_{side}_{axis}") for axis in "xy"]
+        if None not in wanted:
+            off = np.hypot(wanted[0] - grid.x[k], wanted[1] - grid.y[k])
+            if off > _SPACING_TOLERANCE * du + _END_TOLERANCE * (grid.u[-1] - grid.u[0]):
+                raise InputError(
+                    f"({wanted[0]:.10g}, {wanted[1]:.10g}) m, but the line {verb} at ({grid.x[k]:.10g}, {grid.y[k]:.10g}) m",
+                    file=head.path,
+                    place=f"reference_line_{side}_x",
+                )
 
 
 def positions(head: pycrg.CrgHeader) -> list[float]:
@@ -265,7 +330,7 @@ def order(head: pycrg.CrgHeader) -> None:
 
 
 def unreasonable(elevation: np.ndarray) -> np.ndarray:
-    """True for heights (u, v) beyond HEIGHT_LIMIT, or beyond STEP_LIMIT from the median of their cross section."""
+    """True for heights (u, v) beyond HEIGHT_LIMIT, infinite ones too, or beyond STEP_LIMIT from the median of their cross section."""
     known = np.isfinite(elevation)
     wild = known & (np.abs(np.where(known, elevation, 0.0)) > HEIGHT_LIMIT)
     usable = np.where(known & ~wild, elevation, np.nan)
@@ -273,7 +338,7 @@ def unreasonable(elevation: np.ndarray) -> np.ndarray:
     median = np.zeros(len(elevation))
     median[rows] = np.nanmedian(usable[rows], axis=1)
     with np.errstate(over="ignore"):
-        return wild | (known & (np.abs(np.where(known, elevation, 0.0) - median[:, None]) > STEP_LIMIT))
+        return wild | np.isinf(elevation) | (known & (np.abs(np.where(known, elevation, 0.0) - median[:, None]) > STEP_LIMIT))
 
 
 def folds(heading: np.ndarray, du: float, v: np.ndarray, known: np.ndarray) -> np.ndarray:

@@ -15,6 +15,7 @@ from ..errors import InputError
 from ..store import replacing
 from ..vocabulary import describe
 from . import checks, edges
+from .surface import BORDER_MODES
 
 log = logging.getLogger(__name__)
 
@@ -28,9 +29,6 @@ CHOICES = {
     "folds": ("refuse", "keep"),
 }
 """The options of `read`; the first value of each is its default."""
-
-BORDER_MODES = ("none", "zero", "keep", "repeat", "reflect")
-"""What lies beyond the grid, numbered as OpenCRG's border_mode_u and border_mode_v."""
 
 FORMATS = ("KRBI", "KDBI", "LRFI", "LDFI")
 
@@ -105,6 +103,7 @@ def read(path, **options: str) -> xr.Dataset:
             checks.size(head, stored.u, stored.v)
             wild = _wild(path, stored, chosen["heights"], treatment)
             checks.reference_line(stored, path)
+            checks.ends(head, stored)
             _apply(data, stated, chosen["modifiers"], treatment)
             grid = data.grid()
             attributes = _evaluation(data, treatment)

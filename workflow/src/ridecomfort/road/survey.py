@@ -30,6 +30,12 @@ _CARRIED = 10
 _ASKEW = np.radians(30.0)
 """rad that the heading may lie off the motion on the whole: no vehicle drives so, but an azimuth taken for it does."""
 
+_TILT = 0.7
+"""rad; no vehicle rolls or pitches as far on a road, but degrees taken for radians do."""
+
+_LEAP = {"x": (0.5, 100.0), "y": (0.5, 100.0), "z": (0.2, 10.0)}
+"""m, for noise, and m/s that the scanner may be displaced from one position to the next; more is a leap of the positioning."""
+
 _STEP = 0.002
 """m that the scanner must have moved for another profile to count: standing adds nothing."""
 
@@ -84,8 +90,8 @@ def smooth_trajectory(trajectory: xr.Dataset) -> tuple[xr.Dataset, dict[str, smo
     """A trajectory (time) without the noise that cross-validation finds in it, and the stiffness of each channel.
 
     The paper's lambda_x, lambda_y and lambda_z are ``choices["x"].penalty`` and so
-    on, in s4. Raises InputError unless time runs forward in equal steps and every
-    value is a number.
+    on, in s4. Raises InputError unless time runs forward in equal steps, every
+    value is a number, and position and attitude are such as a vehicle can have.
     """
     time = trajectory.time.values
     steps = np.diff(time)
@@ -97,6 +103,16 @@ def smooth_trajectory(trajectory: xr.Dataset) -> tuple[xr.Dataset, dict[str, smo
         if not np.isfinite(values).all():
             first = int(np.flatnonzero(~np.isfinite(values))[0])
             raise InputError(f"{values[first]} at {time[first]:g} s, expected numbers", place=f"trajectory.{name}")
+        if name in _LEAP:
+            far = np.abs(np.diff(values)) > _LEAP[name][0] + _LEAP[name][1] * steps.mean()
+            if far.any():
+                k = int(far.argmax())
+                problem = f"leaps by {values[k + 1] - values[k]:.3g} m at {time[k + 1]:g} s ({far.sum()} such places)"
+                raise InputError(f"{problem}, expected an unbroken path", place=f"trajectory.{name}")
+        elif name != "heading" and np.abs(values).max() > _TILT:
+            k = int(np.abs(values).argmax())
+            problem = f"{values[k]:.3g} rad at {time[k]:g} s, expected less than {_TILT:g} (or are these degrees?)"
+            raise InputError(problem, place=f"trajectory.{name}")
         values = np.unwrap(values) if name == "heading" else values
         choices[name] = smoothing.cross_validate((values - values[0])[:, None], steps.mean())
         found = smoothing.smooth((values - values[0])[:, None], steps.mean(), choices[name].wavelength)[:, 0]
@@ -174,6 +190,8 @@ def grid(
     first, final = smoothed.time.values[[0, -1]]
     latest = -np.inf
     for block in profiles:
+        if not block.time.size:
+            continue
         _check_block(block, latest, first, final)
         latest = block.time[-1]
         poses = pose(block.time)
@@ -244,6 +262,10 @@ def _check_block(block: Profiles, latest: float, first: float, final: float) -> 
         )
     if not np.isfinite(block.across).all():
         raise InputError("not a number at every point", place="profiles.across")
+    returned = block.height[np.isfinite(block.height)]
+    if returned.size and np.median(returned) > 0.0:
+        problem = f"{np.median(returned):.3g} m on the whole from {block.time[0]:g} to {block.time[-1]:g} s"
+        raise InputError(f"{problem}, expected the road below the scanner (negative)", place="profiles.height")
 
 
 def _settle(held: np.ndarray, first: int, end: int, size: tuple, heights, support, counts) -> np.ndarray:
