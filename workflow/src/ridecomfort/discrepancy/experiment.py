@@ -160,6 +160,12 @@ class Frame:
             numbers.append(np.tile(own, len(self.experiment.channels)))
         return np.concatenate(numbers)
 
+    def drives(self) -> np.ndarray:
+        """Number of the record of every element of ``flat``."""
+        channels = len(self.experiment.channels)
+        counts = [channels * len(self.experiment.records[index].place) for index in self.indices]
+        return np.repeat(np.arange(len(counts)), counts)
+
 
 def frame(
     experiment: Experiment,

@@ -122,27 +122,39 @@ def _renewed(experiment, frame, values, residuals, size: Size, before: np.ndarra
     return frame.flat(column)
 
 
-def covariance(fit: Fit, frame: Frame) -> tuple[np.ndarray, int]:
-    """Covariance of the fitted sizes in probes, and the number of blocks it rests on.
+def covariance(fit: Fit, frame: Frame, groups: np.ndarray, lost: int) -> tuple[np.ndarray, int]:
+    """Covariance of the fitted sizes in probes, and the number of groups it rests on.
 
-    Sandwich estimator: errors of one block may depend on one another in any way (Cameron and Miller 2015, eq. 11).
+    Sandwich estimator: errors of one group (element,) may depend on one another in any way (Cameron and Miller 2015, eq. 11).
+    ``lost``: groups that the fit has used up.
     """
-    residual, blocks = frame.flat(fit.residuals), np.unique(frame.blocks(), return_inverse=True)[1]
-    count = len(fit.columns)
+    residual, numbers = frame.flat(fit.residuals), np.unique(groups, return_inverse=True)[1]
     bread = np.linalg.pinv(evidence.product(fit.columns, fit.columns), rcond=1e-10, hermitian=True)
-    sums = np.stack([np.bincount(blocks, row * residual) for row in fit.columns])
+    sums = np.stack([np.bincount(numbers, row * residual) for row in fit.columns])
     used = int(np.sum(np.any(sums != 0, axis=0)))
-    factor = used / max(used - count, 1)
+    factor = used / max(used - lost, 1)
     return factor * bread @ (sums @ sums.T) @ bread, used
 
 
-def interval(fit: Fit, frame: Frame, size: Size) -> tuple[float, float]:
-    """90 % interval of a fitted size in its unit."""
-    matrix, blocks = covariance(fit, frame)
-    k = fit.keys.index(size.key)
-    half = student.ppf(0.5 + CONFIDENCE / 2, max(blocks - len(fit.keys), 1)) * np.sqrt(matrix[k, k]) * abs(size.probe)
-    value = fit.values[size.key]
-    return value - half, value + half
+def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[float, float]]:
+    """90 % intervals of fitted sizes in their units, by key.
+
+    Errors depend on one another where drives come by the same place, and all along a drive, whose path, clock and mounting
+    are its own: clustered both ways (Cameron, Gelbach and Miller 2011, eq. 2.8), degrees of freedom by Satterthwaite (1946).
+    """
+    place, drive = frame.blocks(), frame.drives()
+    own, places = covariance(fit, frame, place, len(fit.keys))
+    along, drives = covariance(fit, frame, drive, 1)
+    both = covariance(fit, frame, place * (drive.max() + 1) + drive, 1)[0]
+    found = {}
+    for size in sizes:
+        k = fit.keys.index(size.key)
+        parts = own[k, k], max(along[k, k] - both[k, k], 0.0) if drives > 1 else 0.0
+        freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(fit.keys), 1) + parts[1] ** 2 / max(drives - 1, 1))
+        half = student.ppf(0.5 + CONFIDENCE / 2, freedom) * np.sqrt(sum(parts)) * abs(size.probe)
+        value = fit.values[size.key]
+        found[size.key] = value - half, value + half
+    return found
 
 
 def information(frame: Frame, residuals: Mapping[int, np.ndarray]) -> float:

@@ -118,9 +118,8 @@ class _Search:
             check, self.check_frame = self._aligned(base.values, self.held_out)
             self._grounds(base, check)
             ladder.append(self._state(turn.winner.name, base, check))
-        sizes = {size.key: size for size in self._sizes()}
         final, finer = self._final(base)
-        bounds = {key: refit.interval(final, finer, sizes[key]) for key in final.keys}
+        bounds = refit.intervals(final, finer, self._sizes())
         return Selection(
             tuple(rounds), tuple(ladder), self.ground, self.held_out_ground, self.repeats, self.frame,
             tuple(self.accepted), bounds, final, *self._remaining(ladder[0].fit, final),
