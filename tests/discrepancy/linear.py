@@ -15,6 +15,7 @@ class Linear:
     """Residual = noise + sum of (value - truth) * column; three repeats share columns, a fourth drive has its own."""
 
     channels = ("a", "b", "c", "d")
+    each_record = staticmethod(map)
 
     def __init__(self, seed, truth, noise=1.0, twins=None, library=6):
         rng = np.random.default_rng(seed)
@@ -42,6 +43,9 @@ class Linear:
 
     def nuisances(self, values, index):
         return np.ones((1, 4, SAMPLES))
+
+    def finer(self):
+        return self
 
     def realigned(self, amounts):
         return self

@@ -47,6 +47,9 @@ SETTLED = 3
 CYCLES = 8
 """Most such repetitions."""
 
+FINAL_CYCLES = 2
+"""Frames of the last fit, each of the residuals of the one before: an error in what makes it white comes out too small."""
+
 ALIAS = 0.1
 """Share of a candidate's power that nuisances must leave; below it it is one of them under another name."""
 
@@ -165,12 +168,14 @@ class _Search:
     def _final(self, base: Fit) -> tuple[Fit, Frame]:
         """The fit whose sizes are told, with its frame: nuisances are as fine as they matter."""
         self.experiment = self.experiment.finer()
-        residuals, frame = self._aligned(base.values, self.fitted)
-        raw = probe.secants(self.experiment, base.values, residuals, self._sizes(), self.each)
-        columns = probe.white(frame, raw)
-        fit = refit.refit(
-            self.experiment, frame, base.values, self._sizes(), columns, iterations=2, residuals=residuals
-        )
+        values = base.values
+        residuals, frame = self._aligned(values, self.fitted)
+        raw = probe.secants(self.experiment, values, residuals, self._sizes(), self.each)
+        for _ in range(FINAL_CYCLES):
+            columns = probe.white(frame, raw)
+            fit = refit.refit(self.experiment, frame, values, self._sizes(), columns, iterations=2, residuals=residuals)
+            values, residuals = fit.values, fit.residuals
+            frame = exp.frame(self.experiment, residuals, frame.nuisances, self._cleaned(frame, residuals))
         return fit, frame
 
     def _cleaned(self, frame: Frame, residuals) -> dict[int, np.ndarray]:
