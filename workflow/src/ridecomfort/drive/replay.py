@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
-from scipy.signal import butter, sosfiltfilt
+from scipy.signal import butter, sosfiltfilt, welch
 
 from ..errors import InputError
 from ..vehicle.driver import PREVIEW_TIME, path_demand
@@ -40,6 +40,9 @@ CLOCK_LEFT, PATH_LEFT = 1e-3, 0.01
 TUNING_STEPS, SPEED_BANDWIDTH, PATH_BANDWIDTH = 3, 0.4, 0.4
 """Rounds, and Hz up to which a driver model's delay is made up for. What is faster in a recorded speed is mostly noise,
 and in a path the vehicle does it by itself."""
+
+SPEED_WINDOW, SPEED_NOISE = 10.0, (2.0, 0.1)
+"""s of the spectra of a recorded speed, and from which Hz to which share of its rate it holds nothing of the driver."""
 
 LOOK_AHEAD = {"speed": 0.0, "lateral": PREVIEW_TIME}
 """s that a correction is asked for before the place where it is to be driven: a driver who steers for a point ahead
@@ -168,17 +171,17 @@ def replay(
 ) -> Replay:
     """Prepare to drive ``drive`` again: the path and speed that the simulator is asked for.
 
-    Speed over ``u`` is the measured v_x, low-passed; the lateral position is what the driver must aim for to
-    drive ``e`` where that was measured, else the drive's ``lateral_position`` (0 if unknown), plus
+    Speed over ``u`` is the measured v_x, low-passed (``speed_bandwidth``); the lateral position is what the driver must aim
+    for to drive ``e`` where that was measured, else the drive's ``lateral_position`` (0 if unknown), plus
     ``lateral_correction`` (m). The model starts a run-in and ``margin`` (m) before the drive and ends as far behind
-    it, road permitting. ``options`` go to the simulator as they are (step, effects_folder, ...), but for the rate. ``road`` may be what
-    ``simulate.prepare`` makes of one, which saves doing so in every run. Raises InputError when the drive leaves
+    it, road permitting. ``options`` go to the simulator as they are (step, effects_folder, ...), but for the rate. ``road``
+    may be what ``simulate.prepare`` makes of one, which saves doing so in every run. Raises InputError when the drive leaves
     the road or stands.
     """
     options = dict(options or {})
     time = drive["time"].values
     rate = (len(time) - 1) / (time[-1] - time[0])
-    speed = smooth(drive["v_x"].values, rate)
+    speed = smooth(drive["v_x"].values, rate, speed_bandwidth(drive["v_x"].values, rate))
     surface = getattr(road, "road", road)
     place = fused_place(drive, rate, surface)
     label = f"drive {drive.attrs['name']}"
@@ -239,6 +242,21 @@ def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH)
     """Low-passed without delay (Butterworth of second order, forwards and backwards)."""
     sos = butter(2, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
     return sosfiltfilt(sos, values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
+
+
+def speed_bandwidth(speed: np.ndarray, rate: float) -> float:
+    """Hz up to which a recorded speed tells more of the driver than of its own noise, SPEED_BANDWIDTH to DRIVER_BANDWIDTH.
+
+    The model drives whatever it is asked for and shakes by it: what its springs and tyres make of noise that the vehicle
+    never drove is a difference that stiffer ones would make smaller (at 1 Hz and 14 mm/s, by 0.2 percent). Noise is taken
+    for white, with the density that the speed has above the driver.
+    """
+    length = min(len(speed) - 1, int(SPEED_WINDOW * rate))
+    frequency, density = welch(np.diff(speed) * rate, rate, nperseg=length)  # of its slope: so slow changes do not leak
+    frequency, density = frequency[1:], density[1:] / (2 * rate * np.sin(np.pi * frequency[1:] / rate)) ** 2
+    noise = np.median(density[(frequency >= SPEED_NOISE[0]) & (frequency <= SPEED_NOISE[1] * rate)])
+    drowned = frequency[(density < 2 * noise) & (frequency > SPEED_BANDWIDTH)]
+    return float(min(drowned[0], DRIVER_BANDWIDTH)) if drowned.size else DRIVER_BANDWIDTH
 
 
 def fused_place(drive: xr.Dataset, rate: float, road: xr.Dataset) -> np.ndarray:
