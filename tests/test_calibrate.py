@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.optimize import least_squares
 
-from ridecomfort import calibrate, calibrated, identifiability, simulate
+from ridecomfort import calibrate, calibrated, descent, identifiability, simulate
 from ridecomfort.discrepancy import compare
 from ridecomfort.drive import record
 from ridecomfort.effects import library
@@ -117,6 +118,36 @@ def test_a_truth_beyond_the_bounds_ends_at_the_bound_in_words(road, nominal):
     assert "spring_stiffness_front is at its lower bound" in found.attrs["remarks"]
 
 
+def test_chosen_starts_lead_to_the_same_fit_and_are_kept(road, nominal):
+    drives = measured(road, nominal.replace(**TRUTH), count=1)
+    low = {"spring_stiffness_front": 18000.0, "tyre_radial_stiffness": 2.6e5}
+    high = {"spring_stiffness_front": 38000.0, "tyre_radial_stiffness": 3.9e5}
+    found = calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, start=[low, high], restarts=0)
+    assert value(found, "spring_stiffness_front", "initial") == 18000.0
+    assert value(found, "spring_stiffness_rear", "initial") == nominal["spring_stiffness_rear"]
+    assert found.attrs["start"].endswith("; spring_stiffness_front 18000; tyre_radial_stiffness 260000")
+    usual = calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, restarts=0)
+    assert found.sizes["restart"] == 2 and usual.sizes["restart"] == 1
+    np.testing.assert_allclose(found["restart_cost"], float(usual["restart_cost"][0]), rtol=2e-3)
+    for name in TRUTH:
+        width = value(usual, name, "interval_upper") - value(usual, name, "interval_lower")
+        assert abs(value(found, name) - value(usual, name)) < 0.1 * width
+
+
+def test_a_search_that_carries_its_jacobian_ends_where_one_that_makes_it_anew_does(road, nominal):
+    drives = measured(road, nominal.replace(**TRUTH), count=1)
+    task = calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, parameters=tuple(TRUTH))
+    start = task.point([nominal[name] for name in TRUTH])
+    found = descent.descend(task, start, [0, 1, 2], 1e-4, exact=True)
+    # The reference: scipy alone, every Jacobian by differences, to a thousandth of the tolerance.
+    best = least_squares(
+        task.flat, start, jac=lambda point: task.jacobian(point, [0, 1, 2]), bounds=(0, 1), ftol=1e-7, xtol=1e-7
+    )  # fmt: skip
+    assert found.cost < best.cost * (1 + 1e-4)
+    assert found.evaluations < 4 * len(found.path)  # a base and a column each at every point of the path, were it made anew
+    np.testing.assert_allclose(found.jacobian, task.jacobian(found.point, [0, 1, 2]))
+
+
 def test_drives_kept_for_checking_do_not_enter_the_fit(road, nominal):
     drives = measured(road, nominal.replace(**TRUTH), roles=("fit", "check"))
     task = calibrate.problem(record.stack(drives), road, nominal, simulate=quarter_cars.run)
@@ -155,6 +186,12 @@ def test_bad_settings_are_refused(road, nominal):
         calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, profiles=["damping_front"])
     with pytest.raises(InputError, match="tyre_friction: bounds 1.4 to 0.7"):
         calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, bounds={"tyre_friction": (1.4, 0.7)})
+    for start, words in (
+        ({"damping_front": 1.0}, "start: 'damping_front' is not calibrated"),
+        ({"tyre_friction": 2.0}, "start: tyre_friction: 2 .expected within the bounds 0.7 to 1.4"),
+    ):
+        with pytest.raises(InputError, match=words):
+            calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, start=[start])
     with pytest.raises(InputError, match="expected joint or sequence"):
         calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, applied="both")
 
@@ -175,6 +212,27 @@ def test_intervals_hold_the_truth_as_often_as_they_say_though_residuals_are_corr
         naive += abs(error[0]) < 1.645 * left.std() / np.linalg.norm(jacobian[0, :, 0])
     assert held / trials == pytest.approx(0.90, abs=0.06)  # four standard errors of 400 trials
     assert naive / trials < 0.5
+
+
+def test_intervals_are_those_of_the_fit_that_takes_errors_out():
+    """Local errors of a usual size, taken out as far as the data ask for it: scores of the residual itself are too wide."""
+    rng = np.random.default_rng(8)
+    count, errors, trials, size = 2000, 100, 300, 0.5
+    time = np.arange(count)
+    columns = np.maximum(0.0, 1.0 - np.abs(time[:, None] / 20 - np.arange(errors)))
+    own = np.convolve(rng.standard_normal(count + 29), np.ones(30) / 30**0.5, mode="valid") + 0.3 * rng.standard_normal(count)
+    project = np.eye(count) - columns @ np.linalg.solve(columns.T @ columns + np.eye(errors) / size**2, columns.T)
+    jacobian = (project @ own)[None, :, None]
+    influence = (project @ project @ own)[None, :, None]
+    held, wide = 0, 0
+    for _ in range(trials):
+        residual = columns @ (size * rng.standard_normal(errors)) + rng.standard_normal(count)
+        error = float(jacobian[0, :, 0] @ project @ residual) / float(np.sum(jacobian**2))
+        left = (residual - error * own)[None]
+        held += abs(error) < identifiability.assess(jacobian, left, time // 50, influence).half_width[0]
+        wide += abs(error) < identifiability.assess(jacobian, left, time // 50).half_width[0]
+    assert held / trials == pytest.approx(0.90, abs=0.07)  # four standard errors of 300 trials
+    assert wide > held
 
 
 def test_what_a_single_block_knows_is_not_known():

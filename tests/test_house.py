@@ -14,7 +14,7 @@ PACKAGE = Path(ridecomfort.__file__).parent
 ORDER = [
     {"vocabulary", "errors", "store", "schema"},
     {"road", "vehicle", "effects", "drive"},
-    {"simulate", "space", "sample", "calibrated", "problem", "identifiability", "calibrate", "standin"},
+    {"simulate", "space", "sample", "calibrated", "problem", "descent", "identifiability", "calibrate", "standin"},
     {"comfort", "discrepancy"},
     {"report", "config", "stepsettings"},
     {"steps", "commands", "__main__"},

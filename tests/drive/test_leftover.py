@@ -86,8 +86,21 @@ def test_the_clock_is_taken_out_no_further_than_it_is_trusted_to(again, car, clo
 def test_a_path_that_is_off_is_corrected_by_what_the_residual_asks_for(again, car):
     u = again.demand["lateral"]["u"]
     off = replace(again, demand={**again.demand, "lateral": again.demand["lateral"] + 0.01 * np.sin(u / 30)})
-    found = off
+    found, errors = off, projection(off, car)
     for _ in range(3):
-        found = leftover.corrected(found, projection(found, car), found.residual(found(car))[:, found.compared])
+        found, errors = leftover.corrected(found, errors, found.residual(found(car))[:, found.compared])
     rms = [np.std(one.residual(one(car))[SIGNALS.index("yaw_rate"), one.compared]) for one in (off, found)]
     assert rms[1] < 0.4 * rms[0]
+
+
+def test_asking_again_does_not_ask_for_more(again, car):
+    """Usual sizes count from the path as aligned: else every round would follow the noise of the record a little farther."""
+    u = again.demand["lateral"]["u"]
+    found = replace(again, demand={**again.demand, "lateral": again.demand["lateral"] + 0.01 * np.sin(u / 30)})
+    whole = projection(found, car)
+    errors = leftover.Projection(whole.columns, 1e4 * whole.prior, whole.parts)  # sizes that hold half of the path back
+    sizes = []
+    for _ in range(6):
+        found, errors = leftover.corrected(found, errors, found.residual(found(car))[:, found.compared])
+        sizes.append(np.std(errors.driven[errors.parts["lateral"]]))
+    assert sizes == pytest.approx([sizes[0]] * 6, rel=0.02) and sizes[0] < 0.005  # of a path that was moved by 0.007 m rms

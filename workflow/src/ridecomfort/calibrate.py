@@ -10,7 +10,7 @@ a trust region that bends at the bounds; MINPACK's own "lm" knows no bounds).
 What alignment may have left of every drive's clock, path, speed and mounting (``drive.leftover``) is
 projected out of the residuals, about a first rough fit. The clock no further than CLOCK_LEFT: a damping
 would be fitted to a delay, or a delay to a damping. The intervals are those of an M-estimator whose residuals
-are correlated in any way within 2 s and among the signals; they hold what alignment left in full.
+are correlated in any way within 2 s and among the signals; what alignment left moves them as far as it moves the fit.
 """
 
 from __future__ import annotations
@@ -19,12 +19,11 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from scipy.optimize import least_squares
 from scipy.stats import qmc
 
 from . import identifiability
 from . import simulate as simulator
-from .calibrated import with_values
+from .descent import Descent, descend
 from .drive.record import unstack
 from .drive.replay import CLOCK_LEFT, replay
 from .errors import InputError
@@ -41,18 +40,15 @@ BOUNDS = {
 }
 """tab:constraints, SI."""
 
-UNSEEN = 1e-9
-"""NRMSE over the whole width of the bounds below which a parameter counts as without effect and is left alone."""
-
-MOST_TRIALS = 50
-"""Trial points of one search; a well-posed one takes fewer than 15."""
-
 COARSE = 1e-3
 """Tolerance of a search from a random start; one that ends below the best is carried on with the full tolerance."""
 
 EQUAL = 1e-4
 """Relative difference of cost within which two fits are equally good; the first of them stays, the nearest to the
 nominal vehicle where the data are silent."""
+
+DISAGREE = 0.01
+"""Relative difference of cost from which on two fits are different ones, and which is said."""
 
 PROFILE_PLACES = 9
 """Places of a profile of the cost."""
@@ -104,6 +100,7 @@ def calibrate(
     signals: Sequence[str] = SIGNALS,
     applied: str = "joint",
     sequence: bool = True,
+    start: Sequence[Mapping[str, float]] = (),
     restarts: int = 2,
     tolerance: float = 1e-4,
     seed: int = 0,
@@ -118,8 +115,9 @@ def calibrate(
     tab:constraints and add parameters of effects as "effect.parameter" (SI), whose ``units`` may be named; other
     parameters of the vehicle without bounds lie between half and twice their nominal value, as far as plausible.
     ``effects`` holds their start and what is not fitted of them. The start is the nominal
-    vehicle, clipped into the bounds. OP_1 ... OP_5 fit one parameter after the other (fig:optichain), an
-    effect's after them; the joint fit starts where they end and from ``restarts`` random points.
+    vehicle, clipped into the bounds, with the values of the first of ``start``, mappings of parameter to value in SI units.
+    OP_1 ... OP_5 fit one parameter after the other (fig:optichain), an effect's after them; the joint fit starts where
+    they end, from the further ones of ``start`` and from ``restarts`` random points (restart_cost, restart_value).
     ``applied`` says whose values are ``value``: "joint" (default) or "sequence", as in the paper; without
     ``sequence`` there is the joint fit alone. ``profiles`` names parameters whose profile of the cost is wanted.
 
@@ -138,46 +136,54 @@ def calibrate(
     unknown = [name for name in profiles if name not in task.parameters]
     if unknown:
         raise InputError(f"{unknown[0]!r} is not calibrated (expected of {', '.join(task.parameters)})", place="profiles")
-    start = task.point([_nominal(vehicle, effects or {}, name) for name in task.parameters])
+    nominal = {name: _nominal(vehicle, effects or {}, name) for name in task.parameters}
+    starts = [_started(task, nominal, given) for given in start or [{}]]
     everything = list(range(len(task.parameters)))
-    first, _ = _descend(task, start, everything, COARSE, "joint", [])
-    task = task.about(first)
-    path, steps = [], []
-    in_sequence = first
-    for index, name in enumerate(task.parameters) if sequence else ():
-        label = f"OP_{index + 1}"
-        in_sequence, row = _descend(task, start if index == 0 else in_sequence, [index], tolerance, label, path)
-        steps.append(row)
-    sampler = qmc.LatinHypercube(len(everything), rng=np.random.default_rng(seed))
-    point, row = _descend(task, in_sequence, everything, tolerance, "joint", path)
-    fits = [(point, row)]
-    for place in sampler.random(restarts):
-        other, its_row = _descend(task, place, everything, max(tolerance, COARSE), "joint", [])
-        if its_row["cost"] < row["cost"] * (1 - EQUAL):
-            other, its_row = point, row = _descend(task, other, everything, tolerance, "joint", [])
-        fits.append((other, its_row))
-    steps.append(row)
-    chosen = point if applied == "joint" else in_sequence
-    knowledge = _assess(task, chosen)
-    result = _dataset(task, start, chosen, in_sequence, steps, path, knowledge)
+    first = descend(task, starts[0], everything, COARSE)
+    task = task.about(first.point)
+    steps, point, columns = {}, first.point, None
+    if sequence:
+        point, columns = starts[0], np.zeros_like(first.jacobian)
+        for index in everything:
+            found = descend(task, point, [index], tolerance)
+            point, columns[:, index] = found.point, found.jacobian[:, index]
+            steps[f"OP_{index + 1}"] = found
+    in_sequence = point
+    best = descend(task, in_sequence, everything, tolerance, known=columns, exact=True)
+    fits = [best]
+    random = qmc.LatinHypercube(len(everything), rng=np.random.default_rng(seed)).random(restarts)
+    for place in (*starts[1:], *random):
+        found = descend(task, place, everything, max(tolerance, COARSE), known=best.jacobian)
+        if not -EQUAL < found.cost / best.cost - 1 < DISAGREE:
+            found = descend(task, found.point, everything, tolerance, known=found.jacobian, exact=True)
+        if found.cost < best.cost * (1 - EQUAL):
+            best = found
+        fits.append(found)
+    steps["joint"] = best
+    chosen = best.point if applied == "joint" else in_sequence
+    jacobian = best.jacobian if applied == "joint" else task.jacobian(chosen, everything)
+    knowledge = _assess(task, chosen, jacobian)
+    result = _dataset(task, starts[0], chosen, in_sequence, steps, knowledge)
     if profiles:
         result = result.merge(_profiles(task, chosen, knowledge, profiles))
     remarks = identifiability.remarks(list(task.parameters), chosen, knowledge)
-    result["restart_cost"] = "restart", np.array([fit["cost"] for _, fit in fits])
-    result["restart_value"] = ("restart", "parameter"), np.stack([task.values(end) for end, _ in fits])
+    result["restart_cost"] = "restart", np.array([fit.cost for fit in fits])
+    result["restart_value"] = ("restart", "parameter"), np.stack([task.values(fit.point) for fit in fits])
     eager = result["drive"].values[np.abs(result["clock_correction"].values) >= CLOCK_LEFT]
     if eager.size:
         remarks.append(
             f"the clock of {', '.join(eager)} would move by more than the {1e3 * CLOCK_LEFT:g} ms it is trusted to: "
             "the model lacks a delay or a damping"
         )
-    worst = float(result["restart_cost"].max() / row["cost"] - 1)
-    if worst > 0.01:
+    worst = float(result["restart_cost"].max() / best.cost - 1)
+    if worst > DISAGREE:
         remarks.append(f"starts disagree: the worst of {len(fits)} ends at a cost {100 * worst:.1f} % above the best")
     result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
     result.attrs.update(
         applied=applied,
-        start="the nominal vehicle, clipped into the bounds",
+        start="; ".join(
+            ["the nominal vehicle, clipped into the bounds", *(f"{name} {value:g}" for name, value in dict(*start[:1]).items())]
+        ),
         stopping_rule=f"relative change of cost or step below {tolerance:g} (scipy least_squares, trf: ftol, xtol)",
         drives=", ".join(again.drive.attrs["name"] for again in task.replays),
         remarks="; ".join(remarks) or "none",
@@ -214,7 +220,7 @@ def profile(
     for place in np.asarray(places, dtype=float):
         first = np.array(point, dtype=float)
         first[held] = (place - task.lower[held]) / width
-        costs.append(_descend(task, first, free, tolerance, parameter, [])[1]["cost"])
+        costs.append(descend(task, first, free, tolerance).cost)
     return xr.DataArray(costs, {"value": places}, "value", name=parameter)
 
 
@@ -231,76 +237,29 @@ def _profiles(task: Problem, point, knowledge: identifiability.Knowledge, names:
     return xr.Dataset({"profile_value": (over, places), "profile_cost": (over, costs)}, {"profile": list(names)})
 
 
-def _descend(task: Problem, start, free, tolerance, label, path) -> tuple[np.ndarray, dict]:
-    """One least-squares fit of the free parameters: where it ends, and its row of the table of steps."""
-    before, iterations = task.evaluations, []
-    start = np.clip(start, 1e-6, 1 - 1e-6)
-    sensitivity = np.linalg.norm(task.jacobian(start, free), axis=0)
-    free = [index for index, size in zip(free, sensitivity) if size > UNSEEN]
-
-    def full(part: np.ndarray) -> np.ndarray:
-        point = np.array(start, dtype=float)
-        point[free] = part
-        return point
-
-    def row(cost: float, point: np.ndarray, message: str) -> dict:
-        path.extend(iterations)
-        return {
-            "label": label,
-            "cost": cost,
-            "iterations": len(iterations),
-            "evaluations": task.evaluations - before,
-            "point": point,
-            "nrmse": task.nrmse(point),
-            "stopped": message.strip("`. ").replace("`", ""),
-        }
-
-    if not free:
-        cost = 0.5 * float(np.sum(task.flat(start) ** 2))
-        return start, row(cost, start, "no signal depends on the parameter")
-
-    def jacobian(part: np.ndarray) -> np.ndarray:
-        point = full(part)
-        iterations.append((label, point, 0.5 * float(np.sum(task.flat(point) ** 2))))
-        return task.jacobian(point, free)
-
-    outcome = least_squares(
-        lambda part: task.flat(full(part)),
-        start[free],
-        jac=jacobian,
-        bounds=(0.0, 1.0),
-        method="trf",
-        ftol=tolerance,
-        xtol=tolerance,
-        gtol=None,
-        max_nfev=MOST_TRIALS,
-    )
-    point = full(outcome.x)
-    return point, row(float(outcome.cost), point, outcome.message)
-
-
-def _assess(task: Problem, point: np.ndarray) -> identifiability.Knowledge:
-    """What is known at a point. Path, clock and mounting are taken out of the fit but not out of its error: what they
-    hide is not what the drive shows, and what was found of them is only known as well as the model is right."""
-    count = len(task.parameters)
-    jacobian = task.jacobian(point, range(count))
-    parts, residuals, blocks, first = [], [], [], 0
+def _assess(task: Problem, point: np.ndarray, jacobian: np.ndarray) -> identifiability.Knowledge:
+    """What is known at a point. The residuals are those that alignment left: what the fit finds of path, clock and mounting it
+    finds in the same signals, so what is left behind them is too small for an error. They count by what they do to the fit."""
     length = max(1.0, BLOCK * np.mean([np.ptp(again.place) / np.ptp(again.time) for again in task.replays]))
     roads = list(dict.fromkeys(id(again.road) for again in task.replays))
-    for again, residual in zip(task.replays, task.residuals_as_aligned(point)):
-        part = jacobian[first : first + residual.size].reshape(*residual.shape, count)
-        first += residual.size
-        place = again.place[again.compared]
+    residuals, blocks = task.residuals_as_aligned(point), []
+    for again in task.replays:
         # Repeats of a place share a block: what the model lacks there, it lacks in every repeat.
-        blocks.append(10**6 * roads.index(id(again.road)) + np.floor(place / length).astype(np.int64))
-        parts.append(part)
-        residuals.append(residual)
+        part = np.floor(again.place[again.compared] / length).astype(np.int64)
+        blocks.append(10**6 * roads.index(id(again.road)) + part)
+    first, parts = 0, []
+    for residual in residuals:
+        parts.append(jacobian[first : first + residual.size].reshape(*residual.shape, -1))
+        first += residual.size
     return identifiability.assess(
-        np.concatenate(parts, axis=1), np.concatenate(residuals, axis=1), np.concatenate(blocks)
+        np.concatenate(parts, axis=1),
+        np.concatenate(residuals, axis=1),
+        np.concatenate(blocks),
+        np.concatenate(task.influence(point, jacobian), axis=1),
     )
 
 
-def _dataset(task, start, chosen, in_sequence, steps, path, knowledge) -> xr.Dataset:
+def _dataset(task, start, chosen, in_sequence, steps: Mapping[str, Descent], knowledge) -> xr.Dataset:
     names = list(task.parameters)
     width = task.upper - task.lower
     value = task.values(chosen)
@@ -310,6 +269,7 @@ def _dataset(task, start, chosen, in_sequence, steps, path, knowledge) -> xr.Dat
     deviation = np.sqrt(np.diag(knowledge.covariance))
     with np.errstate(invalid="ignore"):
         correlation = knowledge.covariance / np.outer(deviation, deviation)
+    path = [(label, point, cost) for label, step in steps.items() for point, cost in step.path]
     return xr.Dataset(
         {
             "value": ("parameter", value),
@@ -323,12 +283,12 @@ def _dataset(task, start, chosen, in_sequence, steps, path, knowledge) -> xr.Dat
             "correlation": (("parameter", "other"), correlation),
             "signal_share": (("parameter", "signal"), knowledge.information),
             "singular_value": ("rank", knowledge.singular_values),
-            "cost": ("step", np.array([row["cost"] for row in steps])),
-            "iterations": ("step", np.array([row["iterations"] for row in steps])),
-            "evaluations": ("step", np.array([row["evaluations"] for row in steps])),
-            "stopped": ("step", np.array([row["stopped"] for row in steps])),
-            "step_value": (("step", "parameter"), np.stack([task.values(row["point"]) for row in steps])),
-            "step_nrmse": (("step", "drive", "signal"), np.stack([row["nrmse"] for row in steps])),
+            "cost": ("step", np.array([step.cost for step in steps.values()])),
+            "iterations": ("step", np.array([len(step.path) for step in steps.values()])),
+            "evaluations": ("step", np.array([step.evaluations for step in steps.values()])),
+            "stopped": ("step", np.array([step.stopped for step in steps.values()])),
+            "step_value": (("step", "parameter"), np.stack([task.values(step.point) for step in steps.values()])),
+            "step_nrmse": (("step", "drive", "signal"), np.stack([step.nrmse for step in steps.values()])),
             "initial_nrmse": (("drive", "signal"), task.nrmse(start)),
             "clock_correction": ("drive", left_over[:, 0], {"units": "s"}),
             "path_correction": ("drive", left_over[:, 1], {"units": "m"}),
@@ -340,7 +300,7 @@ def _dataset(task, start, chosen, in_sequence, steps, path, knowledge) -> xr.Dat
             "parameter": names,
             "other": names,
             "signal": list(task.signals),
-            "step": [row["label"] for row in steps],
+            "step": list(steps),
             "drive": [again.drive.attrs["name"] for again in task.replays],
         },
     )
@@ -356,6 +316,18 @@ def _bounds(vehicle, parameters: Sequence[str], given: Mapping[str, Sequence[flo
         wide = max(0.5 * vehicle[name], span.lower), min(2.0 * vehicle[name], span.upper)
         bounds[name] = given.get(name, BOUNDS.get(name, wide))
     return {**bounds, **{name: pair for name, pair in given.items() if "." in name}}
+
+
+def _started(task: Problem, nominal: Mapping[str, float], given: Mapping[str, float]) -> np.ndarray:
+    """The point of the nominal values, clipped, with those that are given."""
+    for name, value in given.items():
+        if name not in task.parameters:
+            raise InputError(f"{name!r} is not calibrated (expected of {', '.join(task.parameters)})", place="start")
+        index = task.parameters.index(name)
+        if not task.lower[index] <= value <= task.upper[index]:
+            bounds = f"{task.lower[index]:g} to {task.upper[index]:g}"
+            raise InputError(f"{value:g} (expected within the bounds {bounds})", place=f"start: {name}")
+    return task.point([given.get(name, value) for name, value in nominal.items()])
 
 
 def _nominal(vehicle, effects: Mapping[str, Mapping[str, float]], name: str) -> float:

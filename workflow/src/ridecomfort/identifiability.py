@@ -39,8 +39,13 @@ class Knowledge:
     blocks: int
 
 
-def assess(jacobian: np.ndarray, residual: np.ndarray, block: np.ndarray) -> Knowledge:
+def assess(
+    jacobian: np.ndarray, residual: np.ndarray, block: np.ndarray, influence: np.ndarray | None = None
+) -> Knowledge:
     """From Jacobian (signal, sample, parameter), residual (signal, sample) and the block each sample belongs to.
+
+    ``influence``, as the Jacobian: what a unit of the residual adds to the gradient of the squares, where the least squares
+    are not those of this residual itself but of what is left of it when errors have been taken out.
 
     Jackknife over blocks, CV3 of MacKinnon, Nielsen and Webb (2023), J. Econometrics 232:272, eq. 14: residuals may be
     correlated in any way among signals and within a block, and have any variance; blocks are independent. Unlike the
@@ -49,6 +54,7 @@ def assess(jacobian: np.ndarray, residual: np.ndarray, block: np.ndarray) -> Kno
     not see at all gets an infinite variance, not an error.
     """
     count = jacobian.shape[-1]
+    influence = jacobian if influence is None else influence
     size = np.sqrt(np.einsum("stp,stp->p", jacobian, jacobian))
     seen = size > 1e-9 * size.max()
     size = np.where(seen, size, 1.0)
@@ -57,7 +63,7 @@ def assess(jacobian: np.ndarray, residual: np.ndarray, block: np.ndarray) -> Kno
     for label in range(labels.size):
         part, left = jacobian[:, index == label] / size, residual[:, index == label]
         squares[label] = np.einsum("stp,stq->pq", part, part)
-        scores[label] = np.einsum("stp,st->p", part, left)
+        scores[label] = np.einsum("stp,st->p", influence[:, index == label] / size, left)
     normal = squares.sum(axis=0)
     weights, directions = np.linalg.eigh(normal)
     known = directions[:, weights > 1e-10 * weights.max()]

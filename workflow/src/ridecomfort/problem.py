@@ -12,7 +12,7 @@ import numpy as np
 
 from .calibrated import with_values
 from .drive.leftover import FLOOR, INDEPENDENT, corrected, leftover
-from .drive.replay import Replay
+from .drive.replay import CLOCK_LEFT, Replay
 from .drive.sampling import low_pass, low_pass_matrix
 from .vocabulary import SIGNALS
 
@@ -20,7 +20,9 @@ DIFFERENCE = 2e-3
 """Step of the finite differences in units of the bounds' width."""
 
 ROUNDS = 4
-"""Times that path and speed are corrected by what the residual asks for, which is linear in them only when near."""
+"""Times that path and speed are corrected by what the residual asks for, which is linear in them only when near. What an
+error of them does to the signals is found once: found again about the corrected path, it changes no parameter by a tenth of
+its interval."""
 
 PASSED = 0.7
 """Share of the record's cut-off up to which signals are fitted. Above it the shape of the instrument's filter,
@@ -49,7 +51,7 @@ class Problem:
     def __post_init__(self):
         self._used = [SIGNALS.index(signal) for signal in self.signals]
         self._ranges = [np.ptp(again.measured()[:, again.compared], axis=1) for again in self.replays]
-        self._known: dict[bytes, list[np.ndarray]] = {}
+        self._known: dict[bytes, list[tuple[np.ndarray, np.ndarray]]] = {}
         self._scale, self._left_over = [], []
         for again, ranges in zip(self.replays, self._ranges):
             span = np.where(ranges > 0, ranges, np.inf)[self._used]  # a signal that never changes has no NRMSE
@@ -66,11 +68,12 @@ class Problem:
         replays = [again.tuned(vehicle, effects) for again in self.replays]
         nearer = replace(self, replays=replays, vehicle=vehicle, effects=effects, uncorrected=replays)
         for _ in range(ROUNDS):
-            nearer.replays = [
+            pairs = [
                 corrected(again, projection, nearer._residual(again, i, vehicle, effects))
                 for i, (again, projection) in enumerate(zip(nearer.replays, nearer._left_over))
             ]
-        return replace(nearer)
+            nearer.replays, nearer._left_over = (list(rows) for rows in zip(*pairs))
+        return nearer
 
     def point(self, values) -> np.ndarray:
         """Values in SI units as a point, clipped to the bounds."""
@@ -82,22 +85,37 @@ class Problem:
 
     def residuals(self, point: np.ndarray) -> list[np.ndarray]:
         """Per drive (signal, sample), scaled so that the sum of squares is the mean over drives of sum NRMSE^2."""
+        return [left for _, left in self._evaluated(point)]
+
+    def _evaluated(self, point: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Per drive the residual and what the projection leaves of it; the last points are remembered."""
         key = np.asarray(point, dtype=float).tobytes()
         if key not in self._known:
             if len(self._known) > 4 * len(self.parameters):
-                self._known.clear()
+                del self._known[next(iter(self._known))]
             self.evaluations += 1
             vehicle, effects = self._car(point)
-            self._known[key] = [
-                projection(self._residual(again, i, vehicle, effects))
-                for i, (again, projection) in enumerate(zip(self.replays, self._left_over))
-            ]
+            residuals = [self._residual(again, i, vehicle, effects) for i, again in enumerate(self.replays)]
+            self._known[key] = [(whole, projection(whole)) for whole, projection in zip(residuals, self._left_over)]
         return self._known[key]
 
     def residuals_as_aligned(self, point: np.ndarray) -> list[np.ndarray]:
         """The same as ``residuals``, with all that alignment left in them."""
         vehicle, effects = self._car(point)
         return [self._residual(again, i, vehicle, effects) for i, again in enumerate(self.uncorrected or self.replays)]
+
+    def influence(self, point: np.ndarray, jacobian: np.ndarray) -> list[np.ndarray]:
+        """Per drive (signal, sample, parameter): by how much each sample as aligned moves the gradient of the cost.
+
+        The least squares are those of a residual that errors have been taken out of, so what a sample adds to the gradient
+        is its Jacobian (``jacobian``, of all drives) with the errors taken out once more.
+        """
+        columns, first = [], 0
+        for residual, projection, (clock, _) in zip(self.residuals(point), self._left_over, self.left_over(point)):
+            part = jacobian[first : first + residual.size].reshape(*residual.shape, -1)
+            first += residual.size
+            columns.append(projection.change(part, clock=abs(clock) < CLOCK_LEFT))
+        return columns
 
     def _car(self, point: np.ndarray):
         return with_values(self.vehicle, self.effects, dict(zip(self.parameters, self.values(point))))
@@ -113,10 +131,9 @@ class Problem:
 
     def left_over(self, point: np.ndarray) -> np.ndarray:
         """Clock offset (s) and mean distance from the path (m, to the left) left of each drive at a point, (drive, 2)."""
-        vehicle, effects = self._car(point)
         rows = []
-        for i, (again, projection) in enumerate(zip(self.replays, self._left_over)):
-            errors = projection.errors(self._residual(again, i, vehicle, effects))
+        for (residual, _), projection in zip(self._evaluated(point), self._left_over):
+            errors = projection.errors(residual)
             path = errors[projection.parts["lateral"]] if "lateral" in projection.parts else np.zeros(1)
             rows.append((errors[0], path.mean()))
         return np.array(rows)
@@ -134,7 +151,7 @@ class Problem:
             moved = np.array(point, dtype=float)
             moved[index] += step
             columns.append((self.flat(moved) - base) / step)
-        return np.stack(columns, axis=1)
+        return np.stack(columns, axis=1) if columns else np.zeros((base.size, 0))
 
     def nrmse(self, point: np.ndarray) -> np.ndarray:
         """RMSE over the measured range, (drive, signal)."""

@@ -7,6 +7,7 @@ again: what the vehicle and an error of the record can both explain is known of 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -80,14 +81,31 @@ class Projection:
     """Takes the errors that explain a residual best, the usual sizes in mind, out of it."""
 
     def __init__(self, columns: csr_array, prior: np.ndarray, parts: Mapping[str, slice]):
-        self.columns, self.parts = columns, parts
+        self.columns, self.prior, self.parts = columns, prior, parts
+        self.driven = np.zeros(prior.size)
         self._normal = (columns.T @ columns).toarray() + np.diag(prior)
         self._all = cho_factor(self._normal)
         self._timed = cho_factor(self._normal[1:, 1:])
 
+    def about(self, driven: np.ndarray) -> Projection:
+        """The same where these of the errors are driven already: the usual sizes still count from nought."""
+        other = copy(self)
+        other.driven = driven
+        return other
+
+    def change(self, rows: np.ndarray, clock: bool = True) -> np.ndarray:
+        """What is left of a small change of the residual, (signal, sample, n); ``clock``: whether it is free to move."""
+        flat = rows.reshape(-1, rows.shape[-1])
+        right = self.columns.T @ flat
+        if clock:
+            errors = cho_solve(self._all, right)
+        else:
+            errors = np.concatenate([np.zeros((1, right.shape[1])), cho_solve(self._timed, right[1:])])
+        return (flat - self.columns @ errors).reshape(rows.shape)
+
     def errors(self, residual: np.ndarray) -> np.ndarray:
         """The errors that a residual (signal, sample) asks for; the clock no further off than CLOCK_LEFT."""
-        right = self.columns.T @ residual.ravel()
+        right = self.columns.T @ residual.ravel() - self.prior * self.driven
         errors = cho_solve(self._all, right)
         if abs(errors[0]) > CLOCK_LEFT:
             errors[0] = np.copysign(CLOCK_LEFT, errors[0])
@@ -119,13 +137,15 @@ def leftover(again: Replay, vehicle, effects=(), *, driven: bool = True) -> Left
     return Leftover(hstack(columns, format="csr"), np.concatenate(expected), parts)
 
 
-def corrected(again: Replay, projection: Projection, residual: np.ndarray) -> Replay:
-    """The same drive with the driver asked for the path and the speed that a residual asks for."""
+def corrected(again: Replay, projection: Projection, residual: np.ndarray) -> tuple[Replay, Projection]:
+    """The same drive with the driver asked for the path and the speed that a residual asks for, and what is left then."""
     errors = projection.errors(residual)
-    demand = dict(again.demand)
+    demand, driven = dict(again.demand), projection.driven.copy()
     for name, spacing in FINE_KNOTS.items():
-        demand[name] = demand[name] + _asked(again, name, knots(again, spacing), errors[projection.parts[name]])
-    return replace(again, demand=demand)
+        part = projection.parts[name]
+        demand[name] = demand[name] + _asked(again, name, knots(again, spacing), errors[part])
+        driven[part] += errors[part]
+    return replace(again, demand=demand), projection.about(driven)
 
 
 def moved_along(again: Replay, simulated: Simulated, at: np.ndarray) -> csr_array:
