@@ -346,6 +346,14 @@ def _check_parameters(calibration: Mapping, source) -> None:
             if name not in known:
                 what = "is not calibrated; expected of" if key == "bounds" else "is no parameter of a vehicle; known are"
                 raise InputError(f"{name!r} {what} {', '.join(known)}", file=source, place=f"calibration: {key}")
+    for name, value in (pair for start in calibration["start"] for pair in start.items()):
+        if name not in chosen:
+            what = f"{name!r} is not calibrated; expected of {', '.join(chosen)}"
+            raise InputError(what, file=source, place="calibration: start")
+        lower, upper = calibration["bounds"].get(name, (value, value))  # else those that the vehicle's own value gives
+        if not lower <= value <= upper:
+            what = f"{value:g}, expected within the bounds {lower:g} to {upper:g}"
+            raise InputError(what, file=source, place=f"calibration: start: {name}")
 
 
 def _check_vehicles(study: Study, given: list[str]) -> None:
