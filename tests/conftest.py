@@ -13,6 +13,13 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(REPOSITORY / ".cache" / "numba" / modules.compiled()))
 os.environ.setdefault("RIDECOMFORT_CACHE", str(REPOSITORY / ".cache"))
+# Tests run side by side; threads of one that wait for cores slow all of them down, most in small matrices.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+
+def pytest_collection_modifyitems(items):
+    """The workflow's files first: a long one that is begun last would keep one worker busy and leave the other idle."""
+    items.sort(key=lambda item: item.get_closest_marker("study") is None)
 
 
 @pytest.fixture(scope="session")

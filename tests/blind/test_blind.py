@@ -1,10 +1,15 @@
-"""A few blind trials with a small library: what is hidden is named with its size, and where nothing is, nothing is named."""
+"""Two blind trials with a small library: what is hidden is named with its size, and where nothing is, nothing is named."""
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
+
 import pytest
 
-from ridecomfort import discrepancy
+from ridecomfort import discrepancy, store
+from ridecomfort.drive import record
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
@@ -13,26 +18,51 @@ AMONG = ("suspension_friction", "damper_asymmetry", "spring_progression", "tyre_
 
 
 @pytest.fixture(scope="module")
-def car(repository):
-    return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+def car_file(repository):
+    return repository / "config" / "vehicles" / "midsize.yaml"
 
 
-def judged(seed, car, hidden, kappa):
-    effects = {hidden: library.find()[hidden].effect.values()} if hidden else {}
-    trial = trials.make(seed, car, effects, kappa)
-    table, verdict = discrepancy.rank(trial.measured, car, among=AMONG, most=2, workers=1)
-    return trial.truth, table, verdict
+@pytest.fixture(scope="module")
+def diagnosed(car_file, tmp_path_factory):
+    """A trial with a hidden effect, from files to files as the workflow does it: the truth, ranking and verdict."""
+    folder = tmp_path_factory.mktemp("blind")
+    hidden = {"damper_asymmetry": library.find()["damper_asymmetry"].effect.values()}
+    trial = trials.make(101, parameters.read(car_file), hidden, 1.0)
+    road, drives = trial.measured["trial"]
+    store.write(road, folder / "road.nc", title="road")
+    store.write(record.stack(drives), folder / "measured.nc", title="drives")
+    config = {
+        "sites": ["trial"], "fitted_on": ["trial"], "effects": {}, "effects_folder": None, "bounds": {}, "seed": 0,
+        "workers": 1, "among": AMONG, "simulation": {"step": 0.001, "rate": 100},
+    }  # fmt: skip
+    subprocess.run(
+        [sys.executable, "-m", "ridecomfort.steps.diagnose", "--roads", folder / "road.nc", "--measured", folder / "measured.nc",
+         "--vehicle", car_file, "--calibration", "--config", json.dumps(config),
+         "--ranking", folder / "ranking.nc", "--verdict", folder / "verdict.json"],
+        check=True,
+    )  # fmt: skip
+    return trial.truth, store.read(folder / "ranking.nc"), json.loads((folder / "verdict.json").read_text())
 
 
-def test_a_hidden_effect_is_named_with_its_size(car):
-    truth, table, verdict = judged(101, car, "damper_asymmetry", 1.0)
-    assert verdict.verdict == "named"
-    assert [effect.name for effect in verdict.effects] == ["damper_asymmetry"]
-    for size in verdict.effects[0].sizes:
+def test_a_hidden_effect_is_named_with_its_size(diagnosed):
+    truth, ranking, verdict = diagnosed
+    assert verdict["verdict"] == "named"
+    assert [effect["name"] for effect in verdict["effects"]] == ["damper_asymmetry"]
+    for size in verdict["effects"][0]["sizes"]:
         assert size["size"] == pytest.approx(truth["effects"]["damper_asymmetry"][size["parameter"]], rel=0.1)
-    assert float(table["held_out_mean_square"].isel(model=1).mean()) < float(table["held_out_mean_square"].isel(model=0).mean())
+    held_out = ranking["held_out_mean_square"]
+    assert float(held_out.isel(model=1).mean()) < float(held_out.isel(model=0).mean())
 
 
-def test_nothing_is_named_where_nothing_is_missing(car):
-    _, _, verdict = judged(102, car, None, 1.0)
+def test_the_files_hold_reasons_units_and_the_missing_force(diagnosed):
+    _, ranking, verdict = diagnosed
+    assert verdict["reasons"] and verdict["effects"][0]["sizes"][0]["unit"] == "1"
+    assert ranking["winner"].values[0] == "damper_asymmetry"
+    assert ranking["missing_force"].notnull().any()
+
+
+def test_nothing_is_named_where_nothing_is_missing(car_file):
+    car = parameters.read(car_file)
+    trial = trials.make(102, car, {}, 1.0)
+    _, verdict = discrepancy.rank(trial.measured, car, among=AMONG, most=2, workers=1)
     assert verdict.verdict == "nothing" and verdict.effects == ()

@@ -37,6 +37,7 @@ def written(tmp_path_factory):
 
 def test_files_are_those_of_the_catalogue(written, monkeypatch):
     monkeypatch.setattr(style, "RESOLUTION", 30)
+    monkeypatch.setitem(style.SETTINGS, "pdf.fonttype", 3)  # embeds the letters in a third of the time
     folder, config = written
     tables.main(folder, config, folder / "tables")
     figures.main(folder, config, folder / "figures")

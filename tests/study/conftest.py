@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 import sys
@@ -52,12 +51,7 @@ class Project:
 
     def snakemake(self, *arguments: str) -> Answer:
         command = [sys.executable, "-m", "snakemake", "--snakefile", str(self.repository / "Snakefile")]
-        run = subprocess.run(
-            [*command, "--directory", str(self.folder), *arguments],
-            capture_output=True,
-            text=True,
-            env=os.environ | {"OMP_NUM_THREADS": "1"},
-        )
+        run = subprocess.run([*command, "--directory", str(self.folder), *arguments], capture_output=True, text=True)
         return Answer(run.returncode, run.stdout + run.stderr)
 
     def site(self, name: str, **content) -> None:
@@ -69,6 +63,11 @@ class Project:
 
     def study(self, **content) -> None:
         (self.folder / "config" / "study.yaml").write_text(yaml.safe_dump(content))
+
+    def copied(self, folder: Path) -> Project:
+        """The same project in another folder, to be changed there."""
+        shutil.copytree(self.folder, folder, dirs_exist_ok=True)
+        return Project(folder, self.repository)
 
     def files(self) -> set[str]:
         """Every result, hidden and half-written ones included, but for logs."""

@@ -7,12 +7,15 @@ import pytest
 from ridecomfort import store
 from ridecomfort.vocabulary import DRIVE
 
+from .conftest import new_project
+
 pytestmark = pytest.mark.study
 
 
-@pytest.fixture
-def handed_in(project):
+@pytest.fixture(scope="module")
+def handed_in(tmp_path_factory, repository):
     """A project whose second site takes the drives of the first from files, one CSV and two NetCDF."""
+    project = new_project(tmp_path_factory.mktemp("handed_in"), repository)
     simulation = {"keep_drives": True, "runs_per_shard": 2}
     project.study(sites=["one"], runs=3, simulation=simulation)
     assert project.snakemake("-j2", "one").status == 0
@@ -49,9 +52,10 @@ def test_one_drive_a_run_is_asked_for(handed_in):
     assert said == "config/sites/two.yaml: simulated: 3 drives in 'elsewhere', expected one for each of the 5 runs"
 
 
-def test_a_drive_that_ends_early_is_refused_by_name(handed_in):
-    path = handed_in.folder / "elsewhere" / "0000.csv"
+def test_a_drive_that_ends_early_is_refused_by_name(handed_in, tmp_path):
+    spoilt = handed_in.copied(tmp_path)
+    path = spoilt.folder / "elsewhere" / "0000.csv"
     pd.read_csv(path).iloc[:400].to_csv(path, index=False)
-    answer = handed_in.snakemake("-j1", "two")
+    answer = spoilt.snakemake("-j1", "two")
     assert answer.status != 0 and "Traceback" not in answer.text
     assert any("run 0: covers" in line and "expected" in line for line in answer.errors), answer.text

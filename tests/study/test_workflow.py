@@ -1,8 +1,10 @@
 """What the workflow does: a small study, what reruns, and that shards leave no trace."""
 
+import math
 import shutil
 
 import pytest
+import yaml
 
 from ridecomfort import store
 
@@ -26,7 +28,9 @@ def test_a_dry_run_of_the_papers_study_plans_every_step(repository, project):
     shutil.copytree(repository / "config", project.folder / "config")
     answer = project.snakemake("--dry-run")
     assert answer.status == 0, answer.text
-    assert sum(job.startswith("simulate ") for job in answer.jobs) == 3 * 16
+    study = yaml.safe_load((repository / "config" / "study.yaml").read_text())
+    shards = math.ceil(study["runs"] / study["simulation"]["runs_per_shard"])
+    assert sum(job.startswith("simulate ") for job in answer.jobs) == 3 * shards
     for once in ("calibrate ts1 base", "comparison ts3 base", "iri ts2 base", "agreement base", "maps ts3", "report"):
         assert once in answer.jobs
     assert "calibrate ts2 base" not in answer.jobs
@@ -81,8 +85,7 @@ def test_maps_of_a_model_with_effects_lie_beside_those_of_the_base_model(finishe
 
 
 def test_results_depend_neither_on_shards_nor_on_where_the_folder_lies(finished):
-    moved = type(finished)(finished.folder.with_name("moved"), finished.repository)
-    shutil.copytree(finished.folder, moved.folder)
+    moved = finished.copied(finished.folder.with_name("moved"))
     assert "Nothing to be done" in moved.snakemake("--dry-run", "one", "two").text
     answer = moved.snakemake("-j2", "one", "--config", "simulation={runs_per_shard: 5}")
     assert answer.status == 0, answer.text

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..config import BASE, JOIN, Study, effect_files
-from ..discrepancy.ladder import rung_titles
 
 FOLLOWED = ("named", "cluster")
 """Verdicts whose effects are added; of a cluster the first of each, called by all of its names."""
@@ -31,6 +30,8 @@ def chain(study: Study, verdict: Mapping | None = None) -> Chain:
 
     ``verdict`` is the content of verdict.json. Effects that are in the model already, or that there is no file of, add nothing.
     """
+    from ..discrepancy.ladder import rung_titles  # only here: each call of Snakemake would wait for all of it
+
     configured = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
     found = verdict["effects"] if verdict and verdict["verdict"] in FOLLOWED else []
     known = effect_files(study.effects_folder)
