@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
-from scipy import stats
+from scipy.special import ndtri
 
 from .errors import InputError
 
@@ -77,5 +77,5 @@ def slices(runs: int) -> list[int]:
 def _quantile(distribution: Mapping, probability: np.ndarray) -> np.ndarray:
     ((kind, (first, second)),) = distribution.items()
     if kind == "normal":
-        return stats.norm.ppf(probability) * second + first
+        return ndtri(probability) * second + first
     return first + (second - first) * probability

@@ -9,7 +9,6 @@ from functools import lru_cache
 import numpy as np
 import xarray as xr
 from numba import njit
-from scipy.signal import firwin
 
 from .effects import compose, library
 from .effects.contract import COMPILED
@@ -226,7 +225,7 @@ def _taps(every: int) -> np.ndarray:
     """A low pass at the rate of the steps that is flat to 0.40 and closed from 0.60 of the records' rate."""
     if every == 1:
         return np.ones(1)
-    taps = firwin(10 * every + 1, 1.0 / every, window=("kaiser", 4.0))
+    taps = np.sinc(np.arange(-5 * every, 5 * every + 1) / every) * np.kaiser(10 * every + 1, 4.0)
     return taps / taps.sum()
 
 

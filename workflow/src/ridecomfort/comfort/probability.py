@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import stats
+from scipy.special import betainccinv, betaincinv, ndtri
 
 from ..errors import InputError
 
@@ -16,7 +16,7 @@ def wilson(count, runs, confidence: float = CONFIDENCE) -> tuple[np.ndarray, np.
     Its coverage is ``confidence`` on average over the probability.
     """
     count, runs = _counts(count, runs)
-    z = stats.norm.isf((1.0 - confidence) / 2.0)
+    z = -ndtri((1.0 - confidence) / 2.0)
     share = count / runs
     centre = (share + z**2 / (2 * runs)) / (1 + z**2 / runs)
     half = z / (1 + z**2 / runs) * np.sqrt(share * (1 - share) / runs + z**2 / (4 * runs**2))
@@ -28,8 +28,8 @@ def clopper_pearson(count, runs, confidence: float = CONFIDENCE) -> tuple[np.nda
     count, runs = _counts(count, runs)
     tail = (1.0 - confidence) / 2.0
     with np.errstate(invalid="ignore"):
-        lower = stats.beta.ppf(tail, count, runs - count + 1)
-        upper = stats.beta.isf(tail, count + 1, runs - count)
+        lower = betaincinv(count, runs - count + 1, tail)
+        upper = betainccinv(count + 1, runs - count, tail)
     return np.where(count == 0, 0.0, lower), np.where(count == runs, 1.0, upper)
 
 

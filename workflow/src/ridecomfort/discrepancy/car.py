@@ -163,7 +163,8 @@ def car(
 ) -> Car:
     """The experiment of these drives. ``vehicle`` and ``effects`` are the calibrated ones.
 
-    Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, all others are held out.
+    Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, the others of those sites and one of
+    each speed of the other sites are held out.
     ``bounds``: of calibrated parameters, beside tab:constraints. ``uncertain``: share by which further
     parameters of the vehicle may be wrong (default UNCERTAIN). ``library_names``: the effects to look
     among, by default all of the library and of the user's folder but those of the model. ``each_record``: a ``map`` over drives.
@@ -176,6 +177,7 @@ def car(
         site, drive = job
         return replay(drive, site.course, simulate, options=options).tuned(vehicle, effects)
 
+    sites = [site if site.name in fitted_on else replace(site, drives=_once_a_speed(site.drives)) for site in sites]
     ready = iter(each_record(tuned, [(site, drive) for site in sites for drive in site.drives]))
     records, replays = [], []
     for site in sites:
@@ -203,7 +205,19 @@ def car(
     wanted = sorted(known if library_names is None else library_names)
     candidates = tuple(candidate(known[name].effect) for name in wanted if name not in effects)
     quiet = {n: known[n].effect.neutral for n in wanted if n not in effects and known[n].effect.port in COMPILED}
-    return Car(records, replays, vehicle, effects, tuple(free), tuple(c for c in candidates if c.sizes), quiet, each_record=each_record)
+    sized = tuple(c for c in candidates if c.sizes)
+    return Car(records, replays, vehicle, effects, tuple(free), sized, quiet, each_record=each_record)
+
+
+def _once_a_speed(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
+    """The first drive of every mean speed."""
+    speeds, kept = [], []
+    for drive in drives:
+        speed = float(drive["v_x"].mean())
+        if all(abs(known - speed) >= SAME_SPEED * known for known in speeds):
+            speeds.append(speed)
+            kept.append(drive)
+    return kept
 
 
 def sites_of(measured: Mapping[str, tuple]) -> list[Site]:

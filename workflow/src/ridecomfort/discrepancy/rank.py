@@ -36,8 +36,8 @@ def rank(
     """Rank the effects that the model may lack, and judge what the evidence carries.
 
     ``measured``: mapping of site to (road, aligned drives); drives of role "fit" on the sites ``fitted_on`` (by
-    default the first) are fitted, the others decide. ``calibration`` and ``effects`` are those of the model;
-    ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
+    default the first) are fitted, the others of those sites and one of each speed of other sites decide. ``calibration`` and
+    ``effects`` are those of the model; ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
     default one for each core. ``signatures``: estimate the missing force against what it could depend on as well.
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice

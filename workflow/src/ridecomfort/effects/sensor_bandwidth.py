@@ -1,7 +1,6 @@
 """An instrument that follows fast motion late and weakly."""
 
 import numpy as np
-from scipy.signal import lfilter
 
 from ridecomfort.effects.contract import Effect, Parameter
 from ridecomfort.vocabulary import SIGNALS
@@ -20,6 +19,8 @@ effect = Effect(
 def act(drive, time):
     if time == 0.0:
         return drive
+    from scipy.signal import lfilter  # here: it takes half a second, and the library is read at every start
+
     interval = float(drive.time[1] - drive.time[0])
     kept = np.exp(-interval / time)
     mean = time / interval * (1.0 - kept)
