@@ -125,7 +125,7 @@ class _Search:
         bounds = refit.intervals(final, finer, self._sizes())
         return Selection(
             tuple(rounds), tuple(ladder), self.ground, self.held_out_ground, self.repeats, self.frame,
-            tuple(self.accepted), bounds, final, *self._remaining(ladder[0].fit, final),
+            tuple(self.accepted), bounds, final, *self._remaining(ladder[0].fit, base),
         )  # fmt: skip
 
     def _sizes(self, extra: Sequence[str] = ()) -> list[exp.Size]:
@@ -365,12 +365,12 @@ class _Search:
             return f"removes {100 * trial.share:.1f} % of the explainable error"
         return ""
 
-    def _remaining(self, first: Fit, final: Fit) -> tuple[float, float, float, float]:
+    def _remaining(self, first: Fit, last: Fit) -> tuple[float, float, float, float]:
         """Of what all repeats share: the share of the error that it still is, its z, the share of it that is gone, and the
         z that it had at first."""
         if not self.repeats:
             return (float("nan"),) * 4
-        share, z, power = floor.shared_error(self.frame, final.residuals)
+        share, z, power = floor.shared_error(self.frame, last.residuals)
         _, first_z, before = floor.shared_error(self.frame, first.residuals)
         return share, z, 1.0 - power / before if before > 0 else float("nan"), first_z
 
