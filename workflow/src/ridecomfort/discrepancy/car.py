@@ -215,12 +215,17 @@ def car(
     return Car(records, replays, vehicle, effects, tuple(free), sized, quiet, each_record=each_record)
 
 
+def _same(speed: float, speeds: Sequence[float]) -> float | None:
+    """The first of ``speeds`` at which a drive repeats one at ``speed``."""
+    return next((known for known in speeds if abs(known - speed) < SAME_SPEED * known), None)
+
+
 def _once_a_speed(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
     """The first drive of every mean speed."""
     speeds, kept = [], []
     for drive in drives:
         speed = float(drive["v_x"].mean())
-        if all(abs(known - speed) >= SAME_SPEED * known for known in speeds):
+        if _same(speed, speeds) is None:
             speeds.append(speed)
             kept.append(drive)
     return kept
@@ -281,7 +286,7 @@ def _calibrated(name: str, value: float, bounds: Sequence[float]) -> Size:
 def _record(site: str, again: Replay, role: str, speeds: list[float], several: bool) -> Record:
     place, time = again.place[again.compared], again.time[again.compared]
     speed = float(np.ptp(place) / np.ptp(time))
-    same = next((known for known in speeds if abs(known - speed) < SAME_SPEED * known), None)
+    same = _same(speed, speeds)
     if same is None:
         speeds.append(speed)
     rate = float((len(time) - 1) / np.ptp(time))

@@ -171,11 +171,12 @@ class _Search:
         values = base.values
         residuals, frame = self._aligned(values, self.fitted)
         raw = probe.secants(self.experiment, values, residuals, self._sizes(), self.each)
-        for _ in range(FINAL_CYCLES):
+        for cycle in range(FINAL_CYCLES):
+            if cycle:
+                frame = exp.frame(self.experiment, residuals, frame.nuisances, self._cleaned(frame, residuals))
             columns = probe.white(frame, raw)
             fit = refit.refit(self.experiment, frame, values, self._sizes(), columns, iterations=2, residuals=residuals)
             values, residuals = fit.values, fit.residuals
-            frame = exp.frame(self.experiment, residuals, frame.nuisances, self._cleaned(frame, residuals))
         return fit, frame
 
     def _cleaned(self, frame: Frame, residuals) -> dict[int, np.ndarray]:

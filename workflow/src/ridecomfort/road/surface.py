@@ -86,6 +86,12 @@ def linear(elevation, u0, du, v0, dv, u, v):
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
+def _spline(a, b, c, d, p):
+    """Catmull-Rom spline from b to c, at the share p of the way."""
+    return b + 0.5 * p * (c - a + p * (2.0 * a - 5.0 * b + 4.0 * c - d + p * (3.0 * (b - c) + d - a)))
+
+
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def cubic(elevation, u0, du, v0, dv, u, v):
     """Height in m by Catmull-Rom splines along u and v, clamped to the grid at its borders (sec:road_surf)."""
     nu, nv = elevation.shape
@@ -102,7 +108,7 @@ def cubic(elevation, u0, du, v0, dv, u, v):
     k = i + 1
     r2 = a0 * elevation[k, j0] + a1 * elevation[k, j] + a2 * elevation[k, j + 1] + a3 * elevation[k, j3]
     r3 = a0 * elevation[i3, j0] + a1 * elevation[i3, j] + a2 * elevation[i3, j + 1] + a3 * elevation[i3, j3]
-    return r1 + 0.5 * p * (r2 - r0 + p * (2.0 * r0 - 5.0 * r1 + 4.0 * r2 - r3 + p * (3.0 * (r1 - r2) + r3 - r0)))
+    return _spline(r0, r1, r2, r3, p)
 
 
 @njit(forceinline=True, error_model="numpy")
@@ -177,12 +183,6 @@ def _heights(elevation, bank, u0, du, v0, dv, at, smooth, u, v, heights):
             heights[k] = cubic(elevation, u0, du, v0, dv, along, across)
         else:
             heights[k] = linear(elevation, u0, du, v0, dv, along, across)
-
-
-@njit(forceinline=True)
-def _spline(a, b, c, d, p):
-    """Catmull-Rom spline from b to c, at the share p of the way."""
-    return b + 0.5 * p * (c - a + p * (2.0 * a - 5.0 * b + 4.0 * c - d + p * (3.0 * (b - c) + d - a)))
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
