@@ -14,6 +14,10 @@ KAPPAS = (0.05, 0.1, 0.3, 1.0, 3.0)
 
 STRONG = (0.3, 1.0, 3.0)
 
+FAINT = ("aerodynamic_lift", "anti_dive", "anti_squat", "drivetrain_lag", "gear_shift", "rebound_stop", "steering_compliance",
+         "wheel_compliance")  # fmt: skip
+"""Effects whose plausible sizes come up to no kappa of 0.3 on such drives; they are drawn alone only."""
+
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee"}
 """Truths of another shape, and what the library has of their kind."""
 
@@ -35,13 +39,17 @@ def of_the_vehicle() -> list[str]:
     return [name for name, entry in library.find().items() if not cars.candidate(entry.effect).instrument]
 
 
+def _plain(names: Sequence[str]) -> list[str]:
+    return [name for name in names if name not in FAINT]
+
+
 def _clean(rng, names: Sequence[str], number: int) -> Draw:
     name = names[number % len(names)]
     return Draw((name,), float(rng.choice(KAPPAS)), frozenset({name}))
 
 
 def _messy(rng, names, number) -> Draw:
-    name, *background = (str(one) for one in rng.choice(names, 3, replace=False))
+    name, *background = (str(one) for one in rng.choice(_plain(names), 3, replace=False))
     spoilt = {
         "background": background, "clock": float(rng.normal(0, 0.005)), "gain": float(rng.normal(0, 0.003)),
         "scanner": 0.0001, "aligned": True,
@@ -56,14 +64,14 @@ def _shaped(rng, names, number) -> Draw:
 
 def _several(count: int) -> Callable:
     def draw(rng, names, number) -> Draw:
-        hidden = tuple(str(name) for name in rng.choice(names, count, replace=False))
+        hidden = tuple(str(name) for name in rng.choice(_plain(names), count, replace=False))
         return Draw(hidden, float(rng.choice(STRONG[1:])), frozenset(hidden))
 
     return draw
 
 
 def _outside(rng, names, number) -> Draw:
-    name = str(rng.choice(names))
+    name = str(rng.choice(_plain(names)))
     return Draw((name,), float(rng.choice(STRONG[1:])), frozenset(), missing=(name,))
 
 

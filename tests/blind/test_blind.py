@@ -1,4 +1,4 @@
-"""Two blind trials with a small library: what is hidden is named with its size, and where nothing is, nothing is named."""
+"""Blind trials with a small library: what is hidden is named with its size, where nothing is, nothing, and wrong records are suspect."""
 
 from __future__ import annotations
 
@@ -66,3 +66,11 @@ def test_nothing_is_named_where_nothing_is_missing(car_file):
     trial = trials.make(102, car, {}, 1.0)
     _, verdict = discrepancy.rank(trial.measured, car, among=AMONG, most=2, workers=1)
     assert verdict.verdict == "nothing" and verdict.effects == ()
+
+
+@pytest.mark.parametrize(("spoilt", "reason"), [({"clock": 0.008}, "clock"), ({"gain": 0.03}, "gain")])
+def test_a_record_that_is_wrong_is_called_suspect(car_file, spoilt, reason):
+    car = parameters.read(car_file)
+    trial = trials.make(103, car, {}, 1.0, **spoilt)
+    _, verdict = discrepancy.rank(trial.measured, car, among=AMONG, most=1, workers=1)
+    assert verdict.verdict == "suspect" and any(reason in words for words in verdict.reasons)

@@ -13,7 +13,10 @@ from scipy.ndimage import gaussian_filter1d
 from ridecomfort import simulate
 from ridecomfort.calibrate import BOUNDS
 from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy import experiment as exp
+from ridecomfort.discrepancy import judged
 from ridecomfort.drive import align
+from ridecomfort.errors import InputError
 from ridecomfort.effects import library
 from ridecomfort.effects.contract import COMPILED
 from ridecomfort.calibrated import with_values
@@ -23,8 +26,8 @@ from tests.vehicle.roads import rough
 LENGTH, SPEED, SLOWER = 700.0, 22.0, 0.75
 """m of road, m/s of the repeats, share of it at which the drive held out goes."""
 
-ACCELEROMETER, GYROSCOPE = 0.006, 0.0004
-"""m/s2 and rad/s rms of instrument noise at 100 Hz: a good automotive IMU (60 ug and 0.003 deg/s per root Hz)."""
+ACCELEROMETER, GYROSCOPE = 0.03, 0.001
+"""m/s2 and rad/s rms of noise at 100 Hz: instrument, mount and engine, 5 to 30 % of what the road makes."""
 
 PATH_ERROR, PATH_LENGTH = 0.02, 30.0
 """m by which the recorded path is wrong (rms), and over which length."""
@@ -82,10 +85,10 @@ def make(
     background: Sequence[str] = (),
     aligned: bool = False,
 ) -> Trial:
-    """Three repeats and a slower drive of a car that has ``effects``, scaled to ``kappa``.
+    """Three repeats and a slower drive of a car that has ``effects``, each scaled to ``kappa``.
 
-    kappa is the rms of what the effects change and calibration cannot take up, over the rms of the noise floor, in the
-    worst channel and the band that ride is judged in. ``effects`` give the direction: sizes are scaled from
+    kappa is the rms of what an effect changes and neither alignment nor calibration can take up, over the rms of the noise floor,
+    in the worst channel and the band that ride is judged in (``Remains``). ``effects`` give the direction: sizes are scaled from
     neutral, within what is plausible; shapes of ``tests/blind/shapes`` may be among them. ``clock`` (s) and ``gain`` spoil the
     record, ``scanner`` (m rms) the road that is handed over, ``path_error`` (m rms) the recorded path; each effect of
     the ``background`` is there at a kappa of BACKGROUND. ``aligned``: drives are handed over as alignment leaves them.
@@ -100,32 +103,31 @@ def make(
     drive = lambda vehicle, sizes, demand: simulate.run(
         course, vehicle, effects={**_quiet(every), **sizes}, effects_folder=SHAPES, sensor=SENSOR, step=step, **demand
     )
-    noises = [_noise(rng, drive, true_car, demand, path_error) for demand in demands]
-    scale, reached = _scale(drive, true_car, effects, kappa, demands[0], noises[0][0]) if effects else (0.0, 0.0)
-    sizes = scaled(effects, scale)
+    bare = [drive(true_car, {}, demand) for demand in demands]
+    errors = [_path(rng, road.u.values, path_error) for _ in demands]
+    noises = [_noise(rng, record) for record in bare]
     known = library.find(SHAPES)
-    for name in background:
-        one = {name: known[name].effect.values()}
-        sizes |= scaled(one, _scale(drive, true_car, one, BACKGROUND, demands[0], noises[0][0])[0])
+    wanted = [({name: sizes}, kappa) for name, sizes in effects.items()]
+    wanted += [({name: known[name].effect.values()}, BACKGROUND) for name in background]
+    sizes, reached = {}, []
+    if wanted:
+        remains = Remains(course, true_car, _recorded(bare[0]), _recorded(bare[0], noises[0], errors[0]))
+    for one, its_kappa in wanted:
+        factor, found = _scale(remains, lambda own: _recorded(drive(true_car, own, demands[0])), one, its_kappa)
+        sizes |= scaled(one, factor)
+        reached.append(found)
     drives = []
-    for k, (demand, (noise, error)) in enumerate(zip(demands, noises)):
+    for k, (demand, noise, error) in enumerate(zip(demands, noises, errors)):
         record = drive(true_car, sizes, demand)
-        for channel, name in enumerate(SIGNALS):
-            record[name] = (1 + gain) * record[name] + noise[channel][: record.sizes["time"]]
-        record["e"] = record["e"] + np.interp(record["s"], road.u.values, error)
-        record = record[list(DRIVE)].isel(time=slice(200, None)).assign_attrs(
-            name=f"drive_{k + 1}", role="check" if k == 3 else "fit", gravity=0, cut_off=45.0, place_measured=1,
-            lateral_position=0.0, sensor_x=SENSOR[0], sensor_y=SENSOR[1], sensor_z=SENSOR[2],
-        )  # fmt: skip
-        if clock:
-            record["s"] = record["s"] + clock * record["v_x"]
-        drives.append(record)
+        for name in SIGNALS:
+            record[name] = (1 + gain) * record[name]
+        drives.append(_recorded(record, noise, error, clock, number=k))
     if scanner:
         road = road.assign(elevation=road["elevation"] + scanner * rng.standard_normal(road["elevation"].shape))
     if aligned:
         scanned = simulate.prepare(road)
         drives = [align.align(record, scanned, car, simulate=simulate.run) for record in drives]
-    truth = {"effects": sizes, "scale": scale, "car": hidden, "kappa": kappa, "reached": reached}
+    truth = {"effects": sizes, "car": hidden, "kappa": kappa, "reached": min(reached[: len(effects)], default=0.0)}
     return Trial({"trial": (road, drives)}, truth)
 
 
@@ -157,48 +159,96 @@ def _demand(rng, u, speed) -> dict:
     return {"speed": xr.DataArray(target, **over_u), "lateral": xr.DataArray(path, **over_u)}
 
 
-def _noise(rng, drive, vehicle, demand, path_error):
-    """Noise (6, time) with which a drive is recorded, what a wrong path makes of it included, and the error of the path over u."""
-    u = demand["lateral"].u.values
-    error = gaussian_filter1d(rng.standard_normal(u.size), PATH_LENGTH / 0.1)
-    error *= path_error / error.std()
-    record = drive(vehicle, {}, demand)
+def _path(rng, u: np.ndarray, size: float) -> xr.DataArray:
+    """By how much the recorded lateral position is wrong, over u."""
+    error = gaussian_filter1d(rng.standard_normal(u.size), PATH_LENGTH / (u[1] - u[0]))
+    return xr.DataArray(size * error / error.std(), {"u": u}, "u")
+
+
+def _noise(rng, record: xr.Dataset) -> np.ndarray:
+    """Noise (6, time) of a drive about as long as ``record``."""
     white = rng.standard_normal((6, record.sizes["time"] + 500))
-    return white * np.array([ACCELEROMETER] * 3 + [GYROSCOPE] * 3)[:, None], error
+    return white * np.array([ACCELEROMETER] * 3 + [GYROSCOPE] * 3)[:, None]
 
 
-def _signals(record) -> np.ndarray:
-    """Signals (6, time) in the band that is judged."""
-    values = np.stack([record[name].values for name in SIGNALS])
-    bins = np.fft.rfft(values - values.mean(axis=1, keepdims=True), axis=1)
-    frequency = np.fft.rfftfreq(values.shape[1], 0.01)
-    lowest = np.array([cars.LOWEST_OF_DRIVER.get(name, cars.LOWEST) for name in SIGNALS])
-    return np.fft.irfft(np.where(frequency > lowest[:, None], bins, 0.0), values.shape[1], axis=1)
+def _recorded(run: xr.Dataset, noise=None, error=None, clock: float = 0.0, number: int = 0) -> xr.Dataset:
+    """A simulated run as the record of drive ``number``: with noise (6, time), a wrong path and place, its first 2 s left out."""
+    run = run.copy()
+    if noise is not None:
+        for channel, name in enumerate(SIGNALS):
+            run[name] = run[name] + noise[channel][: run.sizes["time"]]
+    if error is not None:
+        run["e"] = run["e"] + np.interp(run["s"], error.u.values, error.values)
+    if clock:
+        run["s"] = run["s"] + clock * run["v_x"]
+    return run[list(DRIVE)].isel(time=slice(200, None)).assign_attrs(
+        name=f"drive_{number + 1}", role="check" if number == 3 else "fit", gravity=0, cut_off=50.0, place_measured=1,
+        lateral_position=0.0, sensor_x=SENSOR[0], sensor_y=SENSOR[1], sensor_z=SENSOR[2],
+    )  # fmt: skip
 
 
-def _scale(drive, vehicle, effects, kappa, demand, noise) -> tuple[float, float]:
-    """Factor of the sizes at which what calibration leaves of the effect is kappa times the noise in the worst channel, and
-    the kappa that is reached: a plausible size may be too small for it."""
-    base = _signals(drive(vehicle, {}, demand))
-    error = {**demand, "lateral": demand["lateral"] + PATH_ERROR}
-    lost = _signals(drive(vehicle, {}, error))
-    count = min(base.shape[1], lost.shape[1])
-    floor = np.sqrt((lost[:, 200:count] - base[:, 200:count]).var(axis=1) + noise[:, :count].var(axis=1))
-    columns = []
-    steps = {name: 0.02 * (upper - lower) for name, (lower, upper) in BOUNDS.items()}
-    steps |= {name: 0.01 * vehicle[name] for name in cars.UNCERTAIN}
-    for name, change in steps.items():
-        moved = _signals(drive(with_values(vehicle, {}, {name: vehicle[name] + change})[0], {}, demand))
-        columns.append(((moved[:, 200:count] - base[:, 200 : moved.shape[1]][:, : count - 200]) / floor[:, None]).ravel())
-    matrix = np.stack(columns, axis=1)
-    factor, found = 1.0, 0.0
-    for turn in range(4):
-        changed = _signals(drive(vehicle, scaled(effects, factor), demand))
-        span = min(count, changed.shape[1])
-        change = (changed[:, 200:span] - base[:, 200:span]) / floor[:, None]
-        rows = matrix.reshape(6, -1, len(steps))[:, : span - 200].reshape(-1, len(steps))
-        left = change.ravel() - rows @ np.linalg.lstsq(rows, change.ravel(), rcond=None)[0]
-        found = np.sqrt(np.mean(left.reshape(6, -1) ** 2, axis=1)).max()
-        if turn < 3:
-            factor *= kappa / max(found, 1e-12)
-    return float(factor), float(found)
+class Remains:
+    """What of a record neither alignment nor calibration of a car without effects can take up, in units of the noise floor, beyond
+    what they leave of one without effects.
+
+    ``course``, ``vehicle``: the true ones. ``bare``: a record of the car without effects, ``noisy`` the same with its noise, of which
+    the floor is what remains.
+    """
+
+    def __init__(self, course, vehicle, bare: xr.Dataset, noisy: xr.Dataset):
+        self.course, self.vehicle = course, vehicle
+        own = self._car(bare)
+        values = cars.start_values(own)
+        residual = own.residual(values, 0)
+        moved = [exp.secant(own, values, {0: residual}, size, 1.0)[0] for size in own.free]
+        nuisances = own.nuisances(values, 0)
+        self.nuisances, self.rows = len(nuisances), _judged(np.stack([*nuisances, *moved]))
+        self.floor = np.array([ACCELEROMETER] * 3 + [GYROSCOPE] * 3)
+        self.bare = None
+        self.floor = self.floor * np.sqrt(np.mean(self(noisy) ** 2, axis=1))
+        self.bare = self(bare)
+
+    def __call__(self, record: xr.Dataset) -> np.ndarray:
+        """Remainder (6, sample)."""
+        own = self._car(record)
+        amounts, _ = self._fit(own)
+        left = self._fit(own.realigned({0: amounts[: self.nuisances]}))[1]
+        if self.bare is None:
+            return left
+        count = min(left.shape[1], self.bare.shape[1])
+        return left[:, :count] - self.bare[:, :count]
+
+    def _fit(self, own: cars.Car) -> tuple[np.ndarray, np.ndarray]:
+        """Amounts of the rows in a residual, and what they leave of it (6, sample)."""
+        residual = _judged(own.residual(cars.start_values(own), 0))
+        count = min(residual.shape[1], self.rows.shape[2])
+        residual = residual[:, :count] / self.floor[:, None]
+        rows = (self.rows[:, :, :count] / self.floor[:, None]).reshape(len(self.rows), -1)
+        size = np.linalg.norm(rows, axis=1)
+        size[size == 0] = np.inf
+        amounts = np.linalg.lstsq((rows / size[:, None]).T, residual.ravel(), rcond=1e-6)[0] / size
+        return amounts, residual - (amounts @ rows).reshape(6, -1)
+
+    def _car(self, record: xr.Dataset) -> cars.Car:
+        return cars.car([cars.Site("trial", self.course, [record])], self.vehicle, library_names=[])
+
+
+def _judged(series: np.ndarray) -> np.ndarray:
+    """Series (..., 6, sample) in the band that is judged, the second at both ends left out."""
+    fast = judged.judged(series, 100.0, SIGNALS)
+    return judged.band(fast, 100.0, (0.0, cars.HIGHEST * 50.0))[..., 100:-100]
+
+
+def _scale(remains: Remains, drive, effects, kappa: float) -> tuple[float, float]:
+    """Factor of the sizes at which kappa is reached in the worst channel, and the kappa that is reached: a plausible size may
+    be too small for it."""
+    factor, reached = 1.0, (0.0, 0.0)
+    for _ in range(4):
+        try:
+            found = float(np.sqrt(np.mean(remains(drive(scaled(effects, factor))) ** 2, axis=1)).max())
+        except InputError:  # so much of it that the car does not arrive
+            factor *= 0.5
+            continue
+        reached = factor, found
+        factor *= kappa / max(found, 1e-12)
+    return reached

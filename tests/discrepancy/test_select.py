@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -51,6 +53,20 @@ def test_an_implausible_size_disqualifies():
     selection, found = judged(Linear(5, {"effect_3.size": 7.0}))
     assert "effect_3" not in [e.name for e in found.effects]
     assert any("plausible" in trial.objection for trial in selection.rounds[0].trials if trial.name == "effect_3")
+
+
+def test_a_truth_at_the_end_of_what_is_plausible_is_not_held_against_it():
+    _, found = judged(Linear(5, {"effect_3.size": 5.0}))
+    assert [e.name for e in found.effects] == ["effect_3"]
+
+
+def test_what_adds_little_at_the_same_port_may_be_another_shape_and_is_not_named():
+    model = Linear(2, {"effect_1.size": 0.6, "effect_4.size": 0.2})
+    assert [e.name for e in judged(model)[1].effects] == ["effect_1", "effect_4"]
+    model.candidates = tuple(replace(candidate, port="suspension") for candidate in model.candidates)
+    _, found = judged(model)
+    assert [e.name for e in found.effects] == ["effect_1"]
+    assert any("effect_4" in reason and "another shape of effect_1" in reason for reason in found.reasons)
 
 
 def test_suspicions_keep_the_data_from_naming_anything():

@@ -11,7 +11,6 @@ import xarray as xr
 from numba import njit
 
 from .effects import compose, library
-from .effects.contract import COMPILED
 from .errors import InputError
 from .road import surface
 from .vehicle import driver
@@ -190,19 +189,13 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     seconds = 1.2 * np.sum(np.gradient(course.u)[along] / targets[along, 0]) + 5.0
 
     compiled = compose.compose([entry for entry, _ in chosen])
-    sizes = [
-        value
-        for entry, values in chosen
-        if entry.effect.port in COMPILED
-        for value in (values[parameter.name] for parameter in entry.effect.parameters)
-    ]
     steps = int(seconds / step)
     record = np.empty((steps // every + 1, len(COLUMNS)))
     accelerations = np.empty((3, steps))
     records, steps = compiled.drive(
         constants(vehicle), wheel_table(vehicle), course.surface, course.elevation, targets, float(friction),
         float(start), float(end), float(step), every, tuple(float(place) for place in sensor),
-        np.array(sizes, dtype=float), compiled.state_count, record, accelerations,
+        compose.parameters(chosen), compiled.state_count, record, accelerations,
     )  # fmt: skip
     record = record[:records]
     if not np.isfinite(record[:, :3]).all() or not np.isfinite(accelerations[:, :steps]).all():

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
+from scipy.interpolate import BSpline
 
 from .. import calibrate
 from .. import simulate as simulator
@@ -37,16 +38,19 @@ HIGHEST = 0.85
 BLOCK = 1.0
 """s at the mean speed; white errors farther apart are independent."""
 
-KNOTS, FINER_KNOTS = 150.0, 30.0
-"""m between the points of what alignment may still get wrong of the place along and across the road: while many candidates
-are tried, and for the sizes that are told in the end. Paths wander within some ten metres; a size fitted on a path that is
-straighter than the driven one comes out too small and too sure."""
+KNOTS = 30.0
+"""m between the knots of what alignment may still get wrong of the place along and across the road. Paths wander within some
+ten metres; a vehicle that is pushed aside by a centimetre meets another road, so that a path which is straighter than the driven
+one makes evidence for whatever pushes (lift, cross-wind), and sizes too small and too sure."""
 
 SAME_SPEED = 0.05
 """Relative difference of mean speeds within which drives repeat one another."""
 
 SETTLING = 1.5
 """s after the run-in that are left out too: at rest on level ground a vehicle with an effect stands otherwise."""
+
+RUN_OUT = 0.5
+"""s at the end that are left out: low-pass filters of records and of simulations end there without knowing what comes."""
 
 UNCERTAIN = {
     "roll_inertia": 0.1,
@@ -91,7 +95,6 @@ class Car:
     """Effects that are in every simulation at neutral values, so that one compiled kernel serves for all of them."""
     channels: tuple[str, ...] = SIGNALS
     each_record: Callable = map
-    knots: float = KNOTS
     simulations: int = 0
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
@@ -111,13 +114,13 @@ class Car:
         kept = again.compared
         simulated = self.simulated(values, index)
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        hats = _hats(again.place[kept], self.knots)
+        splines = _splines(again.place[kept], KNOTS)
         up = STANDARD_GRAVITY * upward(simulated.roll, simulated.pitch)[:, kept]
         force = simulated.signals[:3, kept] + up * float(again.drive.attrs.get("gravity", 0))
         rates = simulated.signals[3:, kept]
-        columns = [hat * simulated.slopes[:, kept] for hat in hats]
+        columns = [spline * simulated.slopes[:, kept] for spline in splines]
         aside = again.aside(vehicle, {**self.quiet, **effects})[:, kept]
-        columns += [hat * aside for hat in hats]
+        columns += [spline * aside for spline in splines]
         zero = np.zeros_like(force)
         columns += [np.concatenate([force, zero]), np.concatenate([zero, rates])]
         for axis in np.eye(3):
@@ -126,15 +129,25 @@ class Car:
         columns += list(np.eye(6)[:, :, None] * np.ones(kept.sum()))
         return np.stack(columns).astype(np.float32)
 
+    def gains(self, amounts: np.ndarray) -> tuple[float, float]:
+        """Gains of the accelerometer and of the gyroscope that these amounts of the nuisances (direction,) stand for."""
+        return 1.0 - float(amounts[-11]), 1.0 - float(amounts[-10])
+
+    def later(self, other: Car, index: int) -> float:
+        """By how many seconds (median) this puts a record later against its place than ``other`` does."""
+        mine, its = self.replays[index], other.replays[index]
+        shift = np.interp(its.place, mine.place, mine.time) - mine.time
+        return float(np.median(shift[mine.compared]))
+
     def finer(self) -> Car:
-        """The same with what alignment may get wrong asked for at FINER_KNOTS and, by the study's own simulator, half its step."""
+        """The same, driven at half the step where the simulator is the study's own."""
         replays = [
             replace(again, options={**again.options, "step": 0.5 * again.options.get("step", simulator.STEP)})
             if again.simulate is simulator.run
             else again
             for again in self.replays
         ]
-        return replace(self, replays=replays, knots=FINER_KNOTS)
+        return replace(self, replays=replays)
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""
@@ -142,8 +155,8 @@ class Car:
         for index, found in amounts.items():
             again = replays[index]
             kept = again.compared
-            hats = _hats(again.place[kept], self.knots)
-            later, left = found[: len(hats)] @ hats, found[len(hats) : 2 * len(hats)] @ hats
+            splines = _splines(again.place[kept], KNOTS)
+            later, left = found[: len(splines)] @ splines, found[len(splines) : 2 * len(splines)] @ splines
             shift = np.interp(again.time, again.time[kept], later)
             place = np.interp(again.time - shift, again.time, again.place)
             lateral, u = again.demand["lateral"], again.demand["speed"]["u"].values
@@ -190,8 +203,8 @@ def car(
         speeds: list[float] = []
         for drive in site.drives:
             again = next(ready)
-            first = again.time[again.compared][0] + SETTLING
-            again = replace(again, compared=again.compared & (again.time >= first))
+            first, last = again.time[again.compared][[0, -1]] + (SETTLING, -RUN_OUT)
+            again = replace(again, compared=again.compared & (again.time >= first) & (again.time <= last))
             role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
             records.append(_record(site.name, again, role, speeds, len(sites) > 1))
             replays.append(again)
@@ -260,7 +273,7 @@ def candidate(effect: Effect) -> Candidate:
             moved = {f"{effect.name}.{p.name}": float(np.sqrt(p.typical * p.plausible[end])) for p in varied}
             shapes.append({**typical, **moved})
     instrument = effect.port in ("sensor", "path") or effect.name in OF_THE_ROAD
-    return Candidate(effect.name, tuple(_size(p, effect) for p in sizes), tuple(shapes), effect.sentence, instrument)
+    return Candidate(effect.name, tuple(_size(p, effect) for p in sizes), tuple(shapes), effect.sentence, instrument, effect.port)
 
 
 def _is_size(parameter: Parameter, effect: Effect) -> bool:
@@ -298,7 +311,9 @@ def _record(site: str, again: Replay, role: str, speeds: list[float], several: b
     )  # fmt: skip
 
 
-def _hats(place: np.ndarray, spacing: float) -> np.ndarray:
-    """Piecewise linear functions that are one at a knot each, (knot, sample)."""
-    knots = np.linspace(place[0], place[-1], max(2, int(round(np.ptp(place) / spacing)) + 1))
-    return np.maximum(1 - np.abs(place - knots[:, None]) / (knots[1] - knots[0]), 0.0)
+def _splines(place: np.ndarray, spacing: float) -> np.ndarray:
+    """Cubic B-splines over the place, knots about ``spacing`` apart: slow functions that sum to one, (spline, sample)."""
+    pieces = max(1, int(round(np.ptp(place) / spacing)))
+    inner = np.linspace(place.min(), place.max(), pieces + 1)
+    knots = np.concatenate([np.full(3, inner[0]), inner, np.full(3, inner[-1])])
+    return BSpline.design_matrix(np.clip(place, inner[0], inner[-1]), knots, 3).toarray().T

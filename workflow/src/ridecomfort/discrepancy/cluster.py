@@ -14,6 +14,9 @@ from .selection import Trial
 APART = 2.0
 """z of the difference of two refits below which the data do not tell them apart."""
 
+SAME_PORT = 0.5
+"""Correlation beyond which two that act at one port and do equally well are taken for one another; elsewhere evidence.SAME."""
+
 COMPARABLE = 0.5
 """Share of the best one's gain that another must reach to be taken for it."""
 
@@ -29,6 +32,7 @@ def cluster(
     were added to. ``columns``: projected columns by ((candidate, shape), key). What does as well by changing the
     signals otherwise is not like the winner: both may be missing.
     """
+    port = {candidate.name: candidate.port for candidate in experiment.candidates}
     rows = lambda name: np.stack([row for (job, _), row in columns.items() if job[0] == name])
     like, correlation, apart = [], {}, {}
     for trial in trials:
@@ -47,7 +51,8 @@ def cluster(
             power |= {i: float(np.mean(frame.whitening[i](one[i] - other[i]) ** 2)) for i in frame.indices}
         one, other = np.concatenate(changes, axis=1).astype(float)
         alike = max(correlation[trial.name], one @ other / np.sqrt((one @ one) * (other @ other)))
-        if alike > evidence.SAME and sum(z) / np.sqrt(len(z)) < APART:
+        at_one = port[trial.name] and port[trial.name] == port[winner.name]
+        if alike > (SAME_PORT if at_one else evidence.SAME) and sum(z) / np.sqrt(len(z)) < APART:
             like.append(trial.name)
             apart[trial.name] = experiment.records[max(power, key=power.get)].name
     return tuple(like), correlation, apart

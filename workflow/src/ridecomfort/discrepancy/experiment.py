@@ -69,6 +69,8 @@ class Candidate:
     sentence: str = ""
     instrument: bool = False
     """Whether it is an error of the measurement, not of the model."""
+    port: str = ""
+    """Where it acts; two at one port may stand in for one another."""
 
     def at(self, shares: Mapping[str, float], shape: int = 0) -> dict[str, float]:
         """Values with each size at this many probes from neutral, the others neutral."""
@@ -94,7 +96,7 @@ class Experiment(Protocol):
         """What the alignment of a record may still get wrong, (direction, channel, sample)."""
 
     def finer(self) -> Experiment:
-        """The same with nuisances on the finest scale on which they matter, for the last fit."""
+        """The same, simulated as exactly as the sizes that are told deserve."""
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Experiment:
         """The same with these amounts of the nuisances (direction,) taken out of its records."""
@@ -149,6 +151,12 @@ class Frame:
     def cleaned(self, index: int, residual: np.ndarray) -> np.ndarray:
         """A residual (channel, sample) less what its nuisances explain of it."""
         return residual - np.tensordot(self.amounts(index, residual), self.nuisances[index], 1)
+
+    def parts(self, rows: np.ndarray) -> list[np.ndarray]:
+        """Vectors (..., element) taken apart by record, each (..., channel, sample)."""
+        counts = [len(self.experiment.channels) * len(self.experiment.records[index].place) for index in self.indices]
+        pieces = np.split(rows, np.cumsum(counts)[:-1], axis=-1)
+        return [piece.reshape(*rows.shape[:-1], len(self.experiment.channels), -1) for piece in pieces]
 
     def blocks(self, finer: float = 1.0) -> np.ndarray:
         """Number of the block of every element of ``flat``; records of one site share them."""

@@ -14,6 +14,9 @@ from .spectrum import Spectrum, cross_spectrum
 LEAST = 0.02
 """Sum over the channels of the explainable shares of their errors, below which nothing is there to be explained."""
 
+FINER = 10.0
+"""Parts of a block within which white errors that repeats share depend on one another: they may be those of a single place."""
+
 
 def deviations(records: Sequence[Record], residuals: Sequence[np.ndarray]) -> list[np.ndarray]:
     """What every repeat has of its own at equal place, (channel, sample), its power that of one drive's noise.
@@ -97,7 +100,7 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> tuple[flo
                 place = records[a].place
                 other = np.stack([np.interp(place, records[b].place, row) for row in white[b]])
                 products = (white[a] * other).sum(axis=0)
-                numbers = np.unique(records[a].blocks(), return_inverse=True)[1]
+                numbers = np.unique(records[a].blocks(FINER), return_inverse=True)[1]
                 sums.append(np.bincount(numbers, products))
                 power, pairs = power + np.sqrt(np.sum(white[a] ** 2) * np.sum(other**2)), pairs + 1
     if not sums:

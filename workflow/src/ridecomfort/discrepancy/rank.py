@@ -13,7 +13,7 @@ from . import floor, pool, suspect
 from .select import select
 from .signature import signature
 from .selection import Selection
-from .verdict import Verdict, judge
+from .verdict import Verdict, judge, something_left
 
 
 def rank(
@@ -68,7 +68,9 @@ def rank(
 def suspicions(experiment: cars.Car, selection: Selection) -> list[str]:
     """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains."""
     reasons = suspect.of_drives(experiment)
-    first = selection.ladder[0]
+    first, last = selection.ladder[0], selection.ladder[-1]
+    if selection.repeats and not something_left(selection):
+        reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     explainable = np.maximum(first.squares - selection.ground, 0.0)[0]
     index = selection.frame.indices[0]
     deviation = suspect.road_noise(experiment.replays[index].road.road)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import lsq_linear
+from scipy.stats import norm
 from scipy.stats import t as student
 
 from ..errors import InputError
-from . import evidence, spectrum
+from . import event, evidence, spectrum
 from . import experiment as exp
 from .experiment import Experiment, Frame, Size
 
@@ -19,6 +20,9 @@ BEYOND = 0.5
 
 RENEWAL = 0.3
 """Probes that a size must have moved for its column to be made anew."""
+
+AT_BOUND = 1e-3
+"""Share of the width of its bounds within which a size lies at one of them."""
 
 CONFIDENCE = 0.90
 
@@ -122,15 +126,16 @@ def _renewed(experiment, frame, values, residuals, size: Size, before: np.ndarra
     return frame.flat(column)
 
 
-def covariance(fit: Fit, frame: Frame, groups: np.ndarray, lost: int) -> tuple[np.ndarray, int]:
-    """Covariance of the fitted sizes in probes, and the number of groups it rests on.
+def covariance(fit: Fit, frame: Frame, keys: Sequence[str], groups: np.ndarray, lost: int) -> tuple[np.ndarray, int]:
+    """Covariance of the fitted sizes ``keys`` in probes, the others held, and the number of groups it rests on.
 
     Sandwich estimator: errors of one group (element,) may depend on one another in any way (Cameron and Miller 2015, eq. 11).
     ``lost``: groups that the fit has used up.
     """
+    columns = fit.columns[[fit.keys.index(key) for key in keys]]
     residual, numbers = frame.flat(fit.residuals), np.unique(groups, return_inverse=True)[1]
-    bread = np.linalg.pinv(evidence.product(fit.columns, fit.columns), rcond=1e-10, hermitian=True)
-    sums = np.stack([np.bincount(numbers, row * residual) for row in fit.columns])
+    bread = np.linalg.pinv(evidence.product(columns, columns), rcond=1e-10, hermitian=True)
+    sums = np.stack([np.bincount(numbers, row * residual) for row in columns])
     used = int(np.sum(np.any(sums != 0, axis=0)))
     factor = used / max(used - lost, 1)
     return factor * bread @ (sums @ sums.T) @ bread, used
@@ -141,16 +146,32 @@ def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[
 
     Errors depend on one another where drives come by the same place, and all along a drive, whose path, clock and mounting
     are its own: clustered both ways (Cameron, Gelbach and Miller 2011, eq. 2.8), degrees of freedom by Satterthwaite (1946).
+    What ended at a bound is held there for the intervals of the others: it has no more to give.
     """
-    place, drive = frame.blocks(), frame.drives()
-    own, places = covariance(fit, frame, place, len(fit.keys))
-    along, drives = covariance(fit, frame, drive, 1)
-    both = covariance(fit, frame, place * (drive.max() + 1) + drive, 1)[0]
-    found = {}
+    moving = [size for size in sizes if is_within(size, fit.values)]
+    found = _intervals(fit, frame, moving) if moving else {}
     for size in sizes:
-        k = fit.keys.index(size.key)
+        if size not in moving:
+            found |= {size.key: _intervals(fit, frame, [*moving, size])[size.key]}
+    return {size.key: found[size.key] for size in sizes}
+
+
+def is_within(size: Size, values: Mapping[str, float]) -> bool:
+    """Whether a size can still move both ways; one at its bound takes nothing up any more."""
+    room = AT_BOUND * (size.upper - size.lower)
+    return not min(abs(values.get(size.key, size.neutral) - end) for end in (size.lower, size.upper)) <= room
+
+
+def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[float, float]]:
+    keys = [size.key for size in sizes]
+    place, drive = frame.blocks(), frame.drives()
+    own, places = covariance(fit, frame, keys, place, len(keys))
+    along, drives = covariance(fit, frame, keys, drive, 1)
+    both = covariance(fit, frame, keys, place * (drive.max() + 1) + drive, 1)[0]
+    found = {}
+    for k, size in enumerate(sizes):
         parts = own[k, k], max(along[k, k] - both[k, k], 0.0) if drives > 1 else 0.0
-        freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(fit.keys), 1) + parts[1] ** 2 / max(drives - 1, 1))
+        freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(keys), 1) + parts[1] ** 2 / max(drives - 1, 1))
         half = student.ppf(0.5 + CONFIDENCE / 2, freedom) * np.sqrt(sum(parts)) * abs(size.probe)
         value = fit.values[size.key]
         found[size.key] = value - half, value + half
@@ -175,18 +196,24 @@ def information(frame: Frame, residuals: Mapping[int, np.ndarray]) -> float:
 def advantage(frame: Frame, one: Mapping[int, np.ndarray], other: Mapping[int, np.ndarray]) -> tuple[float, float]:
     """How much better ``one`` fits than ``other``: fall of the white loss, and its z over blocks (Vuong 1989).
 
-    Both are made white by the mean of their spectra, so that neither is favoured.
+    Both are made white by the mean of their spectra, so that neither is favoured. Where they differ at a few
+    places only, the z is that of an error there which looks like the difference (``event``).
     """
     cleaned = [{i: frame.cleaned(i, part[i]) for i in frame.indices} for part in (one, other)]
     spectra = [exp.condition_spectra(frame.experiment, part) for part in cleaned]
-    losses = np.zeros(0)
+    white: tuple[list, list] = [], []
     for index in frame.indices:
         record = frame.experiment.records[index]
         mean = (spectra[0][record.condition] + spectra[1][record.condition]) * 0.5
-        white = spectrum.Whitening(mean, record.rate, record.band, frame.whitening[index].scale)
-        difference = white(cleaned[1][index]) ** 2 - white(cleaned[0][index]) ** 2
-        losses = np.concatenate([losses, difference.ravel()])
-    sums = np.bincount(np.unique(frame.blocks(), return_inverse=True)[1], losses)
+        whitening = spectrum.Whitening(mean, record.rate, record.band, frame.whitening[index].scale)
+        for part, own in zip(white, cleaned):
+            part.append(whitening(own[index]).ravel())
+    better, worse = (np.concatenate(part) for part in white)
+    sums = np.bincount(np.unique(frame.blocks(), return_inverse=True)[1], worse**2 - better**2)
     sums = sums[sums != 0]
+    fall = float(sums.sum())
+    change = (better - worse)[None]
+    if fall > 0 and event.participation(change, frame.blocks())[0] < event.FEW:
+        return fall, float(norm.isf(event.p_values(frame, worse, change, np.zeros(1, int), np.ones(1))[0][0]))
     spread = np.sqrt(np.sum((sums - sums.mean()) ** 2)) if sums.size > 1 else np.inf
-    return float(sums.sum()), float(sums.sum() / spread) if spread > 0 else 0.0
+    return fall, float(fall / spread) if spread > 0 else 0.0

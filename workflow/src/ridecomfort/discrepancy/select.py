@@ -14,14 +14,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import cluster, evidence, floor, probe, refit
+from . import cluster, floor, probe, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment, Frame
+from .propose import propose
 from .refit import Fit
 from .selection import Round, Selection, State, Trial
-
-LEVEL = 0.05
-"""Probability of a false alarm over the whole library."""
 
 LEAST_SHARE = 0.02
 """Share of the explainable error below which an effect is not worth naming."""
@@ -29,11 +27,14 @@ LEAST_SHARE = 0.02
 PROPOSED = 5
 """Candidates that are refitted in a round."""
 
-CONTENT = 0.9
+CONTENT = 0.98
 """Share of the gain of a size that is not plausible at which a plausible one does as well."""
 
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that an effect must reach."""
+
+MET = 0.01
+"""White power of what an effect does to a drive held out, against that on a fitted one, below which the first cannot decide on it."""
 
 LARGE = 0.02
 """Gain per independent value of the records above which a refit is repeated with the spectrum of its own residuals."""
@@ -50,20 +51,8 @@ CYCLES = 8
 FINAL_CYCLES = 2
 """Frames of the last fit, each of the residuals of the one before: an error in what makes it white comes out too small."""
 
-ALIAS = 0.1
+ALIAS = 0.05
 """Share of a candidate's power that nuisances must leave; below it it is one of them under another name."""
-
-AT_BOUND = 1e-3
-"""Share of the width of its bounds within which a parameter lies at one of them."""
-
-DECOYS = 6
-"""Columns with the spectrum of a candidate and random phases that must never rank."""
-
-DECOY_LEVEL = 0.005
-"""p-value at which a decoy ranks; at LEVEL one of twenty rounds in which nothing is left would call the data suspect."""
-
-FINER = 4.0
-"""Parts of a block in the second form of the test, which sees rare events better."""
 
 
 def select(
@@ -144,14 +133,18 @@ class _Search:
             return {}, None
         residuals = exp.simulate(self.experiment, values, indices)
         frame = self._frame(residuals, values)
-        realigned = self.experiment.realigned({index: frame.amounts(index, residuals[index]) for index in indices})
-        closer = exp.simulate(realigned, values, indices)
-        better = {i for i in indices if np.sum(frame.flat_of(i, closer[i]) ** 2) < np.sum(frame.flat_of(i, residuals[i]) ** 2)}
+        closer, self.experiment = self._closer(values, residuals, frame)
+        return (closer, self._frame(closer, values)) if closer is not residuals else (residuals, frame)
+
+    def _closer(self, values, residuals, frame: Frame) -> tuple[Mapping[int, np.ndarray], Experiment]:
+        """Residuals with those records realigned that this brings closer, and the experiment in which they are."""
+        realigned = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in residuals})
+        moved = exp.simulate(realigned, values, residuals)
+        better = {i for i in residuals if np.sum(frame.flat_of(i, moved[i]) ** 2) < np.sum(frame.flat_of(i, residuals[i]) ** 2)}
         if not better:
-            return residuals, frame
-        self.experiment = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in better})
-        residuals = {i: closer[i] if i in better else residuals[i] for i in indices}
-        return residuals, self._frame(residuals, values)
+            return residuals, self.experiment
+        kept = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in better})
+        return {i: moved[i] if i in better else residuals[i] for i in residuals}, kept
 
     def _calibrated(self, values: dict[str, float]) -> tuple[Frame, Fit]:
         """Frame and fit of the present model, at its own spectrum."""
@@ -166,7 +159,7 @@ class _Search:
         return frame, fit
 
     def _final(self, base: Fit) -> tuple[Fit, Frame]:
-        """The fit whose sizes are told, with its frame: nuisances are as fine as they matter."""
+        """The fit whose sizes are told, with its frame: simulated as exactly as they deserve."""
         self.experiment = self.experiment.finer()
         values = base.values
         residuals, frame = self._aligned(values, self.fitted)
@@ -217,42 +210,16 @@ class _Search:
         return {job: found for job, found in kept.items() if self.frame.own_shares(list(found.values())).max() > ALIAS}
 
     def _round(self, base: Fit, check, number: int) -> tuple[Round, Fit]:
-        free = self.frame.flats([self.raw[size.key] for size in self._sizes() if _is_within(size, base.values)])
+        free = self.frame.flats([self.raw[size.key] for size in self._sizes() if refit.is_within(size, base.values)])
         jobs = [job for job in self.columns if job[0] not in self.accepted]
         if not jobs:
             return Round.empty(), base
-        rows, group, sign, labels = [], [], [], []
-        for g, job in enumerate(jobs):
-            parts = list(self.frame.flats(list(self.columns[job].values())))
-            signs = [size.sign for size in self.by_name[job[0]].sizes if size.key in self.columns[job]]
-            keys = list(self.columns[job])
-            if len(parts) > 1:
-                parts, signs, keys = [*parts, sum(parts)], [*signs, int(all(signs))], [*keys, "all"]
-            rows += parts
-            sign += signs
-            group += [g] * len(parts)
-            labels += [(job, key) for key in keys]
-        rng = np.random.default_rng([self.seed, number])
-        for _ in range(DECOYS):
-            job = jobs[rng.integers(len(jobs))]
-            column = next(iter(self.columns[job].values()))
-            state = rng.integers(2**31)
-            decoy = {i: evidence.phase_randomised(part, np.random.default_rng(state)) for i, part in column.items()}
-            rows.append(self.frame.flat(decoy))
-            group.append(group[-1] + 1)
-            sign.append(0)
-        found = evidence.score_test(
-            self.frame.flat(base.residuals), free, np.stack(rows), [self.frame.blocks(), self.frame.blocks(FINER)],
-            group=group, sign=sign, seed=self.seed + number,
-        )  # fmt: skip
-        names = tuple(dict.fromkeys(job[0] for job in jobs))
-        own = {name: [g for g, job in enumerate(jobs) if job[0] == name] for name in names}
-        best = {name: max(own[name], key=lambda g: found.group_gain[g]) for name in names}
-        p_value = np.array([found.p_value[own[name]].min() for name in names])
-        gain = np.array([found.group_gain[best[name]] for name in names])
-        order = [name for _, name in sorted(zip(-gain, names)) if p_value[names.index(name)] <= LEVEL][:PROPOSED]
+        columns = {job: self.columns[job] for job in jobs}
+        found = propose(self.frame, base.residuals, free, columns, self.by_name, [self.seed, number])
+        self.rare = found.rare
+        order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
-        first = list(self.each(_Try(self, base), [jobs[best[name]] for name in order]))
+        first = list(self.each(_Try(self, base), [found.best[name] for name in order]))
         leading = sorted((trial for trial in first if trial is not None), key=lambda trial: trial.bic, reverse=True)
         large = [trial for trial in leading[:SETTLED] if trial.gain > LARGE * self._count()]
         settled = [*self.each(_Settle(self, base), large), *(trial for trial in leading if trial not in large)]
@@ -260,15 +227,13 @@ class _Search:
         winner = max((t for t in trials if not t.objection), key=_merit, default=None)
         like, correlation, apart = (), {}, {}
         if winner is not None:
-            columns = {labels[k]: found.projected[k] for k in range(len(labels))}
             frames = [frame for frame in (self.frame, self.check_frame) if frame is not None]
-            like, correlation, apart = cluster.cluster(self.experiment, frames, base.values, winner, trials, columns)
-        shown = [(k, key) for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"]
-        size, error = ({key: values[k] for k, key in shown} for values in (found.size, found.error))
-        absorbed = np.array([min(found.absorbed[k] for k in range(len(labels)) if group[k] == best[name]) for name in names])
+            like, correlation, apart = cluster.cluster(
+                self.experiment, frames, base.values, winner, trials, found.columns
+            )
         turn = Round(
-            names, p_value, gain, size, error, absorbed, tuple(trials), winner, like, correlation, apart,
-            float(found.p_value[len(jobs) :].min(initial=1.0)), _ranks(found, len(jobs)),
+            found.names, found.p_value, found.gain, found.size, found.size_error, found.absorbed, tuple(trials), winner,
+            like, correlation, apart, found.decoy_p_value, found.decoy_ranks,
         )  # fmt: skip
         return turn, winner.fit if winner is not None else base
 
@@ -300,16 +265,18 @@ class _Search:
         """
         candidate, fit, gained = self.by_name[trial.name], trial.fit, trial.gain
         own = [size for size in candidate.sizes if size.key in fit.keys]
+        beyond = refit.BEYOND if _implausible(candidate, fit.values) else 0.0
         try:
             for _ in range(CYCLES):
-                frame = self._frame(fit.residuals, fit.values)
+                cleaned = self._cleaned(self.frame, fit.residuals)
+                frame = exp.frame(self.experiment, fit.residuals, self.frame.nuisances, cleaned)
                 anew = own if gained < HUGE * self._count() else self._sizes([candidate.name])
                 raw = {**self.raw, **probe.secants(self.experiment, fit.values, fit.residuals, anew)}
                 columns = probe.white(frame, raw)
                 sizes = [size for size in self._sizes([candidate.name]) if size.key in columns]
                 fit = refit.refit(
                     self.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own],
-                    residuals=fit.residuals,
+                    residuals=fit.residuals, beyond=beyond,
                 )  # fmt: skip
                 settled = self._trial(candidate, trial.shape, fit, base)
                 gained = settled.gain - trial.gain
@@ -332,21 +299,36 @@ class _Search:
         candidate, fit = self.by_name[trial.name], trial.fit
         try:
             held = exp.simulate(self.experiment, fit.values, self.held_out)
+            if self.check_frame is not None:
+                held, _ = self._closer(fit.values, held, self.check_frame)
         except (InputError, ValueError):
             return None
         held_gain, held_z = float("nan"), float("nan")
         if self.check_frame is not None:
             held_gain = refit.information(self.check_frame, held) - refit.information(self.check_frame, check)
             held_z = refit.advantage(self.check_frame, held, check)[1]
+        met = not self.held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
+        if not met:
+            held_gain, held_z = float("nan"), float("nan")
         now, before, first = self._state(candidate.name, fit, held), self._state("", base, check), self.base_squares
         share = floor.explained_share(before.squares, now.squares, first.squares, self.ground)
         held_share = floor.explained_share(
             before.held_out_squares, now.held_out_squares, first.held_out_squares, self.held_out_ground
         )
         trial = replace(
-            trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share
+            trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met
         )
         return replace(trial, objection=self._objection(trial, candidate))
+
+    def _meets(self, candidate: Candidate, fit: Fit) -> bool:
+        """Whether any drive held out has what the candidate acts on, a stop that is reached for example."""
+        powers = []
+        for frame, indices in ((self.frame, self.fitted), (self.check_frame, self.held_out)):
+            with_it, without = (
+                exp.simulate(self.experiment, values, indices) for values in (fit.values, {**fit.values, **candidate.at({})})
+            )
+            powers.append(np.sum(frame.flat({i: with_it[i] - without[i] for i in indices}) ** 2) / len(indices))
+        return powers[1] > MET * powers[0]
 
     def _count(self) -> float:
         """Independent values in the band of the fitted records and channels."""
@@ -376,12 +358,6 @@ class _Search:
         return share, z, 1.0 - power / before if before > 0 else float("nan"), first_z
 
 
-def _is_within(size: exp.Size, values: Mapping[str, float]) -> bool:
-    """Whether a parameter can still move both ways; one at its bound takes nothing up any more."""
-    room = AT_BOUND * (size.upper - size.lower)
-    return size.lower + room < values.get(size.key, size.neutral) < size.upper - room
-
-
 def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
     """The first size that lies outside its plausible range, in words; empty where all lie within."""
     for size in candidate.sizes:
@@ -394,11 +370,6 @@ def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
 
 def _merit(trial: Trial) -> float:
     return trial.bic + (trial.held_out_gain if np.isfinite(trial.held_out_gain) else 0.0)
-
-
-def _ranks(found: evidence.Evidence, candidates: int) -> bool:
-    decoys = np.where(found.p_value[candidates:] <= DECOY_LEVEL, found.group_gain[candidates:], 0.0)
-    return bool(decoys.size and decoys.max() > found.group_gain[:candidates].max(initial=0.0))
 
 
 @dataclass(frozen=True)

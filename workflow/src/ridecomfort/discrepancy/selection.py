@@ -26,6 +26,8 @@ class Trial:
     share: float
     held_out_share: float
     objection: str
+    met: bool = True
+    """Whether the drives held out have what the candidate acts on."""
 
 
 @dataclass(frozen=True)

@@ -75,13 +75,15 @@ def cross_spectrum(
 ) -> Spectrum:
     """Cross-spectral density of series (channel, sample) of one condition, by Welch's method.
 
-    ``rate`` in Hz. Segments are averaged over all series and frequencies over ``bandwidth`` (Hz).
+    ``rate`` in Hz. Segments are averaged over all series and frequencies over ``bandwidth`` (Hz). What is slower than
+    ``lowest`` (Hz, by channel) is taken out beforehand: it may be a hundred times larger, and windows leak.
     """
     length = min(int(round(SEGMENT * rate)), min(part.shape[1] for part in series))
     window = np.hanning(length + 1)[:-1]
     window /= np.sqrt(np.sum(window**2))
     total, count = 0.0, 0
     for part in series:
+        part = _faster(part, rate, lowest)
         starts = np.arange(0, part.shape[1] - length + 1, max(length // 2, 1))
         pieces = np.stack([part[:, start : start + length] for start in starts])
         bins = np.fft.rfft(pieces * window, axis=-1)
@@ -90,9 +92,20 @@ def cross_spectrum(
     density = total / count
     frequency = np.fft.rfftfreq(length, 1.0 / rate)
     width = max(1, int(round(bandwidth / frequency[1])) // 2 * 2 + 1)
-    smooth = lambda values: uniform_filter1d(values, width, axis=0, mode="nearest")
+    # No average reaches across an edge below which a channel says nothing.
+    sections = np.split(np.arange(frequency.size), np.searchsorted(frequency, sorted(set(lowest))))
+    parts = [uniform_filter1d(density[own], width, axis=0, mode="nearest") for own in sections if own.size]
     seconds = sum(part.shape[1] for part in series) / rate
-    return Spectrum(frequency, smooth(density.real) + 1j * smooth(density.imag), seconds, lowest)
+    return Spectrum(frequency, np.concatenate(parts), seconds, lowest)
+
+
+def _faster(series: np.ndarray, rate: float, lowest: tuple[float, ...]) -> np.ndarray:
+    """Series (channel, sample) without what is slower than ``lowest`` (Hz, by channel)."""
+    if not lowest:
+        return series
+    frequency = np.fft.rfftfreq(series.shape[1], 1.0 / rate)
+    kept = frequency >= np.array(lowest)[:, None]
+    return np.fft.irfft(np.where(kept, np.fft.rfft(series, axis=1), 0.0), series.shape[1], axis=1)
 
 
 @dataclass(frozen=True)

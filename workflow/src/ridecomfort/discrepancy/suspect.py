@@ -30,6 +30,10 @@ CLOCK = 0.002
 GAIN = 0.02
 """Difference of a recorded gain from one that is more than a calibrated instrument has."""
 
+LATE = 0.004
+"""s between the clock that a record came with and the one at which the model fits it, beyond which the first was wrong. What a model
+lacks delays it by up to 3 ms."""
+
 
 def road_noise(road: xr.Dataset) -> float:
     """Standard deviation in m of white noise in the heights along the road; 0 where none stands out.
@@ -88,4 +92,22 @@ def of_drives(experiment: Car) -> list[str]:
             reasons.append(f"{record.name}: the clock offset is known to {1e3 * error:.1f} ms only")
         if np.isfinite(gain) and abs(gain - 1.0) > GAIN:
             reasons.append(f"{record.name}: the accelerometer's gain is {gain:.3f} against gravity")
+    return reasons
+
+
+def of_fit(experiment: Car, frame: Frame, residuals) -> list[str]:
+    """Reasons in words to doubt a record of which the model explains all but the noise: clock and gains at which it does so.
+
+    ``frame``: that of the ``residuals``, whose experiment may be aligned otherwise than ``experiment``.
+    """
+    reasons = []
+    for index in frame.indices:
+        name = experiment.records[index].name
+        late = frame.experiment.later(experiment, index)
+        if abs(late) > LATE:
+            reasons.append(f"{name}: the model fits at a clock that is {1e3 * late:+.1f} ms off the recorded one")
+        gains = experiment.gains(frame.amounts(index, residuals[index]))
+        for gain, instrument in zip(gains, ("accelerometer", "gyroscope")):
+            if abs(gain - 1.0) > GAIN:
+                reasons.append(f"{name}: the model fits a gain of {gain:.3f} of the {instrument}")
     return reasons

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import floor
 from .experiment import Candidate, Size
-from .select import LEVEL
+from .propose import LEVEL
 from .selection import Selection, State
 
 ENOUGH = 0.5
@@ -24,6 +24,9 @@ nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 
 SURE = 0.005
 """p-value that an effect must reach where repeats share no error for certain."""
+
+ANOTHER_SHAPE = 0.15
+"""Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
 KINDS = ("named", "cluster", "outside", "nothing", "suspect")
 
@@ -90,6 +93,11 @@ def total_shares(selection: Selection) -> tuple[float, float]:
     return shares(selection, selection.ladder[0], selection.ladder[-1])
 
 
+def something_left(selection: Selection) -> bool:
+    """Whether repeats share an error that the last model does not explain; False without repeats."""
+    return bool(selection.remaining_z > SHARED_Z and selection.remaining > SHARED)
+
+
 def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = ()) -> Verdict:
     """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it."""
     by_name = {candidate.name: candidate for candidate in candidates}
@@ -97,12 +105,20 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
     effects = tuple(effect for effect in found if _is_certain(effect, by_name[effect.name]))
     reasons = [f"{e.name} helps, but its size may as well be none" for e in found if e not in effects]
+    for effect in effects:
+        same = _shaped_by(effect, found, by_name)
+        if same:
+            reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
+            effects = tuple(other for other in effects if other is not effect)
     if selection.repeats and not selection.shared_z > SHARED_Z:
         sure = tuple(effect for effect in effects if effect.p_value <= SURE)
         reasons += [f"{e.name} may be chance: repeats share no error for certain" for e in effects if e not in sure]
         effects = sure
+    unmet = {turn.winner.name for turn in selection.rounds if turn.winner is not None and not turn.winner.met}
+    reasons += [f"no drive held out meets {e.name}: it rests on the fitted drives alone" for e in effects if e.name in unmet]
+    effects = tuple(effect for effect in effects if effect.name not in unmet or effect.p_value <= SURE)
     first = selection.rounds[0] if selection.rounds else None
-    left = selection.remaining_z > SHARED_Z and selection.remaining > SHARED
+    left = something_left(selection)
     ground = "the floor is known from repeats" if selection.repeats else "no drive was repeated: the floor is taken as nil"
     explained = max(share, selection.shared_gone) if selection.repeats else share
     little = explained < ENOUGH and (selection.shared_z > SHARED_Z or not selection.repeats)
@@ -142,6 +158,14 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
             reasons.append(f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}")
     kind = "cluster" if any(effect.like for effect in effects) else "named"
     return Verdict(kind, effects, (*reasons, ground), share, held_out)
+
+
+def _shaped_by(effect: Named, found: Sequence[Named], by_name) -> str:
+    """The name of an effect found before at the same port beside which it is small; empty where there is none."""
+    port = by_name[effect.name].port
+    before = found[: found.index(effect)] if port else ()
+    larger = (o.name for o in before if by_name[o.name].port == port and effect.share < ANOTHER_SHAPE * o.share)
+    return next(larger, "")
 
 
 def _is_certain(effect: Named, candidate: Candidate) -> bool:

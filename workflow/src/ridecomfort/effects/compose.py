@@ -13,12 +13,13 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 import numba
+import numpy as np
 
 from .contract import COMPILED, PORTS, Effect
 from .library import Entry
@@ -49,9 +50,17 @@ def cache_folder() -> Path:
 def compose(entries: Sequence[Entry]) -> Kernel:
     """The kernel with these effects at its ports; those that are not compiled are left out.
 
-    Parameters are handed to it in the order of ``entries``, each effect's in its own order.
+    It is handed what ``parameters`` makes of their values.
     """
     return _compose(tuple(entry for entry in entries if entry.effect.port in COMPILED))
+
+
+def parameters(chosen: Sequence[tuple[Entry, Mapping[str, float]]]) -> np.ndarray:
+    """What a kernel of these effects is handed: their values, each effect's in its own order, and for each whether any of
+    them is not neutral. A neutral effect changes nothing, so that it need not be asked."""
+    own = [(entry.effect, values) for entry, values in chosen if entry.effect.port in COMPILED]
+    sizes = [values[parameter.name] for effect, values in own for parameter in effect.parameters]
+    return np.array(sizes + [float(not effect.parameters or values != effect.neutral) for effect, values in own])
 
 
 @lru_cache(maxsize=64)
@@ -105,8 +114,9 @@ def ports_source(effects: Sequence[Effect]) -> tuple[str, int]:
     lines += ["", 'PHYSICS = {"error_model": "numpy", "_nrt": False}', ""]
     lines += [f'{effect.name} = njit(forceinline=True, **PHYSICS)({effect.name})' for effect in effects]
     first_parameter, first_state, places = 0, 0, []
-    for effect in effects:
-        places.append((effect, first_parameter, first_state))
+    first_switch = sum(len(effect.parameters) for effect in effects)
+    for number, effect in enumerate(effects):
+        places.append((effect, first_parameter, first_state, first_switch + number))
         first_parameter += len(effect.parameters)
         first_state += len(effect.states) * (4 if PORTS[effect.port].per_wheel else 1)
     for name in COMPILED:
@@ -119,7 +129,7 @@ def _port_source(name: str, places) -> list[str]:
     signature = ", ".join((*port.sees, "parameters", "states", "slopes"))
     lines = ['@njit(forceinline=True, **PHYSICS)', f"def {name}_port({signature}):"]
     lines += [f"    {result} = 0.0" for result in port.returns if result not in port.sees]
-    for effect, parameter, state in places:
+    for effect, parameter, state, switch in places:
         count = len(effect.states)
         offset = f"{state} + {count} * wheel" if port.per_wheel else f"{state}"
         arguments = list(port.sees)
@@ -127,9 +137,10 @@ def _port_source(name: str, places) -> list[str]:
         arguments += [f"parameters[{parameter + k}]" for k in range(len(effect.parameters))]
         results = [f"new_{result}" for result in port.returns]
         targets = ", ".join(results + [f"slopes[{offset} + {k}]" for k in range(count)])
-        lines.append(f"    {targets} = {effect.name}({', '.join(arguments)})")
+        lines.append(f"    if parameters[{switch}] != 0.0:")
+        lines.append(f"        {targets} = {effect.name}({', '.join(arguments)})")
         for result in port.returns:
-            lines.append(f"    {result} {'=' if result in port.sees else '+='} new_{result}")
+            lines.append(f"        {result} {'=' if result in port.sees else '+='} new_{result}")
     lines.append(f"    return {', '.join(port.returns)}")
     return lines
 

@@ -1,0 +1,90 @@
+"""Evidence for what happens at a few places only: its shape against the errors of other places."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.stats import binom, kstest
+
+from ridecomfort.discrepancy import event
+
+CHANNELS, SAMPLES, EVENT = 3, 2000, slice(900, 940)
+
+
+def a_column(rng):
+    """A response that is there at one place only, (channel, sample)."""
+    column = np.zeros((CHANNELS, SAMPLES))
+    column[:, EVENT] = rng.standard_normal((CHANNELS, 40))
+    return column
+
+
+def p_of(residuals, columns, sign=0):
+    marks = [np.any(rows != 0, axis=1) for rows in columns]
+    like = event.likeness(residuals, columns, marks, np.full(len(columns[0]), sign))
+    return event.shift_test(like, np.arange(len(columns[0])), 50)
+
+
+def test_participation_counts_the_places_that_power_is_spread_over():
+    numbers = np.arange(1000) // 100
+    even, single = np.ones(1000), np.where(numbers == 3, 1.0, 0.0)
+    assert event.participation(np.stack([even, single]), numbers) == pytest.approx([10.0, 1.0])
+
+
+def test_windows_hold_the_blocks_with_most_of_the_power():
+    numbers = np.arange(1000) // 100
+    column = np.where(numbers == 3, 1.0, np.where(numbers == 7, 0.5, 0.01))[None]
+    assert set(numbers[event.windows(column, numbers)[0]]) == {3, 7}
+
+
+def test_likeness_is_the_share_of_the_error_that_a_moved_column_explains():
+    rng = np.random.default_rng(0)
+    residual, column = rng.standard_normal((CHANNELS, SAMPLES)), a_column(rng)
+    marks = np.any(column != 0, axis=0)
+    like = event.likeness([residual], [column[None]], [marks[None]], np.zeros(1))[0]
+    for shift in (0, 17, 1500):
+        moved, inside = np.roll(column, shift, axis=1), np.roll(marks, shift)
+        best = np.sum(moved * residual) / np.sum(moved**2)
+        left = np.sum((residual - best * moved)[:, inside] ** 2) / np.sum(residual[:, inside] ** 2)
+        assert like[shift] == pytest.approx(1 - left)
+
+
+def test_records_move_together():
+    rng = np.random.default_rng(1)
+    residuals = [rng.standard_normal((CHANNELS, count)) for count in (SAMPLES, SAMPLES + 30)]
+    columns = [np.pad(a_column(rng), ((0, 0), (0, part.shape[1] - SAMPLES)))[None] for part in residuals]
+    marks = [np.any(rows != 0, axis=1) for rows in columns]
+    like = event.likeness(residuals, columns, marks, np.zeros(1))[0]
+    product = sum(np.sum(np.roll(rows[0], 5, axis=1) * own) for rows, own in zip(columns, residuals))
+    power = sum(np.sum(rows**2) for rows in columns)
+    within = sum(np.sum(own[:, np.roll(inside[0], 5)] ** 2) for own, inside in zip(residuals, marks))
+    assert like[5] == pytest.approx(product**2 / (power * within))
+
+
+def test_an_event_that_is_missing_is_found_although_it_is_one():
+    rng = np.random.default_rng(2)
+    columns = np.stack([a_column(rng) for _ in range(4)])
+    residual = rng.standard_normal((CHANNELS, SAMPLES)) - 1.5 * columns[2]
+    p_value = p_of([residual], [columns])
+    assert p_value[2] < 0.005 and np.delete(p_value, 2).min() > 0.05
+
+
+def test_an_amount_of_the_wrong_sign_is_none():
+    rng = np.random.default_rng(3)
+    column = a_column(rng)
+    residual = rng.standard_normal((CHANNELS, SAMPLES)) + 1.5 * column
+    assert p_of([residual], [column[None]], sign=1)[0] > 0.5 and p_of([residual], [column[None]])[0] < 0.005
+
+
+def test_large_errors_at_the_place_are_no_evidence_unless_they_look_like_the_effect():
+    rng = np.random.default_rng(4)
+    residual = rng.standard_normal((CHANNELS, SAMPLES))
+    residual[:, EVENT] *= 30.0
+    assert p_of([residual], [a_column(rng)[None]])[0] > 0.02
+
+
+def test_false_alarms_over_all_events_are_as_rare_as_promised():
+    rng = np.random.default_rng(5)
+    found = [p_of([rng.standard_normal((CHANNELS, SAMPLES))], [np.stack([a_column(rng) for _ in range(3)])]).min() for _ in range(200)]
+    lower, upper = binom.interval(0.998, 200, 0.05)
+    assert lower <= np.sum(np.array(found) <= 0.05) <= upper
+    assert kstest(found, "uniform").pvalue > 0.001

@@ -1,0 +1,120 @@
+"""Which candidates the fitted drives speak for: the score test over the whole library, with decoys beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import event, evidence
+from .evidence import Evidence
+from .experiment import Candidate, Frame
+
+LEVEL = 0.05
+"""Probability of a false alarm over the whole library."""
+
+DECOYS = 6
+"""Columns with the spectrum of a candidate and random phases that must never rank."""
+
+DECOY_LEVEL = 0.005
+"""p-value at which a decoy ranks; at LEVEL one of twenty rounds in which nothing is left would call the data suspect."""
+
+FINER = 4.0
+"""Parts of a block in the second form of the test, which sees rare events better."""
+
+BY_BLOCKS, BY_SHAPE = 1.5, 3.0
+"""Factors of the p-values: three forms of the test are tried, two of which ``evidence`` has accounted for."""
+
+Job = tuple[str, int]
+"""A candidate and the number of its shape."""
+
+Columns = Mapping[str, Mapping[int, np.ndarray]]
+"""Change of the residuals per probe of each size, by record."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """The evidence by candidate: ``p_value`` over the whole library, ``gain`` (fall of the white loss) and ``absorbed`` (share
+    that is free anyway) in the best shape, ``best``; by key of that shape ``size`` and ``size_error`` in probes.
+
+    ``columns``: what is projected of every column, by ((candidate, shape), key). ``rare``: names that act at few places.
+    """
+
+    names: tuple[str, ...]
+    p_value: np.ndarray
+    gain: np.ndarray
+    absorbed: np.ndarray
+    best: dict[str, Job]
+    size: dict[str, float]
+    size_error: dict[str, float]
+    columns: dict[tuple[Job, str], np.ndarray]
+    rare: frozenset[str]
+    decoy_p_value: float
+    decoy_ranks: bool
+
+    def significant(self, most: int) -> list[str]:
+        """Names that are significant over the library, those with the largest gains, at most ``most``."""
+        order = sorted(zip(-self.gain, self.names, self.p_value))
+        return [name for _, name, p_value in order if p_value <= LEVEL][:most]
+
+
+def propose(
+    frame: Frame, residuals: Mapping[int, np.ndarray], free: np.ndarray, columns: Mapping[Job, Columns],
+    candidates: Mapping[str, Candidate], seed: Sequence[int],
+) -> Proposal:  # fmt: skip
+    """Test ``columns`` on the white residuals of the fitted records; ``free``: white directions that are fitted anyway.
+
+    All sizes of a candidate in one shape count together and each alone.
+    """
+    rows, group, sign, labels = [], [], [], []
+    for number, (job, own) in enumerate(columns.items()):
+        parts, keys = list(frame.flats(list(own.values()))), list(own)
+        signs = [size.sign for size in candidates[job[0]].sizes if size.key in own]
+        if len(parts) > 1:
+            parts, signs, keys = [*parts, sum(parts)], [*signs, int(all(signs))], [*keys, "all"]
+        rows += parts
+        sign += signs
+        group += [number] * len(parts)
+        labels += [(job, key) for key in keys]
+    decoys = _decoys(frame, list(columns.values()), np.random.default_rng(seed))
+    group += range(len(columns), len(columns) + DECOYS)
+    sign += [0] * DECOYS
+    found = evidence.score_test(
+        frame.flat(residuals), free, np.stack([*rows, *decoys]), [frame.blocks(), frame.blocks(FINER)],
+        group=group, sign=sign, seed=sum(seed),
+    )  # fmt: skip
+    by_shape, rare = event.p_values(frame, found.residual, found.projected, np.array(group), np.array(sign))
+    p_value = np.minimum(np.minimum(BY_BLOCKS * found.p_value, BY_SHAPE * by_shape), 1.0)
+    jobs = list(columns)
+    names = tuple(dict.fromkeys(name for name, _ in jobs))
+    own = {name: [g for g, job in enumerate(jobs) if job[0] == name] for name in names}
+    best = {name: max(own[name], key=lambda g: found.group_gain[g]) for name in names}
+    shown = [(k, key) for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"]
+    return Proposal(
+        names=names,
+        p_value=np.array([p_value[own[name]].min() for name in names]),
+        gain=np.array([found.group_gain[best[name]] for name in names]),
+        absorbed=np.array([min(found.absorbed[k] for k in range(len(labels)) if group[k] == best[name]) for name in names]),
+        best={name: jobs[g] for name, g in best.items()},
+        size={key: found.size[k] for k, key in shown},
+        size_error={key: found.error[k] for k, key in shown},
+        columns={label: found.projected[k] for k, label in enumerate(labels)},
+        rare=frozenset(job[0] for job, is_rare in zip(jobs, rare) if is_rare),
+        decoy_p_value=float(found.p_value[len(jobs) :].min()),
+        decoy_ranks=_decoy_ranks(found, len(jobs)),
+    )
+
+
+def _decoys(frame: Frame, columns: Sequence[Columns], rng: np.random.Generator) -> np.ndarray:
+    rows = []
+    for _ in range(DECOYS):
+        column = next(iter(columns[rng.integers(len(columns))].values()))
+        state = rng.integers(2**31)
+        rows.append({i: evidence.phase_randomised(part, np.random.default_rng(state)) for i, part in column.items()})
+    return frame.flats(rows)
+
+
+def _decoy_ranks(found: Evidence, candidates: int) -> bool:
+    gains = np.where(found.p_value[candidates:] <= DECOY_LEVEL, found.group_gain[candidates:], 0.0)
+    return bool(gains.max() > found.group_gain[:candidates].max(initial=0.0))
