@@ -2,6 +2,8 @@
 PYTHON ?= python3
 CORES ?= $(shell getconf _NPROCESSORS_ONLN)
 BIN = .venv/bin
+# Processes run side by side; threads of linear algebra would wait for one another.
+export OPENBLAS_NUM_THREADS = 1
 
 .PHONY: env study test bench blind recovery
 

@@ -61,3 +61,16 @@ def test_the_verdict_on_disk_is_followed_unless_the_study_does_not_go_forward(st
 def test_files_are_those_of_the_measured_sites_model_by_model(study):
     files = models.chain(study(sites=["ts1", "ts2"], effects=["payload"])).files(study(sites=["ts1", "ts2"]), "comparison.nc")
     assert files == [f"results/{site}/{model}/comparison.nc" for site in ("ts1", "ts2") for model in ("base", "payload")]
+
+
+def test_a_ladder_is_of_the_models_that_were_compared_even_if_a_verdict_has_come_since(study, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    own = study(sites=["ts1"])
+    asked = models.known(own).files(own, "comparison.nc")
+    file = tmp_path / models.verdict_file(own)
+    file.parent.mkdir(parents=True)
+    file.write_text(json.dumps(NAMED))
+    assert json.loads(models.ladder_settings(own, asked))["models"] == ["base"]
+    later = json.loads(models.ladder_settings(own, models.known(own).files(own, "comparison.nc")))
+    assert later["models"] == ["base", "suspension_friction", "damper_asymmetry+suspension_friction"]
+    assert later["titles"] == ["+ suspension_friction", "+ damper_asymmetry"]

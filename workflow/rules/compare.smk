@@ -52,7 +52,7 @@ rule ladder:
     output:
         f"results/ladder/{study.model}.nc",
     params:
-        config=lambda wildcards: models.ladder_settings(study, models.known(study)),
+        config=lambda wildcards, input: models.ladder_settings(study, input.comparisons),
     log:
         f"results/logs/ladder/{study.model}.log",
     benchmark:

@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from . import spectrum
-from .evidence import without
+from .span import Rows, Span, taken_apart
 from .spectrum import Spectrum, Whitening
 
 
@@ -109,15 +109,11 @@ class Frame:
     experiment: Experiment
     indices: list[int]
     whitening: dict[int, Whitening]
-    nuisances: dict[int, np.ndarray]
-    bases: dict[int, np.ndarray] = field(init=False)
+    nuisances: dict[int, Rows]
+    spans: dict[int, Span] = field(init=False)
 
     def __post_init__(self):
-        self.bases, self._amounts = {}, {}
-        for index in self.indices:
-            raw = self.nuisances[index]
-            white = self.whitening[index](raw).reshape(len(raw), -1)
-            self.bases[index], self._amounts[index] = _orthonormal(white)
+        self.spans = {index: Span(self.nuisances[index], self.whitening[index]) for index in self.indices}
 
     def flat(self, parts: Mapping[int, np.ndarray]) -> np.ndarray:
         """White vector of a residual or column per record, nuisances projected out."""
@@ -125,32 +121,29 @@ class Frame:
 
     def flats(self, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:
         """``flat`` of several columns at once, (column, element): one product of matrices instead of many with vectors."""
-        return np.concatenate([without(white, self.bases[i]) for i, white in self._white(columns)], axis=1)
+        count = len(columns)
+        return np.concatenate([self.spans[i].without(white).reshape(count, -1) for i, white in self._white(columns)], axis=1)
 
     def flat_of(self, index: int, residual: np.ndarray) -> np.ndarray:
         """``flat`` of one record."""
-        return without(self.whitening[index](residual).ravel(), self.bases[index])
+        return self.spans[index].without(self.whitening[index](residual)).ravel()
 
     def own_shares(self, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:
         """Share of the power of each column that its nuisances leave, (column,)."""
-        left, whole = np.zeros(len(columns)), np.zeros(len(columns))
-        for index, white in self._white(columns):
-            power = np.einsum("ce,ce->c", white, white)
-            left += power - np.sum((white @ self.bases[index].T) ** 2, axis=1)
-            whole += power
+        left, whole = sum(np.array(self.spans[i].shares(white)) for i, white in self._white(columns))
         return left / np.where(whole > 0, whole, 1.0)
 
     def _white(self, columns: Sequence[Mapping[int, np.ndarray]]):
         for index in self.indices:
-            yield index, self.whitening[index](np.stack([parts[index] for parts in columns])).reshape(len(columns), -1)
+            yield index, self.whitening[index](np.stack([parts[index] for parts in columns]))
 
     def amounts(self, index: int, residual: np.ndarray) -> np.ndarray:
         """Amounts (direction,) of its nuisances that a residual (channel, sample) holds."""
-        return self._amounts[index] @ (self.bases[index] @ self.whitening[index](residual).ravel())
+        return self.spans[index].amounts(self.whitening[index](residual))
 
     def cleaned(self, index: int, residual: np.ndarray) -> np.ndarray:
         """A residual (channel, sample) less what its nuisances explain of it."""
-        return residual - np.tensordot(self.amounts(index, residual), self.nuisances[index], 1)
+        return self.spans[index].cleaned(residual)
 
     def parts(self, rows: np.ndarray) -> list[np.ndarray]:
         """Vectors (..., element) taken apart by record, each (..., channel, sample)."""
@@ -178,7 +171,7 @@ class Frame:
 def frame(
     experiment: Experiment,
     residuals: Mapping[int, np.ndarray],
-    nuisances: Mapping[int, np.ndarray],
+    nuisances: Mapping[int, Rows],
     cleaned: Mapping[int, np.ndarray] | None = None,
 ) -> Frame:
     """The frame in which these residuals, less their nuisances, are white.
@@ -197,19 +190,6 @@ def frame(
     if cleaned is not None:
         return made
     return frame(experiment, residuals, nuisances, {index: made.cleaned(index, residuals[index]) for index in indices})
-
-
-def _orthonormal(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Orthonormal rows of the span of ``rows``, and the matrix from amounts of those to amounts of ``rows``."""
-    if not len(rows):
-        return rows, np.zeros((0, 0))
-    size = np.sqrt(np.sum(rows.astype(np.float64) ** 2, axis=1))
-    size = np.where(size > 0, size, np.inf)
-    scaled = rows / size[:, None].astype(rows.dtype)
-    values, vectors = np.linalg.eigh((scaled @ scaled.T).astype(np.float64))
-    kept = values > 1e-5 * values[-1]
-    turn = vectors[:, kept] / np.sqrt(values[kept])
-    return turn.T.astype(rows.dtype) @ scaled, turn / size[:, None]
 
 
 def condition_spectra(experiment: Experiment, residuals: Mapping[int, np.ndarray]) -> dict[str, Spectrum]:
@@ -231,10 +211,10 @@ def simulate(experiment: Experiment, values: Mapping[str, float], indices: Itera
     return dict(zip(indices, experiment.each_record(lambda index: experiment.residual(values, index), indices)))
 
 
-def nuisances(experiment: Experiment, values: Mapping[str, float], indices: Iterable[int]) -> dict[int, np.ndarray]:
+def nuisances(experiment: Experiment, values: Mapping[str, float], indices: Iterable[int]) -> dict[int, Rows]:
     """Nuisances of several records."""
     indices = list(indices)
-    return dict(zip(indices, experiment.each_record(lambda index: experiment.nuisances(values, index), indices)))
+    return dict(zip(indices, experiment.each_record(lambda index: taken_apart(experiment.nuisances(values, index)), indices)))
 
 
 def secant(

@@ -24,6 +24,9 @@ BANDWIDTH = 1.0
 EDGE = 1.0
 """s at both ends of a series that are left out when white: what came before the first sample is not known."""
 
+STRIDE = 256
+"""Samples to whole numbers of which the length of a transform is rounded up."""
+
 LEAST = 1e-8
 """Share of the mean variance, all channels in units of their own, that a direction keeps: a sensor that repeats another."""
 
@@ -127,17 +130,24 @@ class Whitening:
         object.__setattr__(self, "_root", root)
         object.__setattr__(self, "_known", {})
 
-    def __call__(self, series: np.ndarray) -> np.ndarray:
-        """White series of the same shape (..., channel, sample), in the precision of ``series``."""
+    def __call__(self, series: np.ndarray, start: int = 0, total: int | None = None) -> np.ndarray:
+        """White series of the same shape (..., channel, sample), in the precision of ``series``.
+
+        ``start``, ``total``: of a piece, its first sample in the record and the samples of that.
+        """
         count = series.shape[-1]
+        total = count if total is None else total
         white = irfft(self._filter(count, np.asarray(series)), self._length(count), axis=-1)[..., :count]
-        edge = min(int(EDGE * self.rate), count // 10)
-        white[..., :edge] = 0.0
-        white[..., count - edge :] = 0.0
-        return white if self.scale is None else white / self.scale.astype(white.dtype)
+        edge = min(int(EDGE * self.rate), total // 10)
+        white[..., : max(edge - start, 0)] = 0.0
+        white[..., max(total - edge - start, 0) :] = 0.0
+        if self.scale is None:
+            return white
+        return white / self.scale[start : start + count].astype(white.dtype)
 
     def _length(self, count: int) -> int:
-        return next_fast_len(count + int(SEGMENT * self.rate), real=True)
+        whole = STRIDE * -(-count // STRIDE)  # few lengths, so that few filters have to be kept
+        return next_fast_len(whole + int(SEGMENT * self.rate), real=True)
 
     def _filter(self, count: int, series: np.ndarray) -> np.ndarray:
         length = self._length(count)

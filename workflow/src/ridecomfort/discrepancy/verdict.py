@@ -25,7 +25,7 @@ nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 SURE = 0.005
 """p-value that an effect must reach where repeats share no error for certain."""
 
-ANOTHER_SHAPE = 0.15
+ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
 KINDS = ("named", "cluster", "outside", "nothing", "suspect")

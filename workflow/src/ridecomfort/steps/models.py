@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -53,7 +53,19 @@ def verdict_file(study: Study) -> str:
     return f"results/diagnosis/{study.model}/verdict.json"
 
 
-def ladder_settings(study: Study, along: Chain) -> str:
-    """Configuration of the step ``ladder`` as JSON: models, titles, and whether each site's own drives were fitted."""
+def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
+    """Configuration of the step ``ladder`` as JSON: models, titles, and whether each site's own drives were fitted.
+
+    The models are those of the files ``comparisons`` (results/<site>/<model>/...): a verdict that came after they were asked for would
+    speak of others.
+    """
+    from ..discrepancy.ladder import rung_titles
+
+    models = list(dict.fromkeys(Path(file).parts[2] for file in comparisons))
+    sets = [set() if model == BASE else set(model.split(JOIN)) for model in models]
+    effects = [name for before, after in zip(sets, sets[1:]) for name in sorted(after - before)]
+    file = Path(verdict_file(study))
+    found = json.loads(file.read_text())["effects"] if file.is_file() else []
+    titles = rung_titles(effects, {effect["name"]: effect.get("like", ()) for effect in found})
     fitted = {site: study.calibrated_on(site) == site for site in study.measured}
-    return json.dumps({"sites": fitted, "models": list(along.models), "titles": list(along.titles)})
+    return json.dumps({"sites": fitted, "models": models, "titles": titles})

@@ -1,0 +1,133 @@
+"""Directions that are projected out of white series, most of them there along a part of the road only.
+
+What alignment may get wrong of clock and path is a sum of splines, each a few seconds long. Whole
+rows of them would be read for every projection; pieces are a twentieth of that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .spectrum import Whitening
+
+MEMORY = 2.0
+"""s that a white series rings on beyond the one it was made from; what is later is less than a hundredth."""
+
+SAME = 1e-5
+"""Share of the largest eigenvalue below which directions repeat one another."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Rows (row, channel, sample) of a matrix of ``total`` samples that are nil outside of ``start`` and its length."""
+
+    numbers: np.ndarray
+    start: int
+    rows: np.ndarray
+
+    @property
+    def place(self) -> slice:
+        """The samples that it covers."""
+        return slice(self.start, self.start + self.rows.shape[-1])
+
+    def flat(self) -> np.ndarray:
+        """The rows as vectors."""
+        return self.rows.reshape(len(self.rows), -1)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The ``pieces`` of a matrix (direction, channel, sample) of ``count`` directions and ``total`` samples."""
+
+    pieces: list[Piece]
+    count: int
+    total: int
+
+
+def taken_apart(rows: np.ndarray) -> Rows:
+    """Rows (direction, channel, sample) by where they are not nil."""
+    there = np.any(rows != 0, axis=1)
+    first = np.argmax(there, axis=1)
+    last = np.where(there.any(axis=1), rows.shape[-1] - np.argmax(there[:, ::-1], axis=1), first)
+    ends, which = np.unique(np.stack([first, last], axis=1), axis=0, return_inverse=True)
+    found = []
+    for k, (start, stop) in enumerate(ends):
+        numbers = np.flatnonzero(which.ravel() == k)
+        if stop > start:
+            found.append(Piece(numbers, int(start), rows[numbers, :, start:stop]))
+    return Rows(found, len(rows), rows.shape[-1])
+
+
+@dataclass
+class Span:
+    """The span of ``rows`` after they have been made white."""
+
+    rows: Rows
+    whitening: Whitening
+    white: list[Piece] = field(init=False)
+
+    def __post_init__(self):
+        self.white = [self._whitened(piece) for piece in self.rows.pieces]
+        normal = self._normal()
+        size = np.sqrt(np.diag(normal))
+        size = np.where(size > 0, size, np.inf)
+        values, vectors = np.linalg.eigh(normal / np.outer(size, size))
+        kept = values > SAME * values.max(initial=0.0)
+        vectors = vectors[:, kept] / size[:, None]
+        self._inverse = (vectors / values[kept]) @ vectors.T
+
+    def amounts(self, white: np.ndarray) -> np.ndarray:
+        """Amounts (..., direction) of the rows that white series (..., channel, sample) hold."""
+        return self._products(white) @ self._inverse
+
+    def without(self, white: np.ndarray) -> np.ndarray:
+        """White series (..., channel, sample) less their projection on the span."""
+        return _less(white, self.amounts(white), self.white)
+
+    def cleaned(self, series: np.ndarray) -> np.ndarray:
+        """A series (channel, sample) less the amounts of the raw rows that it holds when white."""
+        return _less(series, self.amounts(self.whitening(series)), self.rows.pieces)
+
+    def shares(self, white: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Power of white series (column, channel, sample) outside of the span, and in all, (column,)."""
+        products = self._products(white)
+        power = np.einsum("cij,cij->c", white, white).astype(float)
+        return power - np.einsum("cd,de,ce->c", products, self._inverse, products), power
+
+    def _products(self, white: np.ndarray) -> np.ndarray:
+        found = np.zeros((*white.shape[:-2], self.rows.count))
+        for piece in self.white:
+            part = white[..., piece.place].reshape(*white.shape[:-2], -1)
+            found[..., piece.numbers] = part @ piece.flat().T
+        return found
+
+    def _whitened(self, piece: Piece) -> Piece:
+        margin = int(MEMORY * self.whitening.rate)
+        start, stop = max(piece.start - margin, 0), min(piece.place.stop + margin, self.rows.total)
+        before, behind = piece.start - start, stop - piece.place.stop
+        padded = np.pad(piece.rows, ((0, 0), (0, 0), (before, behind)))
+        return Piece(piece.numbers, start, self.whitening(padded, start, self.rows.total))
+
+    def _normal(self) -> np.ndarray:
+        normal = np.zeros((self.rows.count, self.rows.count))
+        for k, one in enumerate(self.white):
+            for other in self.white[: k + 1]:
+                start, stop = max(one.start, other.start), min(one.place.stop, other.place.stop)
+                if stop <= start:
+                    continue
+                left, right = (
+                    part.rows[..., start - part.start : stop - part.start].reshape(len(part.rows), -1) for part in (one, other)
+                )
+                normal[np.ix_(one.numbers, other.numbers)] = left @ right.T
+                normal[np.ix_(other.numbers, one.numbers)] = right @ left.T
+        return normal
+
+
+def _less(series: np.ndarray, amounts: np.ndarray, own: list[Piece]) -> np.ndarray:
+    left = series.copy()
+    for piece in own:
+        part = (amounts[..., piece.numbers].astype(series.dtype) @ piece.flat()).reshape(*series.shape[:-1], -1)
+        left[..., piece.place] -= part
+    return left
