@@ -14,6 +14,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 from ridecomfort import discrepancy
+from ridecomfort.discrepancy.places import PLACES
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 
@@ -40,6 +41,12 @@ def one(job: tuple[str, int, int]) -> dict:
     seconds = time.process_time() - start
     row = {"kind": kind, "seed": seed, "number": number, "hidden": "+".join(draw.hidden), "kappa": draw.kappa}
     row |= {"reached": trial.truth["reached"], **score.score(draw, trial.truth, table, verdict)}
+    row |= {"place_right": "", "form_share": ""}
+    ports = {place.port: name for name, place in PLACES.items()}
+    place = ports.get(known[draw.hidden[0]].effect.port) if kind == "outside" else None
+    if place:
+        proposal = discrepancy.discover(trial.measured, car, seed=number, workers=1)
+        row |= {"place_right": proposal.place == place, "form_share": proposal.held_out_share}
     oracle = score.against_oracle(trial, car, trials.SHAPES, table) if draw.hidden and kind != "messy" else float("nan")
     return {**row, "against_oracle": oracle, "cpu_seconds": seconds, "reasons": "; ".join(verdict.reasons)}
 

@@ -13,6 +13,9 @@ from ridecomfort.discrepancy import experiment as exp
 
 from .kinds import KAPPAS, SUSPECT, Draw
 
+FORM = 0.8
+"""Share of the explainable error held out from which on a form counts as that of the effect."""
+
 VISIBLE = 0.8
 """Share of a kappa that must be reached for a trial to count as one of that kappa."""
 
@@ -85,6 +88,9 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
         line(f"an effect named where nothing is missing: {kind}", of(kind), lambda row: row["found"])
     line("wrong effect named with confidence", rows, lambda row: row["wrong_named"])
     line('"outside the library" said when it is, kappa >= 0.3', single("outside", strong), lambda row: row["verdict"] == "outside")
+    placed = [row for row in single("outside", strong) if row["form_share"] != ""]
+    line("place of such an effect right (strut, tyre, body)", placed, lambda row: row["place_right"])
+    line(f"its proposed form removes {100 * FORM:.0f} % of the explainable error held out", placed, lambda row: row["form_share"] >= FORM)
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"])
     line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"])
     for kind in SUSPECT:

@@ -220,6 +220,7 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
     study = Study(settings, sites, standin, folder)
     _check_effects(study, given)
     _check_parameters(settings["calibration"], _source("calibration", given))
+    _check_uncertain(settings["diagnosis"]["uncertain"], _source("diagnosis", given))
     _check_vehicles(study, given)
     _check_calibrations(study)
     _check_handed_in(study)
@@ -354,6 +355,14 @@ def _check_parameters(calibration: Mapping, source) -> None:
         if not lower <= value <= upper:
             what = f"{value:g}, expected within the bounds {lower:g} to {upper:g}"
             raise InputError(what, file=source, place=f"calibration: start: {name}")
+
+
+def _check_uncertain(uncertain: Mapping[str, float], source) -> None:
+    for name in uncertain:
+        if name not in parameters.PARAMETERS or name in CALIBRATED:
+            why = "is calibrated" if name in CALIBRATED else "is no parameter of a vehicle"
+            known = ", ".join(key for key in parameters.PARAMETERS if key not in CALIBRATED)
+            raise InputError(f"{name!r} {why}; expected of {known}", file=source, place="diagnosis: uncertain")
 
 
 def _check_vehicles(study: Study, given: list[str]) -> None:

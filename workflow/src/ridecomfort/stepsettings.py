@@ -74,6 +74,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 "sites": study.diagnosed,
                 "fitted_on": study.diagnosed[:1],
                 "bounds": {name: chosen["calibration"]["bounds"][name] for name in CALIBRATED},
+                "uncertain": chosen["diagnosis"]["uncertain"],
                 "seed": chosen["seed"],
                 "workers": None,
                 "among": None,

@@ -25,6 +25,7 @@ def rank(
     effects_folder=None,
     fitted_on: Sequence[str] | None = None,
     bounds: Mapping[str, Sequence[float]] | None = None,
+    uncertain: Mapping[str, float] | None = None,
     among: Sequence[str] | None = None,
     most: int = 3,
     seed: int = 0,
@@ -37,7 +38,8 @@ def rank(
 
     ``measured``: mapping of site to (road, aligned drives); drives of role "fit" on the sites ``fitted_on`` (by
     default the first) are fitted, the others of those sites and one of each speed of other sites decide. ``calibration`` and
-    ``effects`` are those of the model; ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
+    ``effects`` are those of the model; ``uncertain``: share by which parameters that are not calibrated may be wrong
+    (default ``car.UNCERTAIN``). ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
     default one for each core. ``signatures``: estimate the missing force against what it could depend on as well.
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
@@ -48,7 +50,7 @@ def rank(
     count = pool.workers() if workers is None else workers
     experiment = cars.car(
         cars.sites_of(measured), vehicle, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
-        bounds=bounds, library_names=among, options=options, each_record=pool.side_by_side(count),
+        bounds=bounds, uncertain=uncertain, library_names=among, options=options, each_record=pool.side_by_side(count),
     )  # fmt: skip
     each = pool.mapped(count)
     selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
@@ -58,7 +60,7 @@ def rank(
         say("drawing the missing force")
         curves = signature(
             measured, vehicle, selection.ladder[0].fit.values, effects=effects, effects_folder=effects_folder,
-            fitted_on=fitted_on, bounds=bounds, workers=workers, options=options,
+            fitted_on=fitted_on, bounds=bounds, uncertain=uncertain, workers=workers, options=options,
             named={e.name: {size["parameter"]: size["size"] for size in e.sizes} for e in verdict.effects},
         )  # fmt: skip
         table = table.merge(curves)

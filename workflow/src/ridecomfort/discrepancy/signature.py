@@ -64,6 +64,7 @@ def signature(
     effects_folder=None,
     fitted_on: Sequence[str] | None = None,
     bounds: Mapping[str, Sequence[float]] | None = None,
+    uncertain: Mapping[str, float] | None = None,
     named: Mapping[str, Mapping[str, float]] | None = None,
     workers: int | None = None,
     options: Mapping | None = None,
@@ -84,7 +85,8 @@ def signature(
         for number, seen in enumerate(SEEN.values()):
             (Path(folder) / f"{_name(number)}.py").write_text(_source(_name(number), seen), encoding="utf-8")
         experiment = cars.car(
-            _fitted_only(measured, fitted_on), vehicle, effects=effects, effects_folder=folder, fitted_on=fitted_on, bounds=bounds,
+            _fitted_only(measured, fitted_on), vehicle, effects=effects, effects_folder=folder, fitted_on=fitted_on,
+            bounds=bounds, uncertain=uncertain,
             library_names=[_name(number) for number in range(len(SEEN))], options=options,
             each_record=pool.side_by_side(count),
         )  # fmt: skip

@@ -18,7 +18,7 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict):
         name: (store.read(road), store.read(drive))
         for name, road, drive in zip(config["sites"], roads, measured, strict=True)
     }
-    settings = {key: config[key] for key in ("effects", "effects_folder", "fitted_on", "bounds", "seed", "workers")}
+    settings = {key: config[key] for key in ("effects", "effects_folder", "fitted_on", "bounds", "uncertain", "seed", "workers")}
     settings["calibration"] = None if calibration is None else store.read(calibration)
     settings["options"] = {"step": config["simulation"]["step"]}
     settings["say"] = lambda words: print(words, file=sys.stderr, flush=True)
