@@ -10,6 +10,7 @@ from scipy.stats import binomtest
 from ridecomfort.discrepancy import car as cars
 from ridecomfort.discrepancy import floor
 from ridecomfort.discrepancy import experiment as exp
+from ridecomfort.discrepancy.rank import SHARED
 
 from .kinds import KAPPAS, SUSPECT, Draw
 
@@ -35,6 +36,7 @@ def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
         "first_right": bool(found) and found[0] in draw.right, "in_cluster": bool(likely & draw.right),
         "wrong_named": verdict.verdict == "named" and not set(found) <= draw.right, "exact": set(found) == set(draw.right),
         "covered": sum(sizes), "sizes": len(sizes), "share": verdict.share, "held_out_share": verdict.held_out_share,
+        **{name: float(table[name]) for name in SHARED},
     }  # fmt: skip
 
 
@@ -48,7 +50,7 @@ def against_oracle(trial, vehicle, effects_folder, table) -> float:
     held_out = [index for index, record in enumerate(knowing.records) if record.role != "fit"]
     values = cars.start_values(knowing)
     residuals = exp.simulate(knowing, values, held_out)
-    frame = exp.frame(knowing, residuals, {index: knowing.nuisances(values, index) for index in held_out})
+    frame = exp.frame(knowing, residuals, exp.nuisances(knowing, values, held_out))
     oracle = floor.squares(knowing, {index: frame.cleaned(index, residuals[index]) for index in held_out})
     first, last = (table["held_out_mean_square"].isel(model=k).values for k in (0, -1))
     possible = np.sum((first - oracle) / first)

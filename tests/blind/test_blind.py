@@ -13,7 +13,8 @@ from ridecomfort.discrepancy import car as cars
 from ridecomfort.drive import record
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
-from tests.blind import trials
+from tests.blind import score, trials
+from tests.blind.__main__ import one
 
 AMONG = ("suspension_friction", "damper_asymmetry", "spring_progression", "tyre_progression", "top_mount")
 
@@ -75,3 +76,10 @@ def test_a_record_that_is_wrong_is_called_suspect(car_file, spoilt, reason):
     trial = trials.make(103, car, {}, 1.0, **spoilt)
     _, verdict = discrepancy.rank(trial.measured, car, among=AMONG, most=1, workers=1)
     assert verdict.verdict == "suspect" and any(reason in words for words in verdict.reasons)
+
+
+def test_a_trial_becomes_a_row_and_rows_a_table(car_file):
+    row = one(("clean", 3, 8))
+    assert row["hidden"] == "damper_asymmetry" and row["in_cluster"] and row["against_oracle"] > 0.8
+    table = "\n".join(score.summary([row]))
+    assert "| first name right, clean, kappa >= 0.3 | 100 %" in table and "oracle" in table

@@ -15,6 +15,9 @@ from .signature import signature
 from .selection import Selection
 from .verdict import Verdict, judge, something_left
 
+SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
+"""What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""
+
 
 def rank(
     measured: Mapping[str, tuple],
@@ -71,7 +74,7 @@ def suspicions(experiment: cars.Car, selection: Selection) -> list[str]:
     """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains."""
     reasons = suspect.of_drives(experiment)
     first, last = selection.ladder[0], selection.ladder[-1]
-    if selection.repeats and not something_left(selection):
+    if selection.repeats and not selection.accepted and not something_left(selection):
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     explainable = np.maximum(first.squares - selection.ground, 0.0)[0]
     index = selection.frame.indices[0]
@@ -127,6 +130,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
             ),
             "floor_mean_square": (("drive", "signal"), selection.ground),
             "held_out_floor_mean_square": (("held_out", "signal"), selection.held_out_ground),
+            **{name: ((), float(getattr(selection, name)), {"units": "1"}) for name in SHARED},
             "value": (("parameter",), np.array([selection.final.values[key] for key in selection.intervals])),
             "interval": (("parameter", "bound"), np.array(list(selection.intervals.values())).reshape(-1, 2)),
         },
