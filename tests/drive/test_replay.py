@@ -29,7 +29,7 @@ def driven(car):
     record = simulate.run(course, car, sensor=trials.SENSOR, **trials._demand(rng, road.u.values, 22.0))
     x, y, z = trials.SENSOR
     record = record[list(DRIVE)].isel(time=slice(200, None)).assign_attrs(
-        name="drive", role="fit", gravity=0, cut_off=45.0, place_measured=1, lateral_position=0.0,
+        name="drive", role="fit", gravity=0, cut_off=50.0, place_measured=1, lateral_position=0.0,
         sensor_x=x, sensor_y=y, sensor_z=z,
     )  # fmt: skip
     return course, record

@@ -103,20 +103,7 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
     by_name = {candidate.name: candidate for candidate in candidates}
     share, held_out = total_shares(selection)
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
-    effects = tuple(effect for effect in found if _is_certain(effect, by_name[effect.name]))
-    reasons = [f"{e.name} helps, but its size may as well be none" for e in found if e not in effects]
-    for effect in effects:
-        same = _shaped_by(effect, found, by_name)
-        if same:
-            reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
-            effects = tuple(other for other in effects if other is not effect)
-    if selection.repeats and not selection.shared_z > SHARED_Z:
-        sure = tuple(effect for effect in effects if effect.p_value <= SURE)
-        reasons += [f"{e.name} may be chance: repeats share no error for certain" for e in effects if e not in sure]
-        effects = sure
-    unmet = {turn.winner.name for turn in selection.rounds if turn.winner is not None and not turn.winner.met}
-    reasons += [f"no drive held out meets {e.name}: it rests on the fitted drives alone" for e in effects if e.name in unmet]
-    effects = tuple(effect for effect in effects if effect.name not in unmet or effect.p_value <= SURE)
+    effects, reasons = _kept(selection, found, by_name)
     first = selection.rounds[0] if selection.rounds else None
     left = something_left(selection)
     ground = "the floor is known from repeats" if selection.repeats else "no drive was repeated: the floor is taken as nil"
@@ -130,11 +117,11 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
         reasons.append(f"{names} is an error of the measurement, not of the vehicle")
         # An error of the measurement that explains little is what something else, not in the library, looks like.
         if little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
-            effects, wrong = tuple(vehicle), []
+            effects, wrong = vehicle, []
     if decoys:
         reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
     if wrong or decoys or suspicions:
-        return Verdict("suspect", effects, (*reasons, *suspicions), share, held_out)
+        return Verdict("suspect", tuple(effects), (*reasons, *suspicions), share, held_out)
     if not found:
         best = float(np.min(first.p_value)) if first is not None and first.p_value.size else 1.0
         if best > LEVEL:
@@ -147,7 +134,7 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
             reasons.append(f"{_percent(held_out)} on drives held out")
     if found and little:
         reasons.append("that is less than half" + (" of what repeats share" if selection.repeats else ""))
-        return Verdict("outside", effects, (*reasons, ground), share, held_out)
+        return Verdict("outside", tuple(effects), (*reasons, ground), share, held_out)
     if not effects:
         if left:
             reasons.append(f"but repeats share an error that no candidate explains (z = {selection.remaining_z:.1f})")
@@ -157,7 +144,29 @@ def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Seq
             where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like)
             reasons.append(f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}")
     kind = "cluster" if any(effect.like for effect in effects) else "named"
-    return Verdict(kind, effects, (*reasons, ground), share, held_out)
+    return Verdict(kind, tuple(effects), (*reasons, ground), share, held_out)
+
+
+def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[Named], list[str]]:
+    """The effects that stand, and in words what is to be said of them and of the others."""
+    unmet = {turn.winner.name for turn in selection.rounds if turn.winner is not None and not turn.winner.met}
+    shared = not selection.repeats or selection.shared_z > SHARED_Z
+    kept, reasons = [], []
+    for effect in found:
+        same = _shaped_by(effect, found, by_name)
+        if not _is_certain(effect, by_name[effect.name]):
+            reasons.append(f"{effect.name} helps, but its size may as well be none")
+        elif same:
+            reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
+        elif not shared and effect.p_value > SURE:
+            reasons.append(f"{effect.name} may be chance: repeats share no error for certain")
+        elif effect.name in unmet and effect.p_value > SURE:
+            reasons.append(f"{effect.name} may be chance: no drive held out meets it")
+        else:
+            kept.append(effect)
+            if effect.name in unmet:
+                reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
+    return kept, reasons
 
 
 def _shaped_by(effect: Named, found: Sequence[Named], by_name) -> str:
