@@ -33,6 +33,11 @@ class Draw:
     missing: tuple[str, ...] = ()
     spoilt: Mapping[str, object] = field(default_factory=dict)
 
+    @property
+    def there(self) -> frozenset[str]:
+        """All names that would not be wrong: ``right`` and what is there in the background."""
+        return self.right | frozenset(self.spoilt.get("background", ()))
+
 
 def of_the_vehicle() -> list[str]:
     """Effects of the library that are none of an instrument or of the road's file."""

@@ -35,7 +35,7 @@ def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
     return {
         "verdict": verdict.verdict, "found": "+".join(found), "likely": "+".join(sorted(likely)),
         "first_right": bool(found) and found[0] in draw.right, "in_cluster": bool(likely & draw.right),
-        "wrong_named": verdict.verdict == "named" and not set(found) <= draw.right, "exact": set(found) == set(draw.right),
+        "wrong_named": verdict.verdict == "named" and not set(found) <= draw.there, "exact": set(found) == set(draw.right),
         "covered": sum(sizes), "sizes": len(sizes), "share": verdict.share, "held_out_share": verdict.held_out_share,
         **{name: float(table[name]) for name in SHARED},
     }  # fmt: skip

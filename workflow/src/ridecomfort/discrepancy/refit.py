@@ -171,7 +171,9 @@ def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple
     found = {}
     for k, size in enumerate(sizes):
         parts = own[k, k], max(along[k, k] - both[k, k], 0.0) if drives > 1 else 0.0
-        freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(keys), 1) + parts[1] ** 2 / max(drives - 1, 1))
+        freedom = 1.0
+        if sum(parts) > 0:
+            freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(keys), 1) + parts[1] ** 2 / max(drives - 1, 1))
         half = student.ppf(0.5 + CONFIDENCE / 2, freedom) * np.sqrt(sum(parts)) * abs(size.probe)
         value = fit.values[size.key]
         found[size.key] = value - half, value + half

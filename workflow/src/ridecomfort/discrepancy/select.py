@@ -30,6 +30,9 @@ PROPOSED = 5
 CONTENT = 0.98
 """Share of the gain of a size that is not plausible at which a plausible one does as well."""
 
+CHANCE = 3.84
+"""Fall of the white loss that one free size reaches by chance in one of twenty fits: so little is no sign of an implausible one."""
+
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that an effect must reach."""
 
@@ -253,7 +256,8 @@ class _Search:
                     self.experiment, self.frame, start, sizes, columns, renewed=own, residuals=base.residuals, beyond=0.0
                 )
                 before = float(np.sum(self.frame.flat(base.residuals) ** 2))
-                fit = inside if before - inside.loss > CONTENT * (before - fit.loss) else fit
+                does = inside.loss - fit.loss < CHANCE or before - inside.loss > CONTENT * (before - fit.loss)
+                fit = inside if does else fit
             return self._trial(candidate, shape, fit, base)
         except (InputError, ValueError):
             return None
