@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -52,6 +52,10 @@ class Course:
         if not np.isfinite(values).all():
             raise InputError("is not finite everywhere", place=what)
         return values
+
+    def otherwise(self) -> Course:
+        """The same with the other interpolation between the points: linear for cubic, cubic for linear."""
+        return replace(self, surface=self.surface._replace(smooth=not self.surface.smooth))
 
 
 def prepare(road: xr.Dataset, interpolation: str | None = None) -> Course:

@@ -109,7 +109,8 @@ class Car:
         return self.replays[index](vehicle, {**self.quiet, **effects})
 
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
-        """Slow errors of the clock and of the path, biases, gains and tilts, (direction, 6, sample)."""
+        """What alignment and the road's file leave open, (direction, 6, sample): slow errors of the clock and of the path,
+        the road between its points, gains, tilts and biases."""
         again = self.replays[index]
         kept = again.compared
         simulated = self.simulated(values, index)
@@ -121,6 +122,7 @@ class Car:
         columns = [spline * simulated.slopes[:, kept] for spline in splines]
         aside = again.aside(vehicle, {**self.quiet, **effects})[:, kept]
         columns += [spline * aside for spline in splines]
+        columns.append(self._otherwise(again, vehicle, effects)[:, kept] - simulated.signals[:, kept])
         zero = np.zeros_like(force)
         columns += [np.concatenate([force, zero]), np.concatenate([zero, rates])]
         for axis in np.eye(3):
@@ -128,6 +130,16 @@ class Car:
             columns.append(np.concatenate(turned))
         columns += list(np.eye(6)[:, :, None] * np.ones(kept.sum()))
         return np.stack(columns).astype(np.float32)
+
+    def _otherwise(self, again: Replay, vehicle, effects) -> np.ndarray:
+        """The signals (6, time) on a road that is interpolated the other way, or as they are where there is only one."""
+        if isinstance(again.road, simulator.Course):
+            again = replace(again, road=again.road.otherwise())
+        return again(vehicle, {**self.quiet, **effects}).signals
+
+    def between(self, amounts: np.ndarray) -> float:
+        """Share of the way from the road's interpolation to the other one that these amounts of the nuisances (direction,) stand for."""
+        return -float(amounts[-12])
 
     def gains(self, amounts: np.ndarray) -> tuple[float, float]:
         """Gains of the accelerometer and of the gyroscope that these amounts of the nuisances (direction,) stand for."""

@@ -57,7 +57,8 @@ def rank(
     )  # fmt: skip
     each = pool.mapped(count)
     selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
-    verdict = judge(selection, experiment.candidates, suspicions(experiment, selection))
+    of_road = suspect.of_road(experiment, selection.frame, selection.ladder[-1].fit.residuals)
+    verdict = judge(selection, experiment.candidates, suspicions(experiment, selection), of_road)
     table = dataset(experiment, selection)
     if signatures:
         say("drawing the missing force")

@@ -27,6 +27,9 @@ CAUSED = 0.3
 CLOCK = 0.002
 """s of standard error of a clock offset beyond which tyre damping cannot be told from delay."""
 
+OTHERWISE = 0.5
+"""Share of the way to the other interpolation of the road from which on a record speaks for that."""
+
 GAIN = 0.02
 """Difference of a recorded gain from one that is more than a calibrated instrument has."""
 
@@ -111,3 +114,11 @@ def of_fit(experiment: Car, frame: Frame, residuals) -> list[str]:
             if abs(gain - 1.0) > GAIN:
                 reasons.append(f"{name}: the model fits a gain of {gain:.3f} of the {instrument}")
     return reasons
+
+
+def of_road(experiment: Car, frame: Frame, residuals) -> list[str]:
+    """Words on the road between the points of its file, where the records speak for the other interpolation."""
+    found = [experiment.between(frame.amounts(index, residuals[index])) for index in frame.indices]
+    if np.median(found) < OTHERWISE:
+        return []
+    return ["between its points the road fits better if it is interpolated the other way (road: options: interpolation)"]

@@ -98,12 +98,16 @@ def something_left(selection: Selection) -> bool:
     return bool(selection.remaining_z > SHARED_Z and selection.remaining > SHARED)
 
 
-def judge(selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = ()) -> Verdict:
-    """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it."""
+def judge(
+    selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = (), notes: Sequence[str] = ()
+) -> Verdict:
+    """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it, ``notes`` words
+    that change nothing."""
     by_name = {candidate.name: candidate for candidate in candidates}
     share, held_out = total_shares(selection)
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
     effects, reasons = _kept(selection, found, by_name)
+    reasons += notes
     first = selection.rounds[0] if selection.rounds else None
     left = something_left(selection)
     ground = "the floor is known from repeats" if selection.repeats else "no drive was repeated: the floor is taken as nil"
