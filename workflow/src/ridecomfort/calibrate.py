@@ -150,10 +150,14 @@ def calibrate(
             steps[f"OP_{index + 1}"] = found
     in_sequence = point
     best = descend(task, in_sequence, everything, tolerance, known=columns, exact=True)
-    fits = [best]
+    fits, failed = [best], []
     random = qmc.LatinHypercube(len(everything), rng=np.random.default_rng(seed)).random(restarts)
     for place in (*starts[1:], *random):
-        found = descend(task, place, everything, max(tolerance, COARSE), known=best.jacobian)
+        try:
+            found = descend(task, place, everything, max(tolerance, COARSE), known=best.jacobian)
+        except InputError as refused:
+            failed.append(str(refused))
+            continue
         if not -EQUAL < found.cost / best.cost - 1 < DISAGREE:
             found = descend(task, found.point, everything, tolerance, known=found.jacobian, exact=True)
         if found.cost < best.cost * (1 - EQUAL):
@@ -175,6 +179,8 @@ def calibrate(
             f"the clock of {', '.join(eager)} would move by more than the {1e3 * CLOCK_LEFT:g} ms it is trusted to: "
             "the model lacks a delay or a damping"
         )
+    if failed:
+        remarks.append(f"{len(failed)} of {len(failed) + len(fits)} starts led to a vehicle that does not drive ({failed[0]})")
     worst = float(result["restart_cost"].max() / best.cost - 1)
     if worst > DISAGREE:
         remarks.append(f"starts disagree: the worst of {len(fits)} ends at a cost {100 * worst:.1f} % above the best")

@@ -15,6 +15,9 @@ FORCE = 30.0
 STRONGEST = 1500.0
 """N (or N m) at typical motion beyond which a term is not plausible."""
 
+WIDTH = 3.0
+"""Times its estimate that a factor which was found may plausibly be."""
+
 AXLES = ("front", "rear")
 
 
@@ -152,7 +155,7 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
         reach = STRONGEST / scale(place, key)
         for part in where.parts:
             typical = float(factors.get(part, FORCE / scale(place, key)))
-            limit = float(f"{max(reach, 2 * abs(typical)):.3g}")
+            limit = float(f"{WIDTH * abs(typical) if factors.get(part) else reach:.3g}")
             meaning = f"factor of {term.expression}" + (f", {part}" if part else "")
             parameters.append(
                 f'        Parameter("{parameter(key, part)}", "{term.unit}", 0.0, {typical:.6g}, ({-limit:g}, {limit:g}), "{meaning}"),'

@@ -75,6 +75,7 @@ def suspicions(experiment: cars.Car, selection: Selection) -> list[str]:
     """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains."""
     reasons = suspect.of_drives(experiment)
     first, last = selection.ladder[0], selection.ladder[-1]
+    reasons += suspect.of_signs(experiment, first.fit.residuals)
     if selection.repeats and not selection.accepted and not something_left(selection):
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     explainable = np.maximum(first.squares - selection.ground, 0.0)[0]

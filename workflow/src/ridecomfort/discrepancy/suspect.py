@@ -11,6 +11,7 @@ from . import floor
 from . import experiment as exp
 from .car import Car
 from .experiment import Frame
+from .judged import judged
 
 ROAD_BAND = (0.1, 0.8)
 """Cycles per metre in which the spectrum of a road follows a power law (ISO 8608 holds to 2.83)."""
@@ -29,6 +30,9 @@ CLOCK = 0.002
 
 OTHERWISE = 0.5
 """Share of the way to the other interpolation of the road from which on a record speaks for that."""
+
+AGAINST = -0.3
+"""Correlation with the model below which a signal is taken for one of the wrong sign."""
 
 GAIN = 0.02
 """Difference of a recorded gain from one that is more than a calibrated instrument has."""
@@ -122,3 +126,18 @@ def of_road(experiment: Car, frame: Frame, residuals) -> list[str]:
     if np.median(found) < OTHERWISE:
         return []
     return ["between its points the road fits better if it is interpolated the other way (road: options: interpolation)"]
+
+
+def of_signs(experiment: Car, residuals) -> list[str]:
+    """Reasons in words to doubt a signal that runs against what the model does, in the band that is judged."""
+    reasons = []
+    for index, residual in residuals.items():
+        record, again = experiment.records[index], experiment.replays[index]
+        measured = again.measured()[:, again.compared]
+        pair = judged(np.stack([measured, measured + residual]), record.rate, experiment.channels)
+        power = np.sqrt(np.sum(pair**2, axis=-1)).prod(axis=0)
+        found = np.sum(pair.prod(axis=0), axis=-1) / np.where(power > 0, power, 1.0)
+        for name, correlation in zip(experiment.channels, found):
+            if correlation < AGAINST:
+                reasons.append(f"{record.name}: {name} runs against the model (correlation {correlation:.2f}): is its sign right?")
+    return reasons

@@ -25,6 +25,9 @@ nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 SURE = 0.005
 """p-value that an effect must reach where repeats share no error for certain."""
 
+CONFIRMED = 0.25
+"""Share of what an effect removes on the fitted drives that it must remove on those held out."""
+
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
@@ -164,6 +167,9 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
             reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
         elif not shared and effect.p_value > SURE:
             reasons.append(f"{effect.name} may be chance: repeats share no error for certain")
+        elif effect.name not in unmet and effect.held_out_share < CONFIRMED * effect.share:
+            removed = f"{_percent(effect.share)} on the fitted drives and {_percent(effect.held_out_share)} on those held out"
+            reasons.append(f"{effect.name} removes {removed}")
         elif effect.name in unmet and effect.p_value > SURE:
             reasons.append(f"{effect.name} may be chance: no drive held out meets it")
         else:

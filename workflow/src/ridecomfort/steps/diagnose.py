@@ -25,11 +25,13 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict):
     car = parameters.read(vehicle)
     table, found = discrepancy.rank(drives, car, among=config["among"], signatures=True, **settings)
     content = found.json()
+    proposed = Path(verdict).with_name("discovered.py")
+    proposed.unlink(missing_ok=True)  # of drives or of a model before
     if found.verdict == "outside":
         proposal = discrepancy.discover(drives, car, **settings)
         content["proposal"] = proposal.json()
         if proposal.source:
-            _write(Path(verdict).with_name("discovered.py"), proposal.source)
+            _write(proposed, proposal.source)
     store.write(table, ranking, title="Evidence for effects that the model lacks", configuration=config, seed=config["seed"])
     _write(verdict, json.dumps(content, indent=1) + "\n")
     print(found.words(), file=sys.stderr)

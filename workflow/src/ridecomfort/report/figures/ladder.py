@@ -16,6 +16,9 @@ from ..tables.ladder import METHODS, rung_title
 
 TITLES = {rungs.FITTED: "fitted drives", rungs.HELD_OUT: "drives held out"}
 COLOURS = {"thresholds": ("#6A3D9A", "s"), "iso2631": ("#3A3A3A", "o")}
+HIGHEST = 200.0
+"""% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen."""
+
 LONGEST = 16
 """Letters in a line under a rung."""
 
@@ -47,7 +50,8 @@ def error_ladder(study: Difference) -> Figure:
         first = next(axes for axes in row if axes.axison)
         first.set_ylabel("explainable error left [%]")
         first.tick_params(labelleft=True)
-        first.set_ylim(bottom=min(0.0, first.get_ylim()[0]))
+        lowest, highest = first.get_ylim()
+        first.set_ylim(min(0.0, lowest), min(highest, HIGHEST))
     panels[-1, 0].set_ylabel("sections unlike measured [%]")
     panels[-1, 0].set_ylim(bottom=0.0)
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
@@ -69,6 +73,9 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
         values = 100 * chosen["left"].sel(signal=signal).values
         axes.plot(*_known(places, values), color=colour, marker=marker, markersize=3.5)
     axes.plot(*_known(places, 100 * chosen["left_overall"].values), color="black", linewidth=2.2, zorder=1)
+    beyond = 100 * float(chosen["left"].max())
+    if beyond > HIGHEST:
+        axes.text(0.03, 0.97, f"up to {beyond:,.0f} %", transform=axes.transAxes, va="top", fontsize="x-small")
     axes.axhline(0.0, color=style.FLOOR, linestyle="--")
     axes.yaxis.grid(True)
 

@@ -21,7 +21,8 @@ NEXT = {
     "named": "Switch them on, effects: [{keys}] in config/study.yaml, and compare again.",
     "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
     "them apart.",
-    "outside": "See the proposed form, and the effect file beside the verdict where there is one.",
+    "outside": "Look at the proposed form, put discovered.py, which lies beside the verdict, into the folder that effects_folder in "
+    "config/study.yaml names, and switch it on, effects: [discovered].",
     "nothing": "Nothing is to be switched on.",
     "suspect": "Put the data right first, then diagnose again.",
 }
@@ -37,7 +38,11 @@ def verdict(found: Diagnosis) -> Table:
     proposal = said.get("proposal") or {}
     if proposal.get("form"):
         rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
-    rows.append(("next", NEXT[said["verdict"]].format(keys=keys)))
+        rows.append(("next", NEXT["outside"]))
+    elif said["verdict"] == "outside":
+        rows.append(("next", "No form was found that would take the error away; see where it lies (compare)."))
+    else:
+        rows.append(("next", NEXT[said["verdict"]].format(keys=keys)))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)
