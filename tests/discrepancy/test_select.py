@@ -90,3 +90,14 @@ def test_shared_error_of_repeats_is_nothing_for_noise_and_half_for_one_as_large_
     model.candidates = model.candidates[1:]
     selection, _ = judged(model)
     assert 0.3 < selection.remaining < 0.7 and np.isfinite(selection.remaining_z)
+
+
+def test_without_repeats_the_floor_is_the_noise_that_is_known_of_the_instruments():
+    model = Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0})
+    model.records = [replace(r, condition=r.name) for r in model.records]
+    assert any("taken as nil" in reason for reason in judged(model)[1].reasons)
+    model.records = [replace(record, noise=(0.1,) * 4) for record in model.records]
+    selection, found = judged(model)
+    assert any("assumed from the noise" in reason for reason in found.reasons)
+    low, high = model.records[0].band
+    assert selection.ground.max() == pytest.approx(0.01 * (high - low))

@@ -75,6 +75,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 "fitted_on": study.diagnosed[:1],
                 "bounds": {name: chosen["calibration"]["bounds"][name] for name in CALIBRATED},
                 "uncertain": chosen["diagnosis"]["uncertain"],
+                "noise_density": {name: _noise_densities(study.sites[name]["drives"]) for name in study.diagnosed},
                 "seed": chosen["seed"],
                 "workers": None,
                 "among": None,

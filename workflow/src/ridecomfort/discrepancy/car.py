@@ -17,8 +17,9 @@ from ..effects import library
 from ..effects.contract import COMPILED, Effect, Parameter
 from ..calibrated import with_values
 from ..vehicle.parameters import PARAMETERS
-from ..vocabulary import SIGNALS, STANDARD_GRAVITY
+from ..vocabulary import SIGNALS, STANDARD_GRAVITY, VARIABLES
 from .experiment import Candidate, Record, Size
+from .explain import INSTRUMENT
 
 PROBE = 0.25
 """Share of an effect's typical size that it is probed with: the smallest size of interest."""
@@ -189,6 +190,7 @@ def car(
     uncertain: Mapping[str, float] | None = None,
     library_names: Sequence[str] | None = None,
     simulate: Callable[..., xr.Dataset] = simulator.run,
+    noise_density: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
     options: Mapping | None = None,
     each_record: Callable = map,
 ) -> Car:
@@ -197,7 +199,8 @@ def car(
     Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, the others of those sites and one of
     each speed of the other sites are held out.
     ``bounds``: of calibrated parameters, beside tab:constraints. ``uncertain``: share by which further
-    parameters of the vehicle may be wrong (default UNCERTAIN). ``library_names``: the effects to look
+    parameters of the vehicle may be wrong (default UNCERTAIN). ``noise_density``: of the instruments by site and drive, as for
+    ``explain.explain``. ``library_names``: the effects to look
     among, by default all of the library and of the user's folder but those of the model. ``each_record``: a ``map`` over drives.
     """
     effects = {name: dict(sizes or {}) for name, sizes in (effects or {}).items()}
@@ -218,7 +221,9 @@ def car(
             first, last = again.time[again.compared][[0, -1]] + (SETTLING, -RUN_OUT)
             again = replace(again, compared=again.compared & (again.time >= first) & (again.time <= last))
             role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
-            records.append(_record(site.name, again, role, speeds, len(sites) > 1))
+            density = (noise_density or {}).get(site.name, {}).get(str(drive.attrs["name"]), {})
+            noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
+            records.append(replace(_record(site.name, again, role, speeds, len(sites) > 1), noise=noise))
             replays.append(again)
     known = library.find(effects_folder)
     chosen = [entry for entry, _ in library.choose(effects, effects_folder)]

@@ -36,6 +36,8 @@ class Record:
     block: float
     lowest: tuple[float, ...] = ()
     """Hz by channel below which an error of it says nothing, where that is above the band's lower end."""
+    noise: tuple[float, ...] = ()
+    """Density of the noise by channel (unit/sqrt(Hz), one-sided) where it is known beforehand."""
 
     def blocks(self, finer: float = 1.0) -> np.ndarray:
         """Number of the block that every sample lies in, (sample,)."""

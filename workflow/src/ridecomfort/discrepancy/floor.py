@@ -58,6 +58,14 @@ def floor(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> dict[str
     }
 
 
+def assumed(record: Record) -> np.ndarray:
+    """Mean square (channel,) within the band of the noise that is known of a record beforehand; nil where none is."""
+    if not record.noise:
+        return np.zeros(1)
+    lowest = np.maximum(record.band[0], record.lowest or 0.0)
+    return np.square(record.noise) * (record.band[1] - lowest)
+
+
 def squares(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> np.ndarray:
     """Mean square of the residuals within the band, (record, channel), less their mean."""
     return np.stack(

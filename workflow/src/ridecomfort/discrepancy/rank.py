@@ -33,6 +33,7 @@ def rank(
     most: int = 3,
     seed: int = 0,
     signatures: bool = False,
+    noise_density: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
     workers: int | None = None,
     options: Mapping | None = None,
     say: Callable[[str], None] = lambda words: None,
@@ -43,7 +44,8 @@ def rank(
     default the first) are fitted, the others of those sites and one of each speed of other sites decide. ``calibration`` and
     ``effects`` are those of the model; ``uncertain``: share by which parameters that are not calibrated may be wrong
     (default ``car.UNCERTAIN``). ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
-    default one for each core. ``signatures``: estimate the missing force against what it could depend on as well.
+    default one for each core. ``noise_density``: of instruments by site and drive, the floor where no drive
+    was repeated. ``signatures``: estimate the missing force against what it could depend on as well.
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
@@ -53,7 +55,7 @@ def rank(
     count = pool.workers() if workers is None else workers
     experiment = cars.car(
         cars.sites_of(measured), vehicle, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
-        bounds=bounds, uncertain=uncertain, library_names=among, options=options, each_record=pool.side_by_side(count),
+        bounds=bounds, uncertain=uncertain, noise_density=noise_density, library_names=among, options=options, each_record=pool.side_by_side(count),
     )  # fmt: skip
     each = pool.mapped(count)
     selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)

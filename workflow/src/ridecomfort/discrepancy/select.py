@@ -190,8 +190,7 @@ class _Search:
             for row, index in zip(rows, indices):
                 record = self.experiment.records[index]
                 found = known.get(record.condition) or next(iter(known.values()), None)
-                if found is not None:
-                    row[:] = found.power(record.band, record.rate)
+                row[:] = floor.assumed(record) if found is None else found.power(record.band, record.rate)
             before = getattr(self, name, None)
             setattr(self, name, rows if before is None else np.minimum(before, rows))
         # No floor lies above what a model has reached.

@@ -25,9 +25,6 @@ nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 SURE = 0.005
 """p-value that an effect must reach where repeats share no error for certain."""
 
-CONFIRMED = 0.25
-"""Share of what an effect removes on the fitted drives that it must remove on those held out."""
-
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
@@ -113,7 +110,8 @@ def judge(
     reasons += notes
     first = selection.rounds[0] if selection.rounds else None
     left = something_left(selection)
-    ground = "the floor is known from repeats" if selection.repeats else "no drive was repeated: the floor is taken as nil"
+    assumed = "assumed from the noise of the instruments" if selection.ground.any() else "taken as nil"
+    ground = "the floor is known from repeats" if selection.repeats else f"no drive was repeated: the floor is {assumed}"
     explained = max(share, selection.shared_gone) if selection.repeats else share
     little = explained < ENOUGH and (selection.shared_z > SHARED_Z or not selection.repeats)
     wrong = [effect for effect in effects if by_name[effect.name].instrument]
@@ -167,9 +165,6 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
             reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
         elif not shared and effect.p_value > SURE:
             reasons.append(f"{effect.name} may be chance: repeats share no error for certain")
-        elif effect.name not in unmet and effect.held_out_share < CONFIRMED * effect.share:
-            removed = f"{_percent(effect.share)} on the fitted drives and {_percent(effect.held_out_share)} on those held out"
-            reasons.append(f"{effect.name} removes {removed}")
         elif effect.name in unmet and effect.p_value > SURE:
             reasons.append(f"{effect.name} may be chance: no drive held out meets it")
         else:

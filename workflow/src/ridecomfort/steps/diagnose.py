@@ -23,7 +23,8 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict):
     settings["options"] = {"step": config["simulation"]["step"]}
     settings["say"] = lambda words: print(words, file=sys.stderr, flush=True)
     car = parameters.read(vehicle)
-    table, found = discrepancy.rank(drives, car, among=config["among"], signatures=True, **settings)
+    told = {"among": config["among"], "noise_density": config["noise_density"], "signatures": True}
+    table, found = discrepancy.rank(drives, car, **told, **settings)
     content = found.json()
     proposed = Path(verdict).with_name("discovered.py")
     proposed.unlink(missing_ok=True)  # of drives or of a model before
