@@ -101,8 +101,9 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"])
     for kind in SUSPECT:
         line(f"suspect data flagged: {kind}", of(kind), lambda row: row["verdict"] == "suspect")
-    covered, sizes = (sum(row[key] for row in seen) for key in ("covered", "sizes"))
-    lines.append(f"| 90 % interval of a size covers the truth | {100 * covered / sizes if sizes else 0:.0f} % | {sizes} sizes |")
+    for what, chosen in (("messy", single("messy", seen)), ("others", [row for row in seen if row["kind"] != "messy"])):
+        covered, sizes = (sum(row[key] for row in chosen) for key in ("covered", "sizes"))
+        lines.append(f"| 90 % interval of a size covers the truth, {what} | {100 * covered / max(sizes, 1):.0f} % | {sizes} sizes |")
     falls = [row["against_oracle"] for row in one if row["in_cluster"] and np.isfinite(row["against_oracle"])]
     if falls:
         median, tenth = np.median(falls), np.quantile(falls, 0.1)
