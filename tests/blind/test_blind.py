@@ -83,3 +83,10 @@ def test_a_trial_becomes_a_row_and_rows_a_table(car_file):
     assert row["hidden"] == "damper_asymmetry" and row["in_cluster"] and row["against_oracle"] > 0.8
     table = "\n".join(score.summary([row]))
     assert "| first name right, clean, kappa >= 0.3 | 100 %" in table and "oracle" in table
+
+
+def test_a_road_that_is_interpolated_otherwise_is_no_missing_effect(car_file):
+    car = parameters.read(car_file)
+    trial = trials.make(104, car, {}, 1.0, interpolation="linear")
+    _, verdict = discrepancy.rank(trial.measured, car, among=[*AMONG, "tyre_enveloping"], most=1, workers=1)
+    assert verdict.verdict == "nothing" and any("linear interpolation" in words for words in verdict.reasons)

@@ -84,6 +84,7 @@ def make(
     path_error: float = PATH_ERROR,
     background: Sequence[str] = (),
     aligned: bool = False,
+    interpolation: str = "cubic",
 ) -> Trial:
     """Three repeats and a slower drive of a car that has ``effects``, each scaled to ``kappa``.
 
@@ -92,10 +93,11 @@ def make(
     neutral, within what is plausible; shapes of ``tests/blind/shapes`` may be among them. ``clock`` (s) and ``gain`` spoil the
     record, ``scanner`` (m rms) the road that is handed over, ``path_error`` (m rms) the recorded path; each effect of
     the ``background`` is there at a kappa of BACKGROUND. ``aligned``: drives are handed over as alignment leaves them.
+    ``interpolation``: of the true road between its points, where the one that is handed over is cubic.
     """
     rng = np.random.default_rng(seed)
     road = a_road(rng)
-    course = simulate.prepare(road)
+    course = simulate.prepare(road, interpolation)
     hidden = {name: float(rng.uniform(lower + 0.2 * (upper - lower), upper - 0.2 * (upper - lower))) for name, (lower, upper) in BOUNDS.items()}
     true_car, _ = with_values(car, {}, hidden)
     demands = [_demand(rng, road.u.values, speed) for speed in (SPEED, SPEED, SPEED, SLOWER * SPEED)]

@@ -125,7 +125,8 @@ def of_road(experiment: Car, frame: Frame, residuals) -> list[str]:
     found = [experiment.between(frame.amounts(index, residuals[index])) for index in frame.indices]
     if np.median(found) < OTHERWISE:
         return []
-    return ["between its points the road fits better if it is interpolated the other way (road: options: interpolation)"]
+    other = "linear" if experiment.replays[frame.indices[0]].road.surface.smooth else "cubic"
+    return [f"the drives fit the road better with {other} interpolation between its points (road: options: interpolation: {other})"]
 
 
 def of_signs(experiment: Car, residuals) -> list[str]:

@@ -25,6 +25,9 @@ nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 SURE = 0.005
 """p-value that an effect must reach where repeats share no error for certain."""
 
+CONFIRMED = 0.25
+"""Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""
+
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
@@ -113,7 +116,9 @@ def judge(
     assumed = "assumed from the noise of the instruments" if selection.ground.any() else "taken as nil"
     ground = "the floor is known from repeats" if selection.repeats else f"no drive was repeated: the floor is {assumed}"
     explained = max(share, selection.shared_gone) if selection.repeats else share
-    little = explained < ENOUGH and (selection.shared_z > SHARED_Z or not selection.repeats)
+    met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
+    refuted = met and held_out < CONFIRMED
+    little = (explained < ENOUGH or refuted) and (selection.shared_z > SHARED_Z or not selection.repeats)
     wrong = [effect for effect in effects if by_name[effect.name].instrument]
     vehicle = [effect for effect in effects if effect not in wrong]
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
@@ -138,7 +143,8 @@ def judge(
         if np.isfinite(held_out):
             reasons.append(f"{_percent(held_out)} on drives held out")
     if found and little:
-        reasons.append("that is less than half" + (" of what repeats share" if selection.repeats else ""))
+        half = "less than half" + (" of what repeats share" if selection.repeats else "")
+        reasons.append(f"that is {half}" if explained < ENOUGH else "too little on drives held out to be what is missing")
         return Verdict("outside", tuple(effects), (*reasons, ground), share, held_out)
     if not effects:
         if left:
