@@ -50,8 +50,9 @@ def error_ladder(study: Difference) -> Figure:
         first = next(axes for axes in row if axes.axison)
         first.set_ylabel("explainable error left [%]")
         first.tick_params(labelleft=True)
-        lowest, highest = first.get_ylim()
-        first.set_ylim(min(0.0, lowest), min(highest, HIGHEST))
+        highest = min(first.get_ylim()[1], HIGHEST)
+        lowest = min(0.0, 100 * float(found["left"].min()))
+        first.set_ylim(max(lowest, -HIGHEST) - 0.03 * highest, highest)
     panels[-1, 0].set_ylabel("sections unlike measured [%]")
     panels[-1, 0].set_ylim(bottom=0.0)
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
