@@ -66,6 +66,10 @@ UNCERTAIN = {
 }
 """Parameters that no calibration fits but nobody knows better than to this share: they must not pass for an effect."""
 
+BETWEEN, OF_FORCE, OF_RATES = -12, -11, -10
+"""Where the road's other interpolation and the two gains stand among the nuisances of a record, from their end: three tilts and
+six biases follow."""
+
 OF_THE_ROAD = ("road_bank", "road_grade")
 """Effects that are errors of the road's file, not of the vehicle."""
 
@@ -140,11 +144,11 @@ class Car:
 
     def between(self, amounts: np.ndarray) -> float:
         """Share of the way from the road's interpolation to the other one that these amounts of the nuisances (direction,) stand for."""
-        return -float(amounts[-12])
+        return -float(amounts[BETWEEN])
 
     def gains(self, amounts: np.ndarray) -> tuple[float, float]:
         """Gains of the accelerometer and of the gyroscope that these amounts of the nuisances (direction,) stand for."""
-        return 1.0 - float(amounts[-11]), 1.0 - float(amounts[-10])
+        return 1.0 - float(amounts[OF_FORCE]), 1.0 - float(amounts[OF_RATES])
 
     def later(self, other: Car, index: int) -> float:
         """By how many seconds (median) this puts a record later against its place than ``other`` does."""

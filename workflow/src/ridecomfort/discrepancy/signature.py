@@ -23,14 +23,10 @@ from . import car as cars
 from . import evidence, pool, probe
 from . import experiment as exp
 from .experiment import Candidate, Frame, Size
-
-FORCE = 30.0
-"""N that a knot is probed with."""
+from .places import AXLES, FORCE, PLACES
 
 EXPECTED = 500.0
 """N; usual size of a missing force, which holds what the data do not show near zero."""
-
-AXLES = ("front", "rear")
 
 
 @dataclass(frozen=True)
@@ -49,10 +45,7 @@ SEEN: Mapping[str, Seen] = {
     "tyre deflection": Seen("tyre_vertical", "deflection - rest", "m", (-0.015, -0.008, -0.004, 0.0, 0.004, 0.008, 0.015)),
 }
 
-ARGUMENTS = {
-    "suspension": "wheel, deflection, velocity, stiffness, damping, force_x, force_y",
-    "tyre_vertical": "wheel, deflection, velocity, stiffness, rest, rotation, spin",
-}
+ARGUMENTS = {place.port: ", ".join(place.arguments) for place in PLACES.values()}
 
 
 def signature(

@@ -71,7 +71,7 @@ def signature(found: Diagnosis) -> Figure:
 
 
 def _reach(one) -> float:
-    """N that a row of panels shows: all estimates, and the intervals where they say something."""
+    """N that a row of panels shows: the estimates, with their intervals, that are about as well known as most of them."""
     force, error = one["missing_force"].values, BAND * one["missing_force_error"].values
     known = np.isfinite(force) & np.isfinite(error)
     if not known.any():
