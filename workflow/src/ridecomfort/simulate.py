@@ -111,14 +111,14 @@ def run(
     for entry, sizes in chosen:
         if entry.effect.port == "path":
             driven = entry.act(driven, course.u, **sizes)
-    lateral = xr.DataArray(driven, {"u": course.u}, "u")
-    record = _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, end, step, rate)
+    record = _record(course, vehicle, course.on_u(speed, "speed"), driven, friction, chosen, sensor, start, end, step, rate)
+    if driven is not believed:
+        record[:, COLUMNS.index("e")] -= np.interp(record[:, COLUMNS.index("s")], course.u, driven - believed)
     drive = xr.Dataset(
         {name: ("time", column) for name, column in zip(COLUMNS, record.T, strict=True)},
         coords={"time": np.arange(len(record)) / rate},
         attrs={"sensor_x": sensor[0], "sensor_y": sensor[1], "sensor_z": sensor[2], "vehicle": vehicle.name},
     )
-    drive["e"] = drive["e"] - np.interp(drive["s"], course.u, driven - believed)
     for entry, sizes in chosen:
         if entry.effect.port == "sensor":
             drive = entry.act(drive, **sizes)
@@ -183,7 +183,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     first, last = course.u[0] + rear + OVERHANG, course.u[-1] - front - OVERHANG
     start = first if start is None else max(start, first)
     end = last if end is None else min(end, last)
-    targets = np.stack([course.on_u(speed, "speed"), course.on_u(lateral, "lateral"), course.curvature], axis=1)
+    targets = np.stack([speed, lateral, course.curvature], axis=1)
     along = (course.u >= start) & (course.u <= end)
     if not along.any():
         raise InputError(f"nothing of the road lies between {start:g} m and {end:g} m", place="start, end")

@@ -124,17 +124,18 @@ class Car:
         up = STANDARD_GRAVITY * upward(simulated.roll, simulated.pitch)[:, kept]
         force = simulated.signals[:3, kept] + up * float(again.drive.attrs.get("gravity", 0))
         rates = simulated.signals[3:, kept]
-        columns = [spline * simulated.slopes[:, kept] for spline in splines]
-        aside = again.aside(vehicle, {**self.quiet, **effects})[:, kept]
-        columns += [spline * aside for spline in splines]
-        columns.append(self._otherwise(again, vehicle, effects)[:, kept] - simulated.signals[:, kept])
-        zero = np.zeros_like(force)
-        columns += [np.concatenate([force, zero]), np.concatenate([zero, rates])]
-        for axis in np.eye(3):
-            turned = [np.cross(np.broadcast_to(axis[:, None], part.shape), part, axis=0) for part in (force, rates)]
-            columns.append(np.concatenate(turned))
-        columns += list(np.eye(6)[:, :, None] * np.ones(kept.sum()))
-        return np.stack(columns).astype(np.float32)
+        rows = np.zeros((2 * len(splines) - BETWEEN, len(SIGNALS), kept.sum()), np.float32)
+        aside = again.aside(vehicle, {**self.quiet, **effects})
+        for own, slow in ((rows, simulated.slopes[:, kept]), (rows[len(splines) :], aside[:, kept])):
+            for row, spline in zip(own, splines):
+                there = spline > 0
+                row[:, there] = spline[there] * slow[:, there]
+        rows[BETWEEN] = (self._otherwise(again, vehicle, effects) - simulated.signals)[:, kept]
+        rows[OF_FORCE, :3], rows[OF_RATES, 3:] = force, rates
+        for row, axis in zip(rows[OF_RATES + 1 :], np.eye(3)):
+            row[:3], row[3:] = np.cross(axis, force.T).T, np.cross(axis, rates.T).T
+        rows[-len(SIGNALS) :] = np.eye(len(SIGNALS))[:, :, None]
+        return rows
 
     def _otherwise(self, again: Replay, vehicle, effects) -> np.ndarray:
         """The signals (6, time) on a road that is interpolated the other way, or as they are where there is only one."""

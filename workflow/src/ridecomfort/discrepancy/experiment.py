@@ -115,7 +115,8 @@ class Frame:
     spans: dict[int, Span] = field(init=False)
 
     def __post_init__(self):
-        self.spans = {index: Span(self.nuisances[index], self.whitening[index]) for index in self.indices}
+        each = self.experiment.each_record
+        self.spans = dict(zip(self.indices, each(lambda i: Span(self.nuisances[i], self.whitening[i]), self.indices)))
 
     def flat(self, parts: Mapping[int, np.ndarray]) -> np.ndarray:
         """White vector of a residual or column per record, nuisances projected out."""
@@ -123,8 +124,8 @@ class Frame:
 
     def flats(self, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:
         """``flat`` of several columns at once, (column, element): one product of matrices instead of many with vectors."""
-        count = len(columns)
-        return np.concatenate([self.spans[i].without(white).reshape(count, -1) for i, white in self._white(columns)], axis=1)
+        without = lambda i: self.spans[i].without(self._white(i, columns)).reshape(len(columns), -1)
+        return np.concatenate(list(self.experiment.each_record(without, self.indices)), axis=1)
 
     def flat_of(self, index: int, residual: np.ndarray) -> np.ndarray:
         """``flat`` of one record."""
@@ -132,12 +133,11 @@ class Frame:
 
     def own_shares(self, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:
         """Share of the power of each column that its nuisances leave, (column,)."""
-        left, whole = sum(np.array(self.spans[i].shares(white)) for i, white in self._white(columns))
+        left, whole = sum(np.array(self.spans[i].shares(self._white(i, columns))) for i in self.indices)
         return left / np.where(whole > 0, whole, 1.0)
 
-    def _white(self, columns: Sequence[Mapping[int, np.ndarray]]):
-        for index in self.indices:
-            yield index, self.whitening[index](np.stack([parts[index] for parts in columns]))
+    def _white(self, index: int, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:
+        return self.whitening[index](np.stack([parts[index] for parts in columns]))
 
     def amounts(self, index: int, residual: np.ndarray) -> np.ndarray:
         """Amounts (direction,) of its nuisances that a residual (channel, sample) holds."""

@@ -94,7 +94,7 @@ class _Search:
 
     def run(self) -> Selection:
         self.frame, base = self._calibrated(self.values)
-        self.frame, base = self._calibrated(base.values)
+        self.frame, base = self._calibrated(base.values, self.raw)
         check, self.check_frame = self._aligned(base.values, self.held_out)
         self._grounds(base, check)
         ladder = [self._state("calibrated", base, check)]
@@ -149,11 +149,11 @@ class _Search:
         kept = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in better})
         return {i: moved[i] if i in better else residuals[i] for i in residuals}, kept
 
-    def _calibrated(self, values: dict[str, float]) -> tuple[Frame, Fit]:
-        """Frame and fit of the present model, at its own spectrum."""
+    def _calibrated(self, values: dict[str, float], raw: Mapping[str, Mapping[int, np.ndarray]] | None = None) -> tuple[Frame, Fit]:
+        """Frame and fit of the present model, at its own spectrum; ``raw``: columns of its sizes where they are known."""
         residuals, frame = self._aligned(values, self.fitted)
         sizes = self._sizes()
-        self.raw = probe.secants(self.experiment, values, residuals, sizes, self.each)
+        self.raw = raw or probe.secants(self.experiment, values, residuals, sizes, self.each)
         for _ in range(2):
             columns = probe.white(frame, self.raw)
             fit = refit.refit(self.experiment, frame, values, sizes, columns, iterations=3, residuals=residuals)
@@ -166,11 +166,10 @@ class _Search:
         self.experiment = self.experiment.finer()
         values = base.values
         residuals, frame = self._aligned(values, self.fitted)
-        raw = probe.secants(self.experiment, values, residuals, self._sizes(), self.each)
         for cycle in range(FINAL_CYCLES):
             if cycle:
                 frame = exp.frame(self.experiment, residuals, frame.nuisances, self._cleaned(frame, residuals))
-            columns = probe.white(frame, raw)
+            columns = probe.white(frame, self.raw)
             fit = refit.refit(self.experiment, frame, values, self._sizes(), columns, iterations=2, residuals=residuals)
             values, residuals = fit.values, fit.residuals
         return fit, frame

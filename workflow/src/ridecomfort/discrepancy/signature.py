@@ -89,7 +89,8 @@ def signature(
         frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, fitted))
         free = probe.secants(experiment, values, residuals, experiment.free, each)
         found = each(probe.Probe(experiment, values, residuals), [(c.name, 0) for c in experiment.candidates])
-        curves = [_curve(frame, residuals, free, columns, seen) for columns, seen in zip(found, SEEN.values())]
+        free = evidence.basis(frame.flats(list(free.values())).astype(float))
+        curves = list(each(_Estimate(frame, residuals, free), list(zip(found, SEEN.values()))))
     known = library.find(effects_folder)
     names = [name for name in named or {} if known[name].effect.port in ARGUMENTS]
     return _dataset(curves, names, [_shapes(known[name], (named or {})[name]) for name in names])
@@ -112,12 +113,21 @@ class _Curve:
     gain: float
 
 
+@dataclass(frozen=True)
+class _Estimate:
+    frame: Frame
+    residuals: Mapping[int, np.ndarray]
+    free: np.ndarray
+    """White directions that are fitted anyway, orthonormal."""
+
+    def __call__(self, job: tuple[Mapping, Seen]) -> _Curve:
+        return _curve(self.frame, self.residuals, self.free, *job)
+
+
 def _curve(frame: Frame, residuals, free, columns, seen: Seen) -> _Curve:
-    keys = [key for key in columns]
-    rows = frame.flats([columns[key] for key in keys]).astype(float) / FORCE
-    directions = evidence.basis(frame.flats(list(free.values())).astype(float))
-    rows = evidence.without(rows, directions)
-    residual = evidence.without(frame.flat(residuals), directions)
+    keys = list(columns)
+    rows = evidence.without(frame.flats([columns[key] for key in keys]).astype(float) / FORCE, free)
+    residual = evidence.without(frame.flat(residuals), free)
     normal = rows @ rows.T
     held = np.linalg.inv(normal + np.eye(len(rows)) / EXPECTED**2)
     force = -held @ (rows @ residual)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import xarray as xr
@@ -17,7 +18,7 @@ from ..errors import InputError
 from ..vehicle.driver import PREVIEW_TIME, path_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from .record import upward
-from .sampling import resampled
+from .sampling import resampled, resampled_slopes
 
 RUN_IN = 50.0
 """m that the model drives before it is compared: 2 s at 25 m/s, when a bounce of 1.3 Hz, damped by a third, is down to
@@ -58,13 +59,19 @@ SPACING = 0.5
 
 @dataclass(frozen=True)
 class Simulated:
-    """What the model does at the measured instants: ``signals`` (6, time) in the order of SIGNALS, their time
-    derivatives ``slopes``, and the attitude ``roll`` and ``pitch`` in rad."""
+    """What the model does at the measured instants: ``signals`` (6, time) in the order of SIGNALS, and the attitude ``roll``
+    and ``pitch`` in rad."""
 
     signals: np.ndarray
-    slopes: np.ndarray
     roll: np.ndarray
     pitch: np.ndarray
+    source: tuple
+    """What the signals were resampled from: arguments of ``sampling.resampled``."""
+
+    @cached_property
+    def slopes(self) -> np.ndarray:
+        """Time derivatives of the signals, (6, time)."""
+        return resampled_slopes(*self.source)[:, : len(SIGNALS)].T
 
 
 @dataclass(frozen=True)
@@ -102,14 +109,13 @@ class Replay:
                 f"the model stops at s = {travelled[-1]:.1f} m (expected to reach {goal:.1f} m)",
                 place=f"drive {self.drive.attrs['name']}",
             )
-        moment = np.interp(place, travelled, run["time"].values)
-        names = (*SIGNALS, "roll", "pitch")
-        values = np.stack([run[name].values for name in names], axis=1)
-        interval = float(run["time"][1] - run["time"][0])
-        places = (moment - float(run["time"][0])) / interval
-        values, slopes = resampled(values, interval, places, float(self.drive.attrs["cut_off"]))
-        count = len(SIGNALS)
-        return Simulated(values[:, :count].T, slopes[:, :count].T, values[:, count], values[:, count + 1])
+        time = run["time"].values
+        interval = float(time[1] - time[0])
+        places = (np.interp(place, travelled, time) - time[0]) / interval
+        values = np.stack([run[name].values for name in (*SIGNALS, "roll", "pitch")], axis=1)
+        source = (values, interval, places, float(self.drive.attrs["cut_off"]))
+        *signals, roll, pitch = resampled(*source).T
+        return Simulated(np.stack(signals), roll, pitch, source)
 
     def tuned(self, vehicle, effects=()) -> Replay:
         """The same, asking the model's driver for as much more or less as brings it to the measured speed and path.

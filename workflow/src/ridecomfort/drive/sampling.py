@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numba import njit
 from scipy.sparse import csr_array
@@ -127,46 +129,55 @@ def _convolve(values, taps):
     return result
 
 
-def resampled(values: np.ndarray, interval: float, places: np.ndarray, cut_off: float) -> tuple[np.ndarray, np.ndarray]:
-    """Rows of (time, channel) at fractional indices, low-passed as by ``band_limited``, and their time derivatives.
+def resampled(values: np.ndarray, interval: float, places: np.ndarray, cut_off: float) -> np.ndarray:
+    """Rows of (time, channel) at fractional indices, low-passed as by ``band_limited``.
 
     Only what is asked for is filtered, so the samples may be as dense as they come.
     """
+    kernel, _ = _tables(interval, cut_off)
+    sums, total = _weighted(np.ascontiguousarray(values), places, kernel, FINE)
+    return sums / total[:, None]
+
+
+def resampled_slopes(values: np.ndarray, interval: float, places: np.ndarray, cut_off: float) -> np.ndarray:
+    """Time derivatives of ``resampled``, (place, channel)."""
+    kernel, slope = _tables(interval, cut_off)
+    values = np.ascontiguousarray(values)
+    sums, total = _weighted(values, places, kernel, FINE)
+    turned, drift = _weighted(values, places, -slope, FINE)
+    return (turned - (drift / total)[:, None] * sums) / total[:, None] / interval
+
+
+@lru_cache
+def _tables(interval: float, cut_off: float) -> tuple[np.ndarray, np.ndarray]:
+    """The kernel of ``band_limited`` at FINE points an interval, and its slope per interval."""
     width = HALF_WIDTH / (2 * cut_off * interval)
     distance = np.arange(-np.ceil(width), np.ceil(width) + 0.5 / FINE, 1 / FINE)
     window = np.i0(KAISER * np.sqrt(np.clip(1 - (distance / width) ** 2, 0, None))) * (np.abs(distance) <= width)
     kernel = np.sinc(2 * cut_off * interval * distance) * window
-    result, slopes = _resample(np.ascontiguousarray(values), places, kernel, np.gradient(kernel, 1 / FINE), FINE)
-    return result, slopes / interval
+    return kernel, np.gradient(kernel, 1 / FINE)
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def _resample(values, places, kernel, slope, fine):
-    """Tables ``kernel`` and ``slope`` have ``fine`` points an interval and are straight between; the ends are held."""
+def _weighted(values, places, table, fine):
+    """Sums of the rows around every place, weighted by a ``table`` with ``fine`` points an interval that is straight between,
+    and the sums of the weights; the ends are held."""
     count, channels = values.shape
-    half = (len(kernel) - 1) // 2 // fine
-    result = np.zeros((len(places), channels))
-    slopes = np.zeros((len(places), channels))
+    half = (len(table) - 1) // 2 // fine
+    sums = np.zeros((len(places), channels))
+    total = np.zeros(len(places))
     for i in range(len(places)):
         first = int(np.ceil(places[i])) - half
         offset = (first - places[i]) * fine + half * fine
-        total, drift = 0.0, 0.0
         for j in range(2 * half):
             at = offset + j * fine
-            k = min(max(int(at), 0), len(kernel) - 2)
-            part = at - k
-            weight = (1.0 - part) * kernel[k] + part * kernel[k + 1]
-            turn = -((1.0 - part) * slope[k] + part * slope[k + 1])
+            k = min(max(int(at), 0), len(table) - 2)
+            weight = table[k] + (at - k) * (table[k + 1] - table[k])
             m = min(max(first + j, 0), count - 1)
-            total += weight
-            drift += turn
+            total[i] += weight
             for c in range(channels):
-                result[i, c] += weight * values[m, c]
-                slopes[i, c] += turn * values[m, c]
-        for c in range(channels):
-            result[i, c] /= total
-            slopes[i, c] = (slopes[i, c] - drift * result[i, c]) / total
-    return result, slopes
+                sums[i, c] += weight * values[m, c]
+    return sums, total
 
 
 def resample_inertial(time, values, new_time, rate: float, *, file=None, place=None) -> tuple[np.ndarray, float, float]:
