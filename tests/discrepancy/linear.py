@@ -47,5 +47,8 @@ class Linear:
     def finer(self):
         return self
 
+    def retuned(self, values, indices):
+        return self
+
     def realigned(self, amounts):
         return self

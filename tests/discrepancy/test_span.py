@@ -1,4 +1,4 @@
-"""Projection on pieces against that on whole rows."""
+"""What is taken out piece by piece against the same with whole rows."""
 
 from __future__ import annotations
 
@@ -46,30 +46,35 @@ def test_white_pieces_are_those_of_the_whole_rows(made):
     assert np.sqrt(np.mean((found - expected) ** 2) / np.mean(expected**2)) < 0.02
 
 
-def test_the_projection_is_that_of_least_squares_on_whole_rows(made):
+def test_amounts_are_the_likely_ones_of_whole_rows(made):
     rows, series, whitening = made
     own = span.Span(span.taken_apart(rows), whitening)
     mixed = whitening(series + np.tensordot([3.0, -2.0, 1.0, 4.0, 2.0, -1.0, 0.5], rows, 1))
     matrix = whitening(rows).reshape(len(rows), -1)
-    amounts = np.linalg.lstsq(matrix.T, mixed.ravel(), rcond=None)[0]
-    np.testing.assert_allclose(own.amounts(mixed), amounts, atol=0.02)
-    left = mixed.ravel() - amounts @ matrix
-    assert np.linalg.norm(own.without(mixed).ravel() - left) < 0.03 * np.linalg.norm(left)
-    assert own.shares(mixed[None])[0][0] == pytest.approx(left @ left, rel=2e-3)
+    normal = matrix @ matrix.T + np.eye(len(rows))
+    np.testing.assert_allclose(own.amounts(mixed), np.linalg.solve(normal, matrix @ mixed.ravel()), atol=0.02)
 
 
-def test_what_is_projected_out_is_gone_for_good(made):
+def test_what_is_left_weighs_as_noise_and_rows_of_the_usual_size_do_together(made):
     rows, series, whitening = made
+    rows = 0.03 * rows  # so that neither all nor nothing is taken
     own = span.Span(span.taken_apart(rows), whitening)
-    once = own.without(whitening(series))
-    np.testing.assert_allclose(own.without(once), once, atol=1e-9)
+    matrix, white = whitening(rows).reshape(len(rows), -1), whitening(series)
+    product = matrix @ white.ravel()
+    expected = np.sum(white**2) - product @ np.linalg.solve(matrix @ matrix.T + np.eye(len(rows)), product)
+    assert np.sum(white**2) - expected > 1.0
+    assert np.sum(own.without(white) ** 2) == pytest.approx(expected, rel=1e-4)
+    assert own.shares(white[None])[0][0] == pytest.approx(expected, rel=1e-4)
 
 
-def test_a_repeated_row_changes_nothing(made):
+def test_rows_of_any_size_are_gone_and_such_of_none_stay(made):
     rows, series, whitening = made
-    once, twice = (span.Span(span.taken_apart(given), whitening) for given in (rows, np.concatenate([rows, rows[3:4]])))
-    white = whitening(series)
-    np.testing.assert_allclose(twice.without(white), once.without(white), atol=1e-6)
+    held = whitening(series + np.tensordot([3.0, -2.0, 1.0, 4.0, 2.0, -1.0, 0.5], rows, 1))
+    large, small = (span.Span(span.taken_apart(factor * rows), whitening) for factor in (1e3, 1e-6))
+    matrix = whitening(rows).reshape(len(rows), -1)
+    left = held.ravel() - np.linalg.lstsq(matrix.T, held.ravel(), rcond=None)[0] @ matrix
+    assert np.linalg.norm(large.without(held).ravel() - left) < 0.03 * np.linalg.norm(left)
+    np.testing.assert_allclose(small.without(held), held, atol=1e-6)
 
 
 def test_a_series_is_cleaned_of_the_rows_that_it_holds(made):

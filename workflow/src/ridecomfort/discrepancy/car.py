@@ -44,6 +44,12 @@ KNOTS = 30.0
 ten metres; a vehicle that is pushed aside by a centimetre meets another road, so that a path which is straighter than the driven
 one makes evidence for whatever pushes (lift, cross-wind), and sizes too small and too sure."""
 
+CLOCK, PATH, OTHERWISE, GAIN, TILT, BIAS = 0.002, 0.05, 0.7, 0.02, 0.02, (0.1, 0.1, 0.1, 0.01, 0.01, 0.01)
+"""Usual sizes of what alignment leaves: s, m, share of the way to the other interpolation, 1, rad, and m/s2 or rad/s."""
+
+ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
+"""m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected, and how often that is done."""
+
 SAME_SPEED = 0.05
 """Relative difference of mean speeds within which drives repeat one another."""
 
@@ -109,13 +115,29 @@ class Car:
 
     def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
         """What the model does on a drive."""
+        again, run = self._driven(values, index)
+        return again.sample(run)
+
+    def _driven(self, values: Mapping[str, float], index: int) -> tuple[Replay, xr.Dataset]:
+        """A drive along the measured path at the measured speed, with the replay whose driver did so.
+
+        An effect that moves a vehicle aside makes it meet another road, unless its driver makes up for it as the measured one did.
+        """
         self.simulations += 1
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        return self.replays[index](vehicle, {**self.quiet, **effects})
+        again, effects = self.replays[index], {**self.quiet, **effects}
+        run = again.run(vehicle, effects)
+        for _ in range(CORRECTED):
+            astray = again.astray(run)
+            if all(np.sqrt(np.mean(missing[again.compared] ** 2)) < ASTRAY[name] for name, missing in astray.items()):
+                break
+            again = again.corrected(astray)
+            run = again.run(vehicle, effects)
+        return again, run
 
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
-        """What alignment and the road's file leave open, (direction, 6, sample): slow errors of the clock and of the path,
-        the road between its points, gains, tilts and biases."""
+        """What alignment and the road's file leave open, each at its usual size, (direction, 6, sample): slow errors of the
+        clock and of the path, the road between its points, gains, tilts and biases."""
         again = self.replays[index]
         kept = again.compared
         simulated = self.simulated(values, index)
@@ -135,6 +157,7 @@ class Car:
         for row, axis in zip(rows[OF_RATES + 1 :], np.eye(3)):
             row[:3], row[3:] = np.cross(axis, force.T).T, np.cross(axis, rates.T).T
         rows[-len(SIGNALS) :] = np.eye(len(SIGNALS))[:, :, None]
+        rows *= _usual(len(rows))[:, None, None]
         return rows
 
     def _otherwise(self, again: Replay, vehicle, effects) -> np.ndarray:
@@ -145,11 +168,11 @@ class Car:
 
     def between(self, amounts: np.ndarray) -> float:
         """Share of the way from the road's interpolation to the other one that these amounts of the nuisances (direction,) stand for."""
-        return -float(amounts[BETWEEN])
+        return -OTHERWISE * float(amounts[BETWEEN])
 
     def gains(self, amounts: np.ndarray) -> tuple[float, float]:
         """Gains of the accelerometer and of the gyroscope that these amounts of the nuisances (direction,) stand for."""
-        return 1.0 - float(amounts[OF_FORCE]), 1.0 - float(amounts[OF_RATES])
+        return 1.0 - GAIN * float(amounts[OF_FORCE]), 1.0 - GAIN * float(amounts[OF_RATES])
 
     def later(self, other: Car, index: int) -> float:
         """By how many seconds (median) this puts a record later against its place than ``other`` does."""
@@ -167,6 +190,11 @@ class Car:
         ]
         return replace(self, replays=replays)
 
+    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> Car:
+        """The same with drivers who bring the model to the measured speed and path at these values."""
+        found = dict(zip(indices, self.each_record(lambda index: self._driven(values, index)[0], indices)))
+        return replace(self, replays=[found.get(index, again) for index, again in enumerate(self.replays)])
+
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""
         replays, records = list(self.replays), list(self.records)
@@ -174,12 +202,14 @@ class Car:
             again = replays[index]
             kept = again.compared
             splines = _splines(again.place[kept], KNOTS)
+            found = found * _usual(len(found))
             later, left = found[: len(splines)] @ splines, found[len(splines) : 2 * len(splines)] @ splines
             shift = np.interp(again.time, again.time[kept], later)
             place = np.interp(again.time - shift, again.time, again.place)
             lateral, u = again.demand["lateral"], again.demand["speed"]["u"].values
             aside = xr.DataArray(np.interp(u, again.place[kept], left), {"u": u}, "u")
-            replays[index] = replace(again, place=place, demand={**again.demand, "lateral": lateral - aside})
+            drive = again.drive.assign(e=again.drive["e"] - np.interp(again.time, again.time[kept], left))
+            replays[index] = replace(again, drive=drive, place=place, demand={**again.demand, "lateral": lateral - aside})
             records[index] = replace(records[index], place=place[kept])
         return replace(self, replays=replays, records=records)
 
@@ -331,6 +361,12 @@ def _record(site: str, again: Replay, role: str, speeds: list[float], several: b
         f"{site} {name}" if several else name, role, site, f"{site} at {3.6 * (same or speed):.0f} km/h", rate, band,
         place, BLOCK * (same or speed), tuple(LOWEST_OF_DRIVER.get(name, LOWEST) for name in SIGNALS),
     )  # fmt: skip
+
+
+def _usual(count: int) -> np.ndarray:
+    """Usual sizes of ``count`` nuisances of a record."""
+    splines = (count + BETWEEN) // 2
+    return np.array([CLOCK] * splines + [PATH] * splines + [OTHERWISE, GAIN, GAIN, *[TILT] * 3, *BIAS], np.float32)
 
 
 def _splines(place: np.ndarray, spacing: float) -> np.ndarray:

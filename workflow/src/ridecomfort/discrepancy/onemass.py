@@ -132,10 +132,14 @@ class OneMass:
 
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """An offset of the recorded output."""
-        return np.ones((1, 1, len(self.outputs[index])))
+        return np.full((1, 1, len(self.outputs[index])), np.std(self.outputs[index]))
 
     def finer(self) -> OneMass:
         """The same: an offset has no scale."""
+        return self
+
+    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> OneMass:
+        """The same: its input is given."""
         return self
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> OneMass:

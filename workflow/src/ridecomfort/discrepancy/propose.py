@@ -14,6 +14,9 @@ from .experiment import Candidate, Frame
 LEVEL = 0.05
 """Probability of a false alarm over the whole library."""
 
+SURE = 0.005
+"""p-value over the whole library at which the fitted drives leave no doubt."""
+
 DECOYS = 6
 """Columns with the spectrum of a candidate and random phases that must never rank."""
 
@@ -52,6 +55,10 @@ class Proposal:
     rare: frozenset[str]
     decoy_p_value: float
     decoy_ranks: bool
+
+    def sure(self) -> frozenset[str]:
+        """Names that leave no doubt."""
+        return frozenset(name for name, p_value in zip(self.names, self.p_value) if p_value <= SURE)
 
     def significant(self, most: int) -> list[str]:
         """Names that are significant over the library, those with the largest gains, at most ``most``."""

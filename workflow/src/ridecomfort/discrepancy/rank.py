@@ -59,8 +59,11 @@ def rank(
     )  # fmt: skip
     each = pool.mapped(count)
     selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
-    of_road = suspect.of_road(experiment, selection.frame, selection.ladder[-1].fit.residuals)
-    verdict = judge(selection, experiment.candidates, suspicions(experiment, selection), of_road)
+    smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
+    of_road, doubts = suspect.of_road(experiment, smoothness), suspicions(experiment, selection)
+    if smoothness > suspect.SMOOTHER and not selection.accepted:
+        of_road, doubts = [], [*of_road, *doubts]
+    verdict = judge(selection, experiment.candidates, doubts, of_road)
     table = dataset(experiment, selection)
     if signatures:
         say("drawing the missing force")

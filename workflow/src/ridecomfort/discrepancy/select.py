@@ -36,6 +36,10 @@ CHANCE = 3.84
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that an effect must reach."""
 
+WEAK = 16.0
+"""Fall of the white loss of held-out drives below which not even the truth reaches HELD_OUT_Z half of the time: a change of that size
+falls by itself on average, with a standard deviation of twice its root. There any fall confirms what the fitted drives are sure of."""
+
 MET = 0.01
 """White power of what an effect does to a drive held out, against that on a fitted one, below which the first cannot decide on it."""
 
@@ -134,6 +138,7 @@ class _Search:
         """
         if not indices:
             return {}, None
+        self.experiment = self.experiment.retuned(values, indices)
         residuals = exp.simulate(self.experiment, values, indices)
         frame = self._frame(residuals, values)
         closer, self.experiment = self._closer(values, residuals, frame)
@@ -141,12 +146,14 @@ class _Search:
 
     def _closer(self, values, residuals, frame: Frame) -> tuple[Mapping[int, np.ndarray], Experiment]:
         """Residuals with those records realigned that this brings closer, and the experiment in which they are."""
-        realigned = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in residuals})
+        realigned = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in residuals}).retuned(values, residuals)
         moved = exp.simulate(realigned, values, residuals)
         better = {i for i in residuals if np.sum(frame.flat_of(i, moved[i]) ** 2) < np.sum(frame.flat_of(i, residuals[i]) ** 2)}
         if not better:
             return residuals, self.experiment
-        kept = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in better})
+        if len(better) == len(residuals):
+            return moved, realigned
+        kept = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in better}).retuned(values, better)
         return {i: moved[i] if i in better else residuals[i] for i in residuals}, kept
 
     def _calibrated(self, values: dict[str, float], raw: Mapping[str, Mapping[int, np.ndarray]] | None = None) -> tuple[Frame, Fit]:
@@ -217,7 +224,7 @@ class _Search:
             return Round.empty(), base
         columns = {job: self.columns[job] for job in jobs}
         found = propose(self.frame, base.residuals, free, columns, self.by_name, [self.seed, number])
-        self.rare = found.rare
+        self.rare, self.sure = found.rare, found.sure()
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         first = list(self.each(_Try(self, base), [found.best[name] for name in order]))
@@ -305,10 +312,12 @@ class _Search:
                 held, _ = self._closer(fit.values, held, self.check_frame)
         except (InputError, ValueError):
             return None
-        held_gain, held_z = float("nan"), float("nan")
+        held_gain, held_z, is_weak = float("nan"), float("nan"), False
         if self.check_frame is not None:
             held_gain = refit.information(self.check_frame, held) - refit.information(self.check_frame, check)
             held_z = refit.advantage(self.check_frame, held, check)[1]
+            change = self.check_frame.flat(held) - self.check_frame.flat(check)
+            is_weak = candidate.name in self.sure and float(change @ change) < WEAK
         met = not self.held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
         if not met:
             held_gain, held_z = float("nan"), float("nan")
@@ -320,7 +329,7 @@ class _Search:
         trial = replace(
             trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met
         )
-        return replace(trial, objection=self._objection(trial, candidate))
+        return replace(trial, objection=self._objection(trial, candidate, 0.0 if is_weak else HELD_OUT_Z))
 
     def _meets(self, candidate: Candidate, fit: Fit) -> bool:
         """Whether any drive held out has what the candidate acts on, a stop that is reached for example."""
@@ -338,13 +347,13 @@ class _Search:
         seconds = [len(record.place) / record.rate for record in records]
         return len(self.experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
 
-    def _objection(self, trial: Trial, candidate: Candidate) -> str:
+    def _objection(self, trial: Trial, candidate: Candidate, least_z: float) -> str:
         outside = _implausible(candidate, trial.fit.values)
         if outside:
             return outside
         if trial.bic <= 0:
             return "not worth its parameters (BIC)"
-        if np.isfinite(trial.held_out_gain) and not (trial.held_out_gain > 0 and trial.held_out_z > HELD_OUT_Z):
+        if np.isfinite(trial.held_out_gain) and not (trial.held_out_gain > 0 and trial.held_out_z > least_z):
             return "does not improve the drives held out"
         if trial.share < LEAST_SHARE:
             return f"removes {100 * trial.share:.1f} % of the explainable error"

@@ -1,4 +1,8 @@
-"""Directions that are projected out of white series, most of them there along a part of the road only.
+"""Directions whose usual sizes are known, taken out of white series; most are there along a part of the road only.
+
+Each row is what an error of the usual size does. Taking as much of it as is likely (a normal distribution of that size), and not as
+much as helps, is to weigh a series by the covariance of its noise and of the rows together (Rasmussen and Williams 2006, eq. 2.41):
+a path that may be wrong by some centimetres does not bend by a metre to make room for a force.
 
 What alignment may get wrong of clock and path is a sum of splines, each a few seconds long. Whole
 rows of them would be read for every projection; pieces are a twentieth of that.
@@ -14,9 +18,6 @@ from .spectrum import Whitening
 
 MEMORY = 2.0
 """s that a white series rings on beyond the one it was made from; what is later is less than a hundredth."""
-
-SAME = 1e-5
-"""Share of the largest eigenvalue below which directions repeat one another."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ def taken_apart(rows: np.ndarray) -> Rows:
 
 @dataclass
 class Span:
-    """The span of ``rows`` after they have been made white."""
+    """The ``rows`` after they have been made white."""
 
     rows: Rows
     whitening: Whitening
@@ -70,28 +71,25 @@ class Span:
 
     def __post_init__(self):
         self.white = [self._whitened(piece) for piece in self.rows.pieces]
-        normal = self._normal()
-        size = np.sqrt(np.diag(normal))
-        size = np.where(size > 0, size, np.inf)
-        values, vectors = np.linalg.eigh(normal / np.outer(size, size))
-        kept = values > SAME * values.max(initial=0.0)
-        vectors = vectors[:, kept] / size[:, None]
-        self._inverse = (vectors / values[kept]) @ vectors.T
+        values, vectors = np.linalg.eigh(self._normal())
+        root = np.sqrt(1.0 + np.maximum(values, 0.0))
+        self._inverse = (vectors / root**2) @ vectors.T
+        self._half = (vectors / (root * (1.0 + root))) @ vectors.T
 
     def amounts(self, white: np.ndarray) -> np.ndarray:
-        """Amounts (..., direction) of the rows that white series (..., channel, sample) hold."""
+        """Likely amounts (..., direction) of the rows in white series (..., channel, sample)."""
         return self._products(white) @ self._inverse
 
     def without(self, white: np.ndarray) -> np.ndarray:
-        """White series (..., channel, sample) less their projection on the span."""
-        return _less(white, self.amounts(white), self.white)
+        """White series (..., channel, sample) whose sum of squares is what is left of theirs, that of the likely amounts included."""
+        return _less(white, self._products(white) @ self._half, self.white)
 
     def cleaned(self, series: np.ndarray) -> np.ndarray:
         """A series (channel, sample) less the amounts of the raw rows that it holds when white."""
         return _less(series, self.amounts(self.whitening(series)), self.rows.pieces)
 
     def shares(self, white: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Power of white series (column, channel, sample) outside of the span, and in all, (column,)."""
+        """Power of white series (column, channel, sample) that is left of them, and in all, (column,)."""
         products = self._products(white)
         power = np.einsum("cij,cij->c", white, white).astype(float)
         return power - np.einsum("cd,de,ce->c", products, self._inverse, products), power

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import floor
 from .experiment import Candidate, Size
-from .propose import LEVEL
+from .propose import LEVEL, SURE
 from .selection import Selection, State
 
 ENOUGH = 0.5
@@ -21,9 +21,6 @@ SHARED_Z = 3.0
 SHARED = 0.05
 """Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
 nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
-
-SURE = 0.005
-"""p-value that an effect must reach where repeats share no error for certain."""
 
 CONFIRMED = 0.25
 """Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""

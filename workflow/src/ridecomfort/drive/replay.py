@@ -124,20 +124,33 @@ class Replay:
         half a percent of every frequency.
         """
         tuned = self
-        rate = (len(self.time) - 1) / (self.time[-1] - self.time[0])
         for _ in range(TUNING_STEPS):
-            run = tuned.run(vehicle, effects)
-            demand = dict(tuned.demand)
-            u = demand["speed"]["u"].values
-            for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
-                wanted = self.drive[name].values
-                if np.isfinite(wanted).all():
-                    driven = np.interp(self.place, np.maximum.accumulate(run["s"].values), run[name].values)
-                    missing = smooth(wanted - driven, rate, bandwidth)
-                    asked = np.interp(self.time - LOOK_AHEAD[quantity], self.time, self.place)
-                    demand[quantity] = demand[quantity] + xr.DataArray(np.interp(u, asked, missing), {"u": u}, "u")
-            tuned = replace(tuned, demand=demand)
+            tuned = tuned.corrected(tuned.astray(tuned.run(vehicle, effects)))
         return tuned
+
+    def astray(self, run: xr.Dataset) -> dict[str, np.ndarray]:
+        """By how much a simulated drive was too slow (m/s) and too far right (m) at the measured instants, slowly changing, (time,).
+
+        By the quantity that is asked for; one that was not measured is left out.
+        """
+        found = {}
+        rate = (len(self.time) - 1) / (self.time[-1] - self.time[0])
+        travelled = np.maximum.accumulate(run["s"].values)
+        for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
+            wanted = self.drive[name].values
+            if np.isfinite(wanted).all():
+                driven = np.interp(self.place, travelled, run[name].values)
+                found[quantity] = smooth(wanted - driven, rate, bandwidth)
+        return found
+
+    def corrected(self, astray: Mapping[str, np.ndarray]) -> Replay:
+        """The same, asking the driver for as much more as is missing."""
+        demand = dict(self.demand)
+        u = demand["speed"]["u"].values
+        for quantity, missing in astray.items():
+            asked = np.interp(self.time - LOOK_AHEAD[quantity], self.time, self.place)
+            demand[quantity] = demand[quantity] + xr.DataArray(np.interp(u, asked, missing), {"u": u}, "u")
+        return replace(self, demand=demand)
 
     def aside(self, vehicle, effects=(), step: float = 0.02) -> np.ndarray:
         """Change of the signals per metre that the path lies farther left, (6, time): a secant over ``step`` (m)."""
