@@ -13,7 +13,7 @@ from . import floor, pool, suspect
 from .select import select
 from .signature import signature
 from .selection import Selection
-from .verdict import Verdict, judge, something_left
+from .verdict import CONFIRMED, Verdict, judge, something_left, standing
 
 SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
 """What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""
@@ -59,9 +59,10 @@ def rank(
     )  # fmt: skip
     each = pool.mapped(count)
     selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
+    stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
-    of_road, doubts = suspect.of_road(experiment, smoothness), suspicions(experiment, selection)
-    if smoothness > suspect.SMOOTHER and not selection.accepted:
+    of_road, doubts = suspect.of_road(experiment, smoothness), suspicions(experiment, selection, stands)
+    if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road)
     table = dataset(experiment, selection)
@@ -76,12 +77,17 @@ def rank(
     return table, verdict
 
 
-def suspicions(experiment: cars.Car, selection: Selection) -> list[str]:
-    """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains."""
+def _best_share(selection: Selection) -> float:
+    """Largest share of the explainable error that any refit took on the fitted drives."""
+    return max((trial.share for turn in selection.rounds for trial in turn.trials if np.isfinite(trial.share)), default=0.0)
+
+
+def suspicions(experiment: cars.Car, selection: Selection, stands: bool) -> list[str]:
+    """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains; ``stands``: whether an effect does."""
     reasons = suspect.of_drives(experiment)
     first, last = selection.ladder[0], selection.ladder[-1]
     reasons += suspect.of_signs(experiment, first.fit.residuals)
-    if selection.repeats and not selection.accepted and not something_left(selection):
+    if selection.repeats and not stands and not something_left(selection):
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     explainable = np.maximum(first.squares - selection.ground, 0.0)[0]
     index = selection.frame.indices[0]

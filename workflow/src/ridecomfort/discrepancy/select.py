@@ -58,6 +58,10 @@ CYCLES = 8
 FINAL_CYCLES = 2
 """Frames of the last fit, each of the residuals of the one before: an error in what makes it white comes out too small."""
 
+REALIGNED, CLOSE = 3, 1e-3
+"""How often drives are aligned anew for a model, at most, and the share of their white loss that this must take to be repeated: a
+trial must not pass for better because it is aligned once more."""
+
 ALIAS = 0.05
 """Share of a candidate's power that nuisances must leave; below it it is one of them under another name."""
 
@@ -142,19 +146,31 @@ class _Search:
         residuals = exp.simulate(self.experiment, values, indices)
         frame = self._frame(residuals, values)
         closer, self.experiment = self._closer(values, residuals, frame)
-        return (closer, self._frame(closer, values)) if closer is not residuals else (residuals, frame)
+        if closer is residuals:
+            return residuals, frame
+        frame = self._frame(closer, values)
+        residuals, self.experiment = self._closer(values, closer, frame)
+        return residuals, frame
 
     def _closer(self, values, residuals, frame: Frame) -> tuple[Mapping[int, np.ndarray], Experiment]:
         """Residuals with those records realigned that this brings closer, and the experiment in which they are."""
-        realigned = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in residuals}).retuned(values, residuals)
-        moved = exp.simulate(realigned, values, residuals)
-        better = {i for i in residuals if np.sum(frame.flat_of(i, moved[i]) ** 2) < np.sum(frame.flat_of(i, residuals[i]) ** 2)}
-        if not better:
-            return residuals, self.experiment
-        if len(better) == len(residuals):
-            return moved, realigned
-        kept = self.experiment.realigned({i: frame.amounts(i, residuals[i]) for i in better}).retuned(values, better)
-        return {i: moved[i] if i in better else residuals[i] for i in residuals}, kept
+        experiment = self.experiment
+        loss = {i: float(np.sum(frame.flat_of(i, residuals[i]) ** 2)) for i in residuals}
+        for _ in range(REALIGNED):
+            before = sum(loss.values())
+            amounts = {i: frame.amounts(i, residuals[i]) for i in residuals}
+            realigned = experiment.realigned(amounts).retuned(values, residuals)
+            moved = exp.simulate(realigned, values, residuals)
+            after = {i: float(np.sum(frame.flat_of(i, moved[i]) ** 2)) for i in residuals}
+            better = [i for i in residuals if after[i] < loss[i]]
+            if better and len(better) < len(residuals):
+                realigned = experiment.realigned({i: amounts[i] for i in better}).retuned(values, better)
+            if better:
+                experiment, residuals = realigned, {i: moved[i] if i in better else residuals[i] for i in residuals}
+                loss |= {i: after[i] for i in better}
+            if before - sum(loss.values()) < CLOSE * before:
+                break
+        return residuals, experiment
 
     def _calibrated(self, values: dict[str, float], raw: Mapping[str, Mapping[int, np.ndarray]] | None = None) -> tuple[Frame, Fit]:
         """Frame and fit of the present model, at its own spectrum; ``raw``: columns of its sizes where they are known."""

@@ -98,6 +98,13 @@ def something_left(selection: Selection) -> bool:
     return bool(selection.remaining_z > SHARED_Z and selection.remaining > SHARED)
 
 
+def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[str]:
+    """Names of the accepted effects that are no chance and not one another in another shape."""
+    by_name = {candidate.name: candidate for candidate in candidates}
+    found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
+    return [effect.name for effect in _kept(selection, found, by_name)[0]]
+
+
 def judge(
     selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = (), notes: Sequence[str] = ()
 ) -> Verdict:
