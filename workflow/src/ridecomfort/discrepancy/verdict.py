@@ -25,6 +25,9 @@ nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 CONFIRMED = 0.25
 """Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""
 
+MOST = 0.8
+"""Share of what repeats share that an error of the measurement must take to be all that is wrong."""
+
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
@@ -129,7 +132,8 @@ def judge(
     if wrong:
         names = ", ".join(effect.name for effect in wrong)
         reasons.append(f"{names} is an error of the measurement, not of the vehicle")
-        # An error of the measurement that explains little is what something else, not in the library, looks like.
+        # An error of the measurement that leaves much is what something else, not in the library, looks like.
+        little = little or (selection.remaining_z > SHARED_Z and selection.shared_gone < MOST)
         if little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
             effects, wrong = vehicle, []
     if decoys:
@@ -147,8 +151,12 @@ def judge(
         if np.isfinite(held_out):
             reasons.append(f"{_percent(held_out)} on drives held out")
     if found and little:
-        half = "less than half" + (" of what repeats share" if selection.repeats else "")
-        reasons.append(f"that is {half}" if explained < ENOUGH else "too little on drives held out to be what is missing")
+        if explained < ENOUGH:
+            reasons.append("that is less than half" + (" of what repeats share" if selection.repeats else ""))
+        elif refuted:
+            reasons.append("too little on drives held out to be what is missing")
+        else:
+            reasons.append(f"but repeats share an error that it leaves (z = {selection.remaining_z:.1f})")
         return Verdict("outside", tuple(effects), (*reasons, ground), share, held_out)
     if not effects:
         if left:
