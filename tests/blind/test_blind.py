@@ -90,3 +90,10 @@ def test_a_road_that_is_interpolated_otherwise_is_no_missing_effect(car_file):
     trial = trials.make(104, car, {}, 1.0, interpolation="linear")
     _, verdict = discrepancy.rank(trial.measured, car, among=[*AMONG, "tyre_enveloping"], most=1, workers=1)
     assert verdict.verdict == "nothing" and any("linear interpolation" in words for words in verdict.reasons)
+
+
+def test_noise_of_a_road_that_its_file_does_not_show_is_suspected(car_file):
+    car = parameters.read(car_file)
+    trial = trials.make(105, car, {}, 1.0, scanner=0.0002)
+    _, verdict = discrepancy.rank(trial.measured, car, among=[*AMONG, "tyre_enveloping"], most=1, workers=1)
+    assert verdict.verdict == "suspect" and any("smoother than the points of its file" in words for words in verdict.reasons)

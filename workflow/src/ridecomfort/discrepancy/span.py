@@ -1,7 +1,7 @@
 """Directions whose usual sizes are known, taken out of white series; most are there along a part of the road only.
 
 Each row is what an error of the usual size does. Taking as much of it as is likely (a normal distribution of that size), and not as
-much as helps, is to weigh a series by the covariance of its noise and of the rows together (Rasmussen and Williams 2006, eq. 2.41):
+much as helps, is to weigh a series by the covariance of its noise and of the rows together (Rasmussen and Williams 2006, eq. 2.40):
 a path that may be wrong by some centimetres does not bend by a metre to make room for a force.
 
 What alignment may get wrong of clock and path is a sum of splines, each a few seconds long. Whole

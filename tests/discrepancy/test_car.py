@@ -1,0 +1,52 @@
+"""A car beside its measured drives: whatever it lacks or has, it drives the measured path."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort.calibrated import with_values
+from ridecomfort.discrepancy import car as cars
+from ridecomfort.vehicle import parameters
+from tests.blind import trials
+
+
+@pytest.fixture(scope="module")
+def made(repository):
+    vehicle = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+    trial = trials.make(31, vehicle, {}, 1.0)
+    return cars.car(cars.sites_of(trial.measured), vehicle, library_names=["crosswind"])
+
+
+def aside(made, again, values) -> float:
+    """m (rms) by which a replay misses the measured path at these values."""
+    vehicle, effects = with_values(made.vehicle, made.effects, values)
+    return float(np.sqrt(np.mean(again.astray(again.run(vehicle, effects))["lateral"][again.compared] ** 2)))
+
+
+def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):
+    values = {**cars.start_values(made), "crosswind.wind": 10.0}
+    blown = aside(made, made.replays[0], values)
+    retuned = made.retuned(values, [0])
+    assert blown > 0.02 and aside(made, retuned.replays[0], values) < 0.15 * blown
+    assert retuned.replays[1] is made.replays[1]
+
+
+def test_residuals_are_those_on_the_measured_path(made):
+    values = {**cars.start_values(made), "crosswind.wind": 10.0}
+    vehicle, effects = with_values(made.vehicle, made.effects, values)
+    again = made.replays[0]
+    blown = again.residual(again(vehicle, effects))[:, again.compared]
+    kept, told = made.retuned(values, [0]).residual(values, 0), made.residual(values, 0)
+    assert np.std(told - kept) < 0.2 * np.std(blown - kept)
+
+
+def test_realigning_moves_the_path_that_is_to_be_driven(made):
+    values = cars.start_values(made)
+    count = len(made.nuisances(values, 0))
+    amounts = np.zeros(count)
+    amounts[(count + cars.BETWEEN) // 2 : count + cars.BETWEEN] = 1.0
+    moved = made.realigned({0: amounts})
+    shift = moved.replays[0].drive["e"] - made.replays[0].drive["e"]
+    np.testing.assert_allclose(shift, -cars.PATH, rtol=1e-4)
+    assert aside(moved, moved.replays[0], values) < 2 * cars.ASTRAY["lateral"]
