@@ -36,9 +36,9 @@ CHANCE = 3.84
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that an effect must reach."""
 
-WEAK = 16.0
+WEAK, WEAK_Z = 16.0, 1.0
 """Fall of the white loss of held-out drives below which not even the truth reaches HELD_OUT_Z half of the time: a change of that size
-falls by itself on average, with a standard deviation of twice its root. There any fall confirms what the fitted drives are sure of."""
+falls by itself on average, with a standard deviation of twice its root. There half that z confirms what the fitted drives are sure of."""
 
 MET = 0.01
 """White power of what an effect does to a drive held out, against that on a fitted one, below which the first cannot decide on it."""
@@ -345,7 +345,7 @@ class _Search:
         trial = replace(
             trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met
         )
-        return replace(trial, objection=self._objection(trial, candidate, 0.0 if is_weak else HELD_OUT_Z))
+        return replace(trial, objection=self._objection(trial, candidate, WEAK_Z if is_weak else HELD_OUT_Z))
 
     def _meets(self, candidate: Candidate, fit: Fit) -> bool:
         """Whether any drive held out has what the candidate acts on, a stop that is reached for example."""
@@ -395,8 +395,10 @@ def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
     return ""
 
 
-def _merit(trial: Trial) -> float:
-    return trial.bic + (trial.held_out_gain if np.isfinite(trial.held_out_gain) else 0.0)
+def _merit(trial: Trial) -> tuple[bool, float]:
+    """What the drives held out confirm goes before what they do not refute."""
+    unasked = not np.isfinite(trial.held_out_gain)
+    return unasked or trial.held_out_z > HELD_OUT_Z, trial.bic + (0.0 if unasked else trial.held_out_gain)
 
 
 @dataclass(frozen=True)

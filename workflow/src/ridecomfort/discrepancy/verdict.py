@@ -126,7 +126,8 @@ def judge(
     met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     refuted = met and held_out < CONFIRMED
     little = (explained < ENOUGH or refuted) and (selection.shared_z > SHARED_Z or not selection.repeats)
-    wrong = [effect for effect in effects if by_name[effect.name].instrument]
+    is_wrong = lambda name: by_name[name].instrument
+    wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
     vehicle = [effect for effect in effects if effect not in wrong]
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if wrong:

@@ -131,16 +131,15 @@ class Replay:
     def astray(self, run: xr.Dataset) -> dict[str, np.ndarray]:
         """By how much a simulated drive was too slow (m/s) and too far right (m) at the measured instants, slowly changing, (time,).
 
-        By the quantity that is asked for; one that was not measured is left out.
+        By the quantity that is asked for; one that was not measured, or that the simulator does not tell, is left out.
         """
         found = {}
         rate = (len(self.time) - 1) / (self.time[-1] - self.time[0])
         travelled = np.maximum.accumulate(run["s"].values)
         for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
-            wanted = self.drive[name].values
-            if np.isfinite(wanted).all():
-                driven = np.interp(self.place, travelled, run[name].values)
-                found[quantity] = smooth(wanted - driven, rate, bandwidth)
+            missing = self.drive[name].values - np.interp(self.place, travelled, run[name].values)
+            if np.isfinite(missing).all():
+                found[quantity] = smooth(missing, rate, bandwidth)
         return found
 
     def corrected(self, astray: Mapping[str, np.ndarray]) -> Replay:
