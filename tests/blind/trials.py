@@ -15,6 +15,7 @@ from ridecomfort.calibrate import BOUNDS
 from ridecomfort.discrepancy import car as cars
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import judged
+from ridecomfort.discrepancy.select import REALIGNED
 from ridecomfort.drive import align
 from ridecomfort.errors import InputError
 from ridecomfort.effects import library
@@ -34,6 +35,9 @@ PATH_ERROR, PATH_LENGTH = 0.02, 30.0
 
 BACKGROUND = 0.1
 """kappa of every effect of the background."""
+
+WIDE = 25.0
+"""Probes by which a parameter may usually be wrong: half of its bounds."""
 
 SHAPES = Path(__file__).parent / "shapes"
 """Effects that only a truth has."""
@@ -202,7 +206,7 @@ class Remains:
         own = self._car(bare)
         values = cars.start_values(own)
         residual = own.residual(values, 0)
-        moved = [exp.secant(own, values, {0: residual}, size, 1.0)[0] for size in own.free]
+        moved = [WIDE * exp.secant(own, values, {0: residual}, size, 1.0)[0] for size in own.free]
         nuisances = own.nuisances(values, 0)
         self.nuisances, self.rows = len(nuisances), _judged(np.stack([*nuisances, *moved]))
         self.floor = np.array([ACCELEROMETER] * 3 + [GYROSCOPE] * 3)
@@ -213,22 +217,25 @@ class Remains:
     def __call__(self, record: xr.Dataset) -> np.ndarray:
         """Remainder (6, sample)."""
         own = self._car(record)
-        amounts, _ = self._fit(own)
-        left = self._fit(own.realigned({0: amounts[: self.nuisances]}))[1]
+        amounts, left = self._fit(own)
+        for _ in range(REALIGNED):
+            own = own.realigned({0: amounts[: self.nuisances]}).retuned(cars.start_values(own), [0])
+            amounts, closer = self._fit(own)
+            if np.sum(closer**2) >= np.sum(left**2):
+                break
+            left = closer
         if self.bare is None:
             return left
         count = min(left.shape[1], self.bare.shape[1])
         return left[:, :count] - self.bare[:, :count]
 
     def _fit(self, own: cars.Car) -> tuple[np.ndarray, np.ndarray]:
-        """Amounts of the rows in a residual, and what they leave of it (6, sample)."""
+        """Likely amounts of the rows, each of its usual size, in a residual, and what they leave of it (6, sample)."""
         residual = _judged(own.residual(cars.start_values(own), 0))
         count = min(residual.shape[1], self.rows.shape[2])
         residual = residual[:, :count] / self.floor[:, None]
         rows = (self.rows[:, :, :count] / self.floor[:, None]).reshape(len(self.rows), -1)
-        size = np.linalg.norm(rows, axis=1)
-        size[size == 0] = np.inf
-        amounts = np.linalg.lstsq((rows / size[:, None]).T, residual.ravel(), rcond=1e-6)[0] / size
+        amounts = np.linalg.solve(rows @ rows.T + np.eye(len(rows)), rows @ residual.ravel())
         return amounts, residual - (amounts @ rows).reshape(6, -1)
 
     def _car(self, record: xr.Dataset) -> cars.Car:
