@@ -15,7 +15,7 @@ from ridecomfort.calibrate import BOUNDS
 from ridecomfort.discrepancy import car as cars
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import judged
-from ridecomfort.discrepancy.select import REALIGNED
+from ridecomfort.discrepancy.realign import ROUNDS
 from ridecomfort.drive import align
 from ridecomfort.errors import InputError
 from ridecomfort.effects import library
@@ -218,7 +218,7 @@ class Remains:
         """Remainder (6, sample)."""
         own = self._car(record)
         amounts, left = self._fit(own)
-        for _ in range(REALIGNED):
+        for _ in range(ROUNDS):
             own = own.realigned({0: amounts[: self.nuisances]}).retuned(cars.start_values(own), [0])
             amounts, closer = self._fit(own)
             if np.sum(closer**2) >= np.sum(left**2):

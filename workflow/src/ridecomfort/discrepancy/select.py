@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import cluster, floor, probe, refit
+from . import cluster, floor, probe, realign, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment, Frame
 from .propose import propose
@@ -57,10 +57,6 @@ CYCLES = 8
 
 FINAL_CYCLES = 2
 """Frames of the last fit, each of the residuals of the one before: an error in what makes it white comes out too small."""
-
-REALIGNED, CLOSE = 3, 1e-3
-"""How often drives are aligned anew for a model, at most, and the share of their white loss that this must take to be repeated: a
-trial must not pass for better because it is aligned once more."""
 
 ALIAS = 0.05
 """Share of a candidate's power that nuisances must leave; below it it is one of them under another name."""
@@ -132,45 +128,12 @@ class _Search:
         names = [*self.accepted, *extra]
         return [*self.experiment.free, *(size for name in names for size in self.by_name[name].sizes)]
 
-    def _frame(self, residuals, values) -> Frame:
-        return exp.frame(self.experiment, residuals, exp.nuisances(self.experiment, values, residuals))
-
-    def _aligned(self, values, indices) -> tuple[dict[int, np.ndarray], Frame | None]:
-        """Residuals and frame of records whose alignment has been brought up to date, where that brings them closer.
-
-        What the model lacks had its part in the alignment: a clock that is 2 ms off makes every size some percent small.
-        """
+    def _aligned(self, values, indices) -> tuple[Mapping[int, np.ndarray], Frame | None]:
+        """Residuals and frame of records aligned anew for a model; empty and None without any."""
         if not indices:
             return {}, None
-        self.experiment = self.experiment.retuned(values, indices)
-        residuals = exp.simulate(self.experiment, values, indices)
-        frame = self._frame(residuals, values)
-        closer, self.experiment = self._closer(values, residuals, frame)
-        if closer is residuals:
-            return residuals, frame
-        frame = self._frame(closer, values)
-        residuals, self.experiment = self._closer(values, closer, frame)
+        residuals, frame, self.experiment = realign.aligned(self.experiment, values, indices)
         return residuals, frame
-
-    def _closer(self, values, residuals, frame: Frame) -> tuple[Mapping[int, np.ndarray], Experiment]:
-        """Residuals with those records realigned that this brings closer, and the experiment in which they are."""
-        experiment = self.experiment
-        loss = {i: float(np.sum(frame.flat_of(i, residuals[i]) ** 2)) for i in residuals}
-        for _ in range(REALIGNED):
-            before = sum(loss.values())
-            amounts = {i: frame.amounts(i, residuals[i]) for i in residuals}
-            realigned = experiment.realigned(amounts).retuned(values, residuals)
-            moved = exp.simulate(realigned, values, residuals)
-            after = {i: float(np.sum(frame.flat_of(i, moved[i]) ** 2)) for i in residuals}
-            better = [i for i in residuals if after[i] < loss[i]]
-            if better and len(better) < len(residuals):
-                realigned = experiment.realigned({i: amounts[i] for i in better}).retuned(values, better)
-            if better:
-                experiment, residuals = realigned, {i: moved[i] if i in better else residuals[i] for i in residuals}
-                loss |= {i: after[i] for i in better}
-            if before - sum(loss.values()) < CLOSE * before:
-                break
-        return residuals, experiment
 
     def _calibrated(self, values: dict[str, float], raw: Mapping[str, Mapping[int, np.ndarray]] | None = None) -> tuple[Frame, Fit]:
         """Frame and fit of the present model, at its own spectrum; ``raw``: columns of its sizes where they are known."""
@@ -325,7 +288,7 @@ class _Search:
         try:
             held = exp.simulate(self.experiment, fit.values, self.held_out)
             if self.check_frame is not None:
-                held, _ = self._closer(fit.values, held, self.check_frame)
+                held, _ = realign.closer(self.experiment, fit.values, held, self.check_frame)
         except (InputError, ValueError):
             return None
         held_gain, held_z, is_weak = float("nan"), float("nan"), False

@@ -1,0 +1,62 @@
+"""Records aligned anew for a model: what it lacked before had its part in their clocks and paths.
+
+A clock that is 2 ms off makes every size some percent small. A model and a trial beside it are aligned equally often, or
+the trial would pass for better because of that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from . import experiment as exp
+from .experiment import Experiment, Frame
+
+ROUNDS, CLOSE = 3, 1e-3
+"""How often at most, and the share of the white loss that one round must take to be followed by another."""
+
+
+def aligned(
+    experiment: Experiment, values: Mapping[str, float], indices: Sequence[int]
+) -> tuple[Mapping[int, np.ndarray], Frame, Experiment]:
+    """Residuals of records at these values, their frame, and the experiment in which they are aligned for the model."""
+    experiment = experiment.retuned(values, indices)
+    residuals = exp.simulate(experiment, values, indices)
+    frame = _frame(experiment, values, residuals)
+    moved, experiment = closer(experiment, values, residuals, frame)
+    if moved is residuals:
+        return residuals, frame, experiment
+    frame = _frame(experiment, values, moved)
+    residuals, experiment = closer(experiment, values, moved, frame)
+    return residuals, frame, experiment
+
+
+def closer(
+    experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray], frame: Frame
+) -> tuple[Mapping[int, np.ndarray], Experiment]:
+    """Residuals with those records realigned that this brings closer in ``frame``, and the experiment in which they are."""
+    loss = {i: _loss(frame, i, residuals[i]) for i in residuals}
+    for _ in range(ROUNDS):
+        before = sum(loss.values())
+        amounts = {i: frame.amounts(i, residuals[i]) for i in residuals}
+        realigned = experiment.realigned(amounts).retuned(values, residuals)
+        moved = exp.simulate(realigned, values, residuals)
+        after = {i: _loss(frame, i, moved[i]) for i in residuals}
+        better = [i for i in residuals if after[i] < loss[i]]
+        if better and len(better) < len(residuals):
+            realigned = experiment.realigned({i: amounts[i] for i in better}).retuned(values, better)
+        if better:
+            experiment, residuals = realigned, {i: moved[i] if i in better else residuals[i] for i in residuals}
+            loss |= {i: after[i] for i in better}
+        if before - sum(loss.values()) < CLOSE * before:
+            break
+    return residuals, experiment
+
+
+def _loss(frame: Frame, index: int, residual: np.ndarray) -> float:
+    return float(np.sum(frame.flat_of(index, residual) ** 2))
+
+
+def _frame(experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> Frame:
+    return exp.frame(experiment, residuals, exp.nuisances(experiment, values, residuals))
