@@ -14,8 +14,8 @@ from .experiment import Candidate, Frame
 LEVEL = 0.05
 """Probability of a false alarm over the whole library."""
 
-SURE = 0.005
-"""p-value over the whole library at which the fitted drives leave no doubt."""
+SURE, CERTAIN = 0.005, 0.002
+"""p-values over the whole library at which the fitted drives are sure, and at which they leave no doubt: hardly a draw comes near."""
 
 DECOYS = 6
 """Columns with the spectrum of a candidate and random phases that must never rank."""
@@ -56,9 +56,9 @@ class Proposal:
     decoy_p_value: float
     decoy_ranks: bool
 
-    def sure(self) -> frozenset[str]:
+    def certain(self) -> frozenset[str]:
         """Names that leave no doubt."""
-        return frozenset(name for name, p_value in zip(self.names, self.p_value) if p_value <= SURE)
+        return frozenset(name for name, p_value in zip(self.names, self.p_value) if p_value <= CERTAIN)
 
     def significant(self, most: int) -> list[str]:
         """Names that are significant over the library, those with the largest gains, at most ``most``."""

@@ -36,9 +36,9 @@ CHANCE = 3.84
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that an effect must reach."""
 
-WEAK, WEAK_Z = 16.0, 1.0
+WEAK = 16.0
 """Fall of the white loss of held-out drives below which not even the truth reaches HELD_OUT_Z half of the time: a change of that size
-falls by itself on average, with a standard deviation of twice its root. There half that z confirms what the fitted drives are sure of."""
+falls by itself on average, with a standard deviation of twice its root. There any fall confirms what the fitted drives leave no doubt of."""
 
 MET = 0.01
 """White power of what an effect does to a drive held out, against that on a fitted one, below which the first cannot decide on it."""
@@ -203,7 +203,7 @@ class _Search:
             return Round.empty(), base
         columns = {job: self.columns[job] for job in jobs}
         found = propose(self.frame, base.residuals, free, columns, self.by_name, [self.seed, number])
-        self.rare, self.sure = found.rare, found.sure()
+        self.rare, self.certain = found.rare, found.certain()
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         first = list(self.each(_Try(self, base), [found.best[name] for name in order]))
@@ -296,7 +296,7 @@ class _Search:
             held_gain = refit.information(self.check_frame, held) - refit.information(self.check_frame, check)
             held_z = refit.advantage(self.check_frame, held, check)[1]
             change = self.check_frame.flat(held) - self.check_frame.flat(check)
-            is_weak = candidate.name in self.sure and float(change @ change) < WEAK
+            is_weak = candidate.name in self.certain and float(change @ change) < WEAK
         met = not self.held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
         if not met:
             held_gain, held_z = float("nan"), float("nan")
@@ -308,7 +308,7 @@ class _Search:
         trial = replace(
             trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met
         )
-        return replace(trial, objection=self._objection(trial, candidate, WEAK_Z if is_weak else HELD_OUT_Z))
+        return replace(trial, objection=self._objection(trial, candidate, 0.0 if is_weak else HELD_OUT_Z))
 
     def _meets(self, candidate: Candidate, fit: Fit) -> bool:
         """Whether any drive held out has what the candidate acts on, a stop that is reached for example."""
