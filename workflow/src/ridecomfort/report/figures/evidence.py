@@ -17,6 +17,9 @@ SHOWN = 12
 LEVEL = 0.05
 """p-value over the library below which an effect is significant."""
 
+LEAST = 1.0
+"""Percent to both sides of zero that shares are drawn over at least: what removes nothing must look like nothing."""
+
 SIGNIFICANT, OTHER, ACCEPTED = "#0072B2", "#C9D3DA", "#D55E00"
 
 DOT = {"marker": "o", "linestyle": "", "color": style.CALIBRATED, "markersize": 4.5}
@@ -60,6 +63,8 @@ def evidence(found: Diagnosis) -> Figure:
                 right.plot(shares, [place, place], color=style.FAINT, linewidth=0.8, zorder=1)
                 right.plot(shares[0], place, **DOT)
                 right.plot(shares[1], place, **DIAMOND)
+        right.set_xlim(min(right.get_xlim()[0], -LEAST), max(right.get_xlim()[1], LEAST))
+        right.locator_params(axis="x", nbins=5)
         right.axvline(0.0, color=style.FLOOR, linewidth=0.7)
         right.tick_params(axis="y", length=0)
     panels[-1][0].set_xlabel("fall of twice the negative log-likelihood, score test [-]")
