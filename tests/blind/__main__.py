@@ -37,7 +37,7 @@ def one(job: tuple[str, int, int]) -> dict:
     trial = trials.make(100000 * seed + number + 1000 * list(kinds.KINDS).index(kind), car, hidden, draw.kappa, **draw.spoilt)
     among = [name for name in library.find() if name not in draw.missing]
     start = time.process_time()
-    table, verdict = discrepancy.rank(trial.measured, car, among=among, seed=number, workers=1)
+    table, verdict, proposal = discrepancy.diagnose(trial.measured, car, among=among, seed=number, workers=1)
     seconds = time.process_time() - start
     row = {"kind": kind, "seed": seed, "number": number, "hidden": "+".join(draw.hidden), "kappa": draw.kappa}
     row |= {"reached": trial.truth["reached"], **score.score(draw, trial.truth, table, verdict)}
@@ -45,8 +45,8 @@ def one(job: tuple[str, int, int]) -> dict:
     ports = {place.port: name for name, place in PLACES.items()}
     place = ports.get(known[draw.hidden[0]].effect.port) if kind == "outside" else None
     if place:
-        proposal = discrepancy.discover(trial.measured, car, seed=number, workers=1)
-        row |= {"place_right": proposal.place == place, "form_share": proposal.held_out_share}
+        share = proposal.held_out_share if proposal else float("nan")
+        row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share}
     oracle = score.against_oracle(trial, car, trials.SHAPES, table) if draw.hidden and kind != "messy" else float("nan")
     return {**row, "against_oracle": oracle, "cpu_seconds": seconds, "reasons": "; ".join(verdict.reasons)}
 

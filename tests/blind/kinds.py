@@ -18,6 +18,10 @@ FAINT = ("aerodynamic_lift", "anti_dive", "anti_squat", "drivetrain_lag", "gear_
          "wheel_compliance")  # fmt: skip
 """Effects whose plausible sizes come up to no kappa of 0.3 on such drives; they are drawn alone only."""
 
+MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_travel", "propeller_shaft", "spring_cubic",
+           "tyre_hysteresis", "tyre_oval")  # fmt: skip
+"""Truths of which the library has nothing alike."""
+
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee"}
 """Truths of another shape, and what the library has of their kind."""
 
@@ -76,8 +80,10 @@ def _several(count: int) -> Callable:
 
 
 def _outside(rng, names, number) -> Draw:
-    name = str(rng.choice(_plain(names)))
-    return Draw((name,), float(rng.choice(STRONG[1:])), frozenset(), missing=(name,))
+    """By turns a force that the library never had, and an effect taken out of it."""
+    made_up = number % 2 == 0
+    name = MADE_UP[number // 2 % len(MADE_UP)] if made_up else str(rng.choice(_plain(names)))
+    return Draw((name,), float(rng.choice(STRONG)), frozenset(), missing=() if made_up else (name,))
 
 
 def _null(**spoilt) -> Callable:

@@ -219,7 +219,7 @@ class Remains:
         own = self._car(record)
         amounts, left = self._fit(own)
         for _ in range(ROUNDS):
-            own = own.realigned({0: amounts[: self.nuisances]}).retuned(cars.start_values(own), [0])
+            own = own.realigned({0: amounts[: self.nuisances]}).retuned(cars.start_values(own), [0])[0]
             amounts, closer = self._fit(own)
             if np.sum(closer**2) >= np.sum(left**2):
                 break

@@ -48,7 +48,7 @@ class Linear:
         return self
 
     def retuned(self, values, indices):
-        return self
+        return self, {index: self.residual(values, index) for index in indices}
 
     def realigned(self, amounts):
         return self

@@ -27,9 +27,10 @@ def aside(made, again, values) -> float:
 def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):
     values = {**cars.start_values(made), "crosswind.wind": 10.0}
     blown = aside(made, made.replays[0], values)
-    retuned = made.retuned(values, [0])
+    retuned, residuals = made.retuned(values, [0])
     assert blown > 0.02 and aside(made, retuned.replays[0], values) < 0.15 * blown
     assert retuned.replays[1] is made.replays[1]
+    np.testing.assert_allclose(residuals[0], made.residual(values, 0))
 
 
 def test_residuals_are_those_on_the_measured_path(made):
@@ -37,7 +38,7 @@ def test_residuals_are_those_on_the_measured_path(made):
     vehicle, effects = with_values(made.vehicle, made.effects, values)
     again = made.replays[0]
     blown = again.residual(again(vehicle, effects))[:, again.compared]
-    kept, told = made.retuned(values, [0]).residual(values, 0), made.residual(values, 0)
+    kept, told = made.retuned(values, [0])[0].residual(values, 0), made.residual(values, 0)
     assert np.std(told - kept) < 0.2 * np.std(blown - kept)
 
 

@@ -7,25 +7,27 @@ from types import SimpleNamespace
 
 import pytest
 
-from ridecomfort.discrepancy.places import PLACES, effect_source, in_words, scale
+from ridecomfort.discrepancy.places import AXLES, PLACES, WHEELS, WHOLE, effect_source, in_words, scale
 from ridecomfort.effects import library
 
 KNOWN = {"tanh": tanh, "cos": cos, "sin": sin, "abs": abs, "max": max, "min": min}
 
 
 @pytest.mark.parametrize("place", PLACES)
-def test_every_term_of_every_place_can_be_written_as_an_effect(place, tmp_path):
+@pytest.mark.parametrize("wheel", range(4))
+def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp_path):
     where = PLACES[place]
-    factors = dict(zip(where.parts, (2.0, 3.0)))
-    for term in where.terms:
-        (tmp_path / f"found_{term}.py").write_text(effect_source(f"found_{term}", place, {term: factors}, "Found."))
+    factors = {name: {part: 2.0 + k for k, part in enumerate(term.parts)} for name, term in where.terms.items()}
+    for name, own in factors.items():
+        (tmp_path / f"found_{name}.py").write_text(effect_source(f"found_{name}", place, {name: own}, "Found."))
     found = library.find(tmp_path)
-    seen = {name: 0.7 for name in where.arguments} | {"wheel": 2}
+    seen = {name: 0.7 for name in where.arguments} | {"wheel": wheel}
     if "motion" in seen:
         seen = {"motion": SimpleNamespace(**{key: 0.1 + 0.2 * k for k, key in enumerate(vars(where.typical["motion"]))})}
     for name, term in where.terms.items():
         entry = found[f"found_{name}"]
-        value = list(factors.values())[-1] * eval(term.expression, KNOWN, dict(seen))
+        own = {WHOLE: "", AXLES: AXLES[wheel // 2], WHEELS: WHEELS[wheel]}[term.parts]
+        value = factors[name][own] * eval(term.expression, KNOWN, dict(seen))
         expected = [value if result == term.result else 0.0 for result in where.results]
         arguments = {key: seen[key] for key in where.arguments}
         assert entry.act(**arguments, **entry.effect.values()) == pytest.approx(expected if len(expected) > 1 else value)

@@ -96,11 +96,11 @@ def test_a_verdict_is_plain_json():
 
 def test_shared_error_of_repeats_is_nothing_for_noise_and_half_for_one_as_large_as_the_noise():
     selection, _ = judged(Linear(7, {}))
-    assert abs(selection.remaining) < 0.05
+    assert abs(selection.remaining.share) < 0.05
     model = Linear(7, {"effect_0.size": 1.0})
     model.candidates = model.candidates[1:]
     selection, _ = judged(model)
-    assert 0.3 < selection.remaining < 0.7 and np.isfinite(selection.remaining_z)
+    assert 0.3 < selection.remaining.share < 0.7 and selection.remaining.z > 3
 
 
 def test_without_repeats_the_floor_is_the_noise_that_is_known_of_the_instruments():

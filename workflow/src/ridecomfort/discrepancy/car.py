@@ -110,8 +110,10 @@ class Car:
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """Simulated minus measured signals (6, sample) behind the run-in of the model."""
-        again = self.replays[index]
-        return again.residual(self.simulated(values, index))[:, again.compared]
+        return self._residual(*self._driven(values, index))
+
+    def _residual(self, again: Replay, run: xr.Dataset) -> np.ndarray:
+        return again.residual(again.sample(run))[:, again.compared]
 
     def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
         """What the model does on a drive."""
@@ -190,10 +192,16 @@ class Car:
         ]
         return replace(self, replays=replays)
 
-    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> Car:
-        """The same with drivers who bring the model to the measured speed and path at these values."""
-        found = dict(zip(indices, self.each_record(lambda index: self._driven(values, index)[0], indices)))
-        return replace(self, replays=[found.get(index, again) for index, again in enumerate(self.replays)])
+    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> tuple[Car, dict[int, np.ndarray]]:
+        """The same with drivers who bring the model to the measured speed and path at these values, and the residuals then."""
+
+        def driven(index: int) -> tuple[Replay, np.ndarray]:
+            again, run = self._driven(values, index)
+            return again, self._residual(again, run)
+
+        found = dict(zip(indices, self.each_record(driven, indices)))
+        replays = [found[index][0] if index in found else again for index, again in enumerate(self.replays)]
+        return replace(self, replays=replays), {index: residual for index, (_, residual) in found.items()}
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""

@@ -106,7 +106,7 @@ def _search(experiment, name, most, seed, each, say) -> Discovery:
     for accepted in selection.accepted:
         term = accepted.partition(":")[2]
         terms[term] = {
-            part: values[_key(place, term, part)] for part in PLACES[place].parts if _key(place, term, part) in values
+            part: values[_key(place, term, part)] for part in PLACES[place].terms[term].parts if _key(place, term, part) in values
         }
     form = in_words(place, terms)
     share, held_out = total_shares(selection)
@@ -134,7 +134,7 @@ def _terms(place: str) -> tuple[Candidate, ...]:
         one = scale(place, name)
         sizes = tuple(
             Size(_key(place, name, part), term.unit, 0.0, -STRONGEST / one, STRONGEST / one, FORCE / one)
-            for part in PLACES[place].parts
+            for part in term.parts
         )
         candidates.append(Candidate(f"{place}:{name}", sizes))
     return tuple(candidates)

@@ -100,8 +100,8 @@ class Experiment(Protocol):
     def finer(self) -> Experiment:
         """The same, simulated as exactly as the sizes that are told deserve."""
 
-    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> Experiment:
-        """The same with these records driven along the measured path at these values to start with."""
+    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> tuple[Experiment, dict[int, np.ndarray]]:
+        """The same with these records driven along the measured path at these values to start with, and their residuals."""
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Experiment:
         """The same with these amounts of the nuisances (direction,) taken out of its records."""

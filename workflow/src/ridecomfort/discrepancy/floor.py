@@ -7,15 +7,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from .experiment import Experiment, Frame, Record
+from .experiment import Experiment, Record
 from .spectrum import Spectrum, cross_spectrum
 
 
 LEAST = 0.02
 """Sum over the channels of the explainable shares of their errors, below which nothing is there to be explained."""
-
-FINER = 10.0
-"""Parts of a block within which white errors that repeats share depend on one another: they may be those of a single place."""
 
 
 def deviations(records: Sequence[Record], residuals: Sequence[np.ndarray]) -> list[np.ndarray]:
@@ -91,28 +88,3 @@ def explained_share(before: np.ndarray, after: np.ndarray, first: np.ndarray, gr
     before, after, first, ground = (values.mean(axis=0) for values in (before, after, first, ground))
     explainable = np.sum((first - ground) / first)
     return float(np.sum((before - after) / first) / explainable) if explainable > LEAST else float("nan")
-
-
-def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> tuple[float, float, float]:
-    """White power that different repeats have in common at equal place: as a share of all, as a z (0 where they share
-    nothing), and in all."""
-    groups: dict[str, list[int]] = {}
-    for index in frame.indices:
-        groups.setdefault(frame.experiment.records[index].condition, []).append(index)
-    sums, power, pairs = [], 0.0, 0
-    for own in groups.values():
-        records = [frame.experiment.records[i] for i in own]
-        white = [frame.whitening[i](frame.cleaned(i, residuals[i])) for i in own]
-        for a in range(len(own)):
-            for b in range(a):
-                place = records[a].place
-                other = np.stack([np.interp(place, records[b].place, row) for row in white[b]])
-                products = (white[a] * other).sum(axis=0)
-                numbers = np.unique(records[a].blocks(FINER), return_inverse=True)[1]
-                sums.append(np.bincount(numbers, products))
-                power, pairs = power + np.sqrt(np.sum(white[a] ** 2) * np.sum(other**2)), pairs + 1
-    if not sums:
-        return float("nan"), float("nan"), float("nan")
-    length = min(len(part) for part in sums)
-    total = sum(part[:length] for part in sums)
-    return float(total.sum() / power), float(total.sum() / np.sqrt(np.sum(total**2))), float(total.sum())

@@ -138,9 +138,9 @@ class OneMass:
         """The same: an offset has no scale."""
         return self
 
-    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> OneMass:
-        """The same: its input is given."""
-        return self
+    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> tuple[OneMass, dict[int, np.ndarray]]:
+        """The same, as its input is given, and the residuals."""
+        return self, {index: self.residual(values, index) for index in indices}
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> OneMass:
         """The same: an offset is linear."""

@@ -20,24 +20,32 @@ WIDTH = 3.0
 
 AXLES = ("front", "rear")
 
+WHOLE = ("",)
+
+WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
+
+SIDE = "(1.0 - 2.0 * (wheel % 2))"
+"""1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
+
 
 @dataclass(frozen=True)
 class Term:
-    """A part of a force: its ``expression`` in what the place sees, the ``unit`` of its factor, and the ``result`` it adds to."""
+    """A part of a force: its ``expression`` in what the place sees, the ``unit`` of its factor, the ``result`` it adds to, and the
+    ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's)."""
 
     expression: str
     unit: str
     result: str = "force"
+    parts: tuple[str, ...] = AXLES
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a force may act: its port, what an effect file calls what it sees, the parts of a car that have a factor of their
-    own, typical values of what it sees to scale terms by, the terms, and what the port returns."""
+    """Where a force may act: its port, what an effect file calls what it sees, typical values of what it sees to scale terms by,
+    the terms, and what the port returns."""
 
     port: str
     arguments: tuple[str, ...]
-    parts: tuple[str, ...]
     typical: Mapping[str, object]
     terms: Mapping[str, Term]
     results: tuple[str, ...] = ("force",)
@@ -47,7 +55,6 @@ PLACES: Mapping[str, Place] = {
     "strut": Place(
         "suspension",
         ("wheel", "deflection", "velocity", "stiffness", "damping", "force_x", "force_y"),
-        AXLES,
         {"deflection": 0.012, "velocity": 0.12, "stiffness": 28000.0, "damping": 2100.0, "force_x": 300.0, "force_y": 600.0},
         {
             "velocity_direction": Term("tanh(velocity / 0.005)", "N"),
@@ -62,14 +69,16 @@ PLACES: Mapping[str, Place] = {
             "bump_beyond_20_mm": Term("max(deflection - 0.02, 0.0)", "N/m"),
             "rebound_beyond_20_mm": Term("min(deflection + 0.02, 0.0)", "N/m"),
             "deflection_direction": Term("tanh(deflection / 0.002)", "N"),
-            "side_force": Term("force_y * (1.0 - 2.0 * (wheel % 2))", "1"),
+            "deflection_size_times_direction": Term("abs(deflection) * tanh(velocity / 0.005)", "N/m"),
+            "deflection_of_sides": Term(f"deflection * {SIDE}", "N/m"),
+            "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
+            "side_force": Term(f"force_y * {SIDE}", "1"),
             "forward_force": Term("force_x", "1"),
         },
     ),
     "tyre": Place(
         "tyre_vertical",
         ("wheel", "deflection", "velocity", "stiffness", "rest", "rotation", "spin"),
-        AXLES,
         {"deflection": 0.016, "velocity": 0.15, "stiffness": 280000.0, "rest": 0.015, "rotation": 0.0, "spin": 70.0},
         {
             "deflection_square": Term("(deflection - rest)**2", "N/m2"),
@@ -78,16 +87,19 @@ PLACES: Mapping[str, Place] = {
             "velocity_signed_square": Term("velocity * abs(velocity)", "N s2/m2"),
             "deflection_times_velocity": Term("(deflection - rest) * velocity", "N s/m2"),
             "velocity_per_spin": Term("velocity / (1.0 + abs(spin) / 30.0)", "N s/m"),
-            "phase_cosine": Term("cos(rotation)", "N"),
-            "phase_sine": Term("sin(rotation)", "N"),
-            "phase_cosine_spin_square": Term("spin**2 * cos(rotation)", "kg m"),
-            "phase_sine_spin_square": Term("spin**2 * sin(rotation)", "kg m"),
+            "deflection_of_sides": Term(f"(deflection - rest) * {SIDE}", "N/m"),
+            "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
+            "phase_cosine": Term("cos(rotation)", "N", parts=WHEELS),
+            "phase_sine": Term("sin(rotation)", "N", parts=WHEELS),
+            "phase_cosine_spin_square": Term("spin**2 * cos(rotation)", "kg m", parts=WHEELS),
+            "phase_sine_spin_square": Term("spin**2 * sin(rotation)", "kg m", parts=WHEELS),
+            "twice_a_turn_cosine": Term("cos(2.0 * rotation)", "N", parts=WHEELS),
+            "twice_a_turn_sine": Term("sin(2.0 * rotation)", "N", parts=WHEELS),
         },
     ),
     "body": Place(
         "body",
         ("motion",),
-        ("",),
         {
             "motion": SimpleNamespace(
                 speed=20.0, side_speed=0.1, vertical_speed=0.04, roll=0.01, pitch=0.008, roll_rate=0.03, pitch_rate=0.02,
@@ -95,20 +107,20 @@ PLACES: Mapping[str, Place] = {
             )
         },
         {
-            "drag": Term("motion.speed**2", "N s2/m2", "force_x"),
-            "side_slip": Term("motion.speed * motion.side_speed", "N s2/m2", "force_y"),
-            "lift": Term("motion.speed**2", "N s2/m2", "force_z"),
-            "heave_damping": Term("motion.vertical_speed", "N s/m", "force_z"),
-            "heave_mass": Term("motion.vertical_acceleration", "kg", "force_z"),
-            "roll_damping": Term("motion.roll_rate", "N m s", "moment_x"),
-            "roll_stiffness": Term("motion.roll", "N m", "moment_x"),
-            "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x"),
-            "roll_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_x"),
-            "pitch_damping": Term("motion.pitch_rate", "N m s", "moment_y"),
-            "pitch_stiffness": Term("motion.pitch", "N m", "moment_y"),
-            "pitch_inertia": Term("motion.pitch_acceleration", "kg m2", "moment_y"),
-            "pitch_of_speed": Term("motion.speed**2", "kg", "moment_y"),
-            "yaw_damping": Term("motion.yaw_rate", "N m s", "moment_z"),
+            "drag": Term("motion.speed**2", "N s2/m2", "force_x", WHOLE),
+            "side_slip": Term("motion.speed * motion.side_speed", "N s2/m2", "force_y", WHOLE),
+            "lift": Term("motion.speed**2", "N s2/m2", "force_z", WHOLE),
+            "heave_damping": Term("motion.vertical_speed", "N s/m", "force_z", WHOLE),
+            "heave_mass": Term("motion.vertical_acceleration", "kg", "force_z", WHOLE),
+            "roll_damping": Term("motion.roll_rate", "N m s", "moment_x", WHOLE),
+            "roll_stiffness": Term("motion.roll", "N m", "moment_x", WHOLE),
+            "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x", WHOLE),
+            "roll_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_x", WHOLE),
+            "pitch_damping": Term("motion.pitch_rate", "N m s", "moment_y", WHOLE),
+            "pitch_stiffness": Term("motion.pitch", "N m", "moment_y", WHOLE),
+            "pitch_inertia": Term("motion.pitch_acceleration", "kg m2", "moment_y", WHOLE),
+            "pitch_of_speed": Term("motion.speed**2", "kg", "moment_y", WHOLE),
+            "yaw_damping": Term("motion.yaw_rate", "N m s", "moment_z", WHOLE),
         },
         ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
     ),
@@ -146,6 +158,17 @@ def in_words(place: str, terms: Factors) -> str:
     return ", ".join(f"{result} = {' + '.join(parts)}" for result, parts in by_result.items())
 
 
+def _factor(key: str, term: Term) -> str:
+    """The factor of a term at the wheel or axle in question, as source text."""
+    names = [parameter(key, part) for part in term.parts]
+    if term.parts == AXLES:
+        return f"({names[0]} if wheel < 2 else {names[1]})"
+    if term.parts == WHEELS:
+        front, rear = (f"({left} if wheel % 2 == 0 else {right})" for left, right in (names[:2], names[2:]))
+        return f"({front} if wheel < 2 else {rear})"
+    return names[0]
+
+
 def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
     """Text of an effect file (``effects.contract``) with these terms and their factors as typical values."""
     where = PLACES[place]
@@ -153,7 +176,7 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
     for key, factors in terms.items():
         term = where.terms[key]
         reach = STRONGEST / scale(place, key)
-        for part in where.parts:
+        for part in term.parts:
             typical = float(factors.get(part, FORCE / scale(place, key)))
             limit = float(f"{WIDTH * abs(typical) if factors.get(part) else reach:.3g}")
             meaning = f"factor of {term.expression}" + (f", {part}" if part else "")
@@ -161,8 +184,7 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
                 f'        Parameter("{parameter(key, part)}", "{term.unit}", 0.0, {typical:.6g}, ({-limit:g}, {limit:g}), "{meaning}"),'
             )
             arguments.append(parameter(key, part))
-        factor = f"({key}_front if wheel < 2 else {key}_rear)" if where.parts == AXLES else key
-        lines.append(f"    {term.result} += {factor} * ({term.expression})")
+        lines.append(f"    {term.result} += {_factor(key, term)} * ({term.expression})")
     body = "\n".join([*(f"    {result} = 0.0" for result in where.results), *lines])
     used = sorted({function for function in ("tanh", "cos", "sin") if re.search(rf"\b{function}\(", body)})
     imports = f"from math import {', '.join(used)}\n\n" if used else ""

@@ -113,6 +113,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
         for key in table:
             table[key][number, places] = getattr(turn, key)
         trials += [(number + 1, trial, turn) for trial in turn.trials]
+    shared = selection.shared_z, selection.shared_gone, selection.remaining.share, selection.remaining.z
     fitted = [record.name for record in experiment.records if record.role == "fit"]
     held_out = [record.name for record in experiment.records if record.role != "fit"]
     by_trial = lambda get: ("trial", np.array([get(trial) for _, trial, _ in trials], dtype=float))
@@ -143,7 +144,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
             ),
             "floor_mean_square": (("drive", "signal"), selection.ground),
             "held_out_floor_mean_square": (("held_out", "signal"), selection.held_out_ground),
-            **{name: ((), float(getattr(selection, name)), {"units": "1"}) for name in SHARED},
+            **{name: ((), float(value), {"units": "1"}) for name, value in zip(SHARED, shared)},
             "value": (("parameter",), np.array([selection.final.values[key] for key in selection.intervals])),
             "interval": (("parameter", "bound"), np.array(list(selection.intervals.values())).reshape(-1, 2)),
         },
@@ -160,10 +161,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
     )  # fmt: skip
     return result.assign_attrs(
         floor="from repeats" if selection.repeats else "taken as nil: no drive was repeated",
-        remaining=selection.remaining,
-        remaining_z=selection.remaining_z,
-        shared_gone=selection.shared_gone,
-        shared_z=selection.shared_z,
+        remaining_band=str(selection.remaining.band or ""),
     )
 
 

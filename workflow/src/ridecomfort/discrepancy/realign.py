@@ -21,13 +21,12 @@ def aligned(
     experiment: Experiment, values: Mapping[str, float], indices: Sequence[int]
 ) -> tuple[Mapping[int, np.ndarray], Frame, Experiment]:
     """Residuals of records at these values, their frame, and the experiment in which they are aligned for the model."""
-    experiment = experiment.retuned(values, indices)
-    residuals = exp.simulate(experiment, values, indices)
-    frame = _frame(experiment, values, residuals)
+    experiment, residuals = experiment.retuned(values, indices)
+    frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, residuals))
     moved, experiment = closer(experiment, values, residuals, frame)
     if moved is residuals:
         return residuals, frame, experiment
-    frame = _frame(experiment, values, moved)
+    frame = exp.frame(experiment, moved, frame.nuisances, {i: frame.cleaned(i, moved[i]) for i in moved})
     residuals, experiment = closer(experiment, values, moved, frame)
     return residuals, frame, experiment
 
@@ -40,12 +39,11 @@ def closer(
     for _ in range(ROUNDS):
         before = sum(loss.values())
         amounts = {i: frame.amounts(i, residuals[i]) for i in residuals}
-        realigned = experiment.realigned(amounts).retuned(values, residuals)
-        moved = exp.simulate(realigned, values, residuals)
+        realigned, moved = experiment.realigned(amounts).retuned(values, list(residuals))
         after = {i: _loss(frame, i, moved[i]) for i in residuals}
         better = [i for i in residuals if after[i] < loss[i]]
         if better and len(better) < len(residuals):
-            realigned = experiment.realigned({i: amounts[i] for i in better}).retuned(values, better)
+            realigned, _ = experiment.realigned({i: amounts[i] for i in better}).retuned(values, better)
         if better:
             experiment, residuals = realigned, {i: moved[i] if i in better else residuals[i] for i in residuals}
             loss |= {i: after[i] for i in better}
@@ -56,7 +54,3 @@ def closer(
 
 def _loss(frame: Frame, index: int, residual: np.ndarray) -> float:
     return float(np.sum(frame.flat_of(index, residual) ** 2))
-
-
-def _frame(experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> Frame:
-    return exp.frame(experiment, residuals, exp.nuisances(experiment, values, residuals))

@@ -20,12 +20,16 @@ from .experiment import Candidate, Experiment, Frame
 from .propose import propose
 from .refit import Fit
 from .selection import Round, Selection, State, Trial
+from .shared import Shared, shared_error
 
 LEAST_SHARE = 0.02
 """Share of the explainable error below which an effect is not worth naming."""
 
 PROPOSED = 5
 """Candidates that are refitted in a round."""
+
+MINOR = 0.05
+"""Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
 
 CONTENT = 0.98
 """Share of the gain of a size that is not plausible at which a plausible one does as well."""
@@ -206,12 +210,13 @@ class _Search:
         self.rare, self.certain = found.rare, found.certain()
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
-        first = list(self.each(_Try(self, base), [found.best[name] for name in order]))
-        leading = sorted((trial for trial in first if trial is not None), key=lambda trial: trial.bic, reverse=True)
-        large = [trial for trial in leading[:SETTLED] if trial.gain > LARGE * self._count()]
-        settled = [*self.each(_Settle(self, base), large), *(trial for trial in leading if trial not in large)]
-        trials = [trial for trial in self.each(_Judge(self, base, check), settled) if trial is not None]
-        winner = max((t for t in trials if not t.objection), key=_merit, default=None)
+        tried = [trial for trial in self.each(_Try(self, base), [found.best[name] for name in order]) if trial is not None]
+        least = MINOR * max((trial.gain for trial in tried), default=0.0)
+        trials, winner = [], None
+        for stage in ([t for t in tried if t.gain >= least], [t for t in tried if t.gain < least]):
+            if winner is None:
+                trials += self._followed_up(stage, base, check)
+                winner = max((t for t in trials if not t.objection), key=_merit, default=None)
         like, correlation, apart = (), {}, {}
         if winner is not None:
             frames = [frame for frame in (self.frame, self.check_frame) if frame is not None]
@@ -223,6 +228,13 @@ class _Search:
             like, correlation, apart, found.decoy_p_value, found.decoy_ranks,
         )  # fmt: skip
         return turn, winner.fit if winner is not None else base
+
+    def _followed_up(self, tried: Sequence[Trial], base: Fit, check) -> list[Trial]:
+        """Refits settled and judged, the best first; without those that cannot be simulated."""
+        leading = sorted(tried, key=lambda trial: trial.bic, reverse=True)
+        large = [trial for trial in leading[:SETTLED] if trial.gain > LARGE * self._count()]
+        settled = [*self.each(_Settle(self, base), large), *(trial for trial in leading if trial not in large)]
+        return [trial for trial in self.each(_Judge(self, base, check), settled) if trial is not None]
 
     def _try(self, job: tuple[str, int], base: Fit) -> Trial | None:
         """The refit of a candidate in one shape; None where it cannot be simulated."""
@@ -338,14 +350,10 @@ class _Search:
             return f"removes {100 * trial.share:.1f} % of the explainable error"
         return ""
 
-    def _remaining(self, first: Fit, last: Fit) -> tuple[float, float, float, float]:
-        """Of what all repeats share: the share of the error that it still is, its z, the share of it that is gone, and the
-        z that it had at first."""
-        if not self.repeats:
-            return (float("nan"),) * 4
-        share, z, power = floor.shared_error(self.frame, last.residuals)
-        _, first_z, before = floor.shared_error(self.frame, first.residuals)
-        return share, z, 1.0 - power / before if before > 0 else float("nan"), first_z
+    def _remaining(self, first: Fit, last: Fit) -> tuple[Shared, float, float]:
+        """What all repeats still share, the share of it that is gone, and the z that it had at first."""
+        left, before = shared_error(self.frame, last.residuals), shared_error(self.frame, first.residuals)
+        return left, 1.0 - left.power / before.power if before.power > 0 else float("nan"), before.z
 
 
 def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:

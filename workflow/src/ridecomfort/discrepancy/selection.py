@@ -9,6 +9,7 @@ import numpy as np
 
 from .experiment import Frame
 from .refit import Fit
+from .shared import Shared
 
 
 @dataclass(frozen=True)
@@ -80,10 +81,8 @@ class Selection:
     accepted: tuple[str, ...]
     intervals: dict[str, tuple[float, float]]
     final: Fit
-    remaining: float
-    """Share of the white error that all repeats still have in common, 0 to 1; nan without repeats."""
-    remaining_z: float
-    """How surely that is more than nothing, as a z."""
+    remaining: Shared
+    """What all repeats still have in common of their errors; nan without repeats."""
     shared_gone: float
     """Share of what the repeats had in common before the first effect that is gone; nan without repeats."""
     shared_z: float

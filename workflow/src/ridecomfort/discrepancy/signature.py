@@ -85,8 +85,7 @@ def signature(
         )  # fmt: skip
         experiment.candidates = tuple(_candidate(number, seen) for number, seen in enumerate(SEEN.values()))
         fitted = [index for index, record in enumerate(experiment.records) if record.role == "fit"]
-        experiment = experiment.retuned(values, fitted)
-        residuals = exp.simulate(experiment, values, fitted)
+        experiment, residuals = experiment.retuned(values, fitted)
         frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, fitted))
         free = probe.secants(experiment, values, residuals, experiment.free, each)
         found = each(probe.Probe(experiment, values, residuals), [(c.name, 0) for c in experiment.candidates])

@@ -22,6 +22,9 @@ SHARED = 0.05
 """Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
 nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 
+SHARED_BAND_Z = 5.5
+"""z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain."""
+
 CONFIRMED = 0.25
 """Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""
 
@@ -98,7 +101,7 @@ def total_shares(selection: Selection) -> tuple[float, float]:
 
 def something_left(selection: Selection) -> bool:
     """Whether repeats share an error that the last model does not explain; False without repeats."""
-    return bool(selection.remaining_z > SHARED_Z and selection.remaining > SHARED)
+    return bool(selection.remaining.z > SHARED_Z and selection.remaining.share > SHARED)
 
 
 def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[str]:
@@ -126,6 +129,7 @@ def judge(
     met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     refuted = met and held_out < CONFIRMED
     little = (explained < ENOUGH or refuted) and (selection.shared_z > SHARED_Z or not selection.repeats)
+    little = little or (share < ENOUGH and left)
     is_wrong = lambda name: by_name[name].instrument
     wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
     vehicle = [effect for effect in effects if effect not in wrong]
@@ -134,7 +138,7 @@ def judge(
         names = ", ".join(effect.name for effect in wrong)
         reasons.append(f"{names} is an error of the measurement, not of the vehicle")
         # An error of the measurement that leaves much is what something else, not in the library, looks like.
-        little = little or (selection.remaining_z > SHARED_Z and selection.shared_gone < MOST)
+        little = little or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
         if little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
             effects, wrong = vehicle, []
     if decoys:
@@ -157,11 +161,15 @@ def judge(
         elif refuted:
             reasons.append("too little on drives held out to be what is missing")
         else:
-            reasons.append(f"but repeats share an error that it leaves (z = {selection.remaining_z:.1f})")
+            reasons.append(f"but repeats share an error that it leaves (z = {selection.remaining.z:.1f})")
         return Verdict("outside", tuple(effects), (*reasons, ground), share, held_out)
     if not effects:
+        band = selection.remaining.band
         if left:
-            reasons.append(f"but repeats share an error that no candidate explains (z = {selection.remaining_z:.1f})")
+            reasons.append(f"but repeats share an error that no candidate explains (z = {selection.remaining.z:.1f})")
+        elif band is not None and band.z > SHARED_BAND_Z:
+            left = True
+            reasons.append(f"but repeats share an error that no candidate explains: {band}")
         return Verdict("outside" if left else "nothing", (), (*reasons, ground), share, held_out)
     for effect in effects:
         if effect.like:

@@ -24,12 +24,11 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict):
     settings["say"] = lambda words: print(words, file=sys.stderr, flush=True)
     car = parameters.read(vehicle)
     told = {"among": config["among"], "noise_density": config["noise_density"], "signatures": True}
-    table, found = discrepancy.rank(drives, car, **told, **settings)
+    table, found, proposal = discrepancy.diagnose(drives, car, **told, **settings)
     content = found.json()
     proposed = Path(verdict).with_name("discovered.py")
     proposed.unlink(missing_ok=True)  # of drives or of a model before
-    if found.verdict == "outside":
-        proposal = discrepancy.discover(drives, car, **settings)
+    if proposal is not None:
         content["proposal"] = proposal.json()
         if proposal.source:
             _write(proposed, proposal.source)

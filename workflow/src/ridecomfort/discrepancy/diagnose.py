@@ -1,0 +1,49 @@
+"""From measured drives to a verdict: the library first, and where that does not explain them, a force of any form."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from .discover import Discovery, discover
+from .propose import SURE
+from .rank import rank
+from .verdict import CONFIRMED, Verdict
+
+
+def diagnose(
+    measured: Mapping[str, tuple], vehicle, *, among=None, noise_density=None, signatures: bool = False, **settings
+) -> tuple[xr.Dataset, Verdict, Discovery | None]:
+    """The evidence, the verdict and the form that is proposed where the library does not explain the drives, else None.
+
+    Arguments as for ``rank``; ``settings`` are those that ``discover`` has, too.
+    """
+    table, verdict = rank(
+        measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
+    )
+    if verdict.verdict not in ("outside", "nothing"):
+        return table, verdict, None
+    proposal = discover(measured, vehicle, **settings)
+    verdict = reconsidered(verdict, proposal)
+    return table, verdict, proposal if verdict.verdict == "outside" else None
+
+
+def reconsidered(verdict: Verdict, proposal: Discovery) -> Verdict:
+    """The verdict "nothing" as "outside" where a force of some form is sure on fitted drives, and confirmed by those held out.
+
+    What repeats do not share (a wheel out of round, whose turns never begin alike) counts as noise until its form is known.
+    """
+    if verdict.verdict != "nothing" or not is_sure(proposal):
+        return verdict
+    said = f"a force at the {proposal.place} that the library does not hold is there (p = {proposal.p_value:.2g})"
+    return replace(verdict, verdict="outside", reasons=(*verdict.reasons, said))
+
+
+def is_sure(proposal: Discovery) -> bool:
+    """Whether a proposed form is more than chance, by its p-value and by what it does on drives held out, if any."""
+    if not proposal.place or proposal.p_value > SURE:
+        return False
+    return not np.isfinite(proposal.held_out_share) or proposal.held_out_share > CONFIRMED

@@ -1,0 +1,88 @@
+"""What repeats have in common of their errors at equal place, which a better model of road and car could explain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .experiment import Frame, Record
+
+FINER = 10.0
+"""Parts of a block within which white errors that repeats share depend on one another: they may be those of a single place."""
+
+WIDTH = 2.0
+"""Hz; a shaft or a mode shakes within such a band, and is lost among all others where only the whole is asked."""
+
+
+@dataclass(frozen=True)
+class Band:
+    """A band (Hz) of a signal, and how surely repeats share an error in it, as a z."""
+
+    signal: str
+    lower: float
+    upper: float
+    z: float
+
+    def __str__(self) -> str:
+        return f"{self.signal}, {self.lower:.0f}-{self.upper:.0f} Hz (z = {self.z:.1f})"
+
+
+@dataclass(frozen=True)
+class Shared:
+    """White power that repeats share: its ``share`` of all, ``z`` (0 where they share nothing), the ``power``, and the band where
+    that is surest; nan and None where no drive was repeated."""
+
+    share: float
+    z: float
+    power: float
+    band: Band | None
+
+
+def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
+    """What repeats share of their residuals."""
+    pairs = list(_pairs(frame, residuals))
+    if not pairs:
+        return Shared(float("nan"), float("nan"), float("nan"), None)
+    sums, power = [], 0.0
+    for record, one, other in pairs:
+        numbers = np.unique(record.blocks(FINER), return_inverse=True)[1]
+        sums.append(np.bincount(numbers, (one * other).sum(axis=0)))
+        power += np.sqrt(np.sum(one**2) * np.sum(other**2))
+    length = min(len(part) for part in sums)
+    total = sum(part[:length] for part in sums)
+    z = float(total.sum() / np.sqrt(np.sum(total**2)))
+    return Shared(float(total.sum() / power), z, float(total.sum()), _surest(frame.experiment.channels, pairs))
+
+
+def _pairs(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:
+    """Every two records of a condition: the first, and the white residuals (channel, sample) of both at its places."""
+    groups: dict[str, list[int]] = {}
+    for index in frame.indices:
+        groups.setdefault(frame.experiment.records[index].condition, []).append(index)
+    for own in groups.values():
+        records = [frame.experiment.records[i] for i in own]
+        white = [frame.whitening[i](frame.cleaned(i, residuals[i])) for i in own]
+        for a in range(len(own)):
+            for b in range(a):
+                other = np.stack([np.interp(records[a].place, records[b].place, row) for row in white[b]])
+                yield records[a], white[a], other
+
+
+def _surest(channels, pairs) -> Band:
+    """The band of WIDTH in which the spectra of repeats agree best: the sum of their products over its standard deviation, had
+    each the same powers and phases of its own."""
+    lower, upper = pairs[0][0].band
+    edges = np.arange(lower, upper + 0.5 * WIDTH, WIDTH)
+    agreement, variance = np.zeros((2, len(channels), len(edges) + 1))
+    for record, one, other in pairs:
+        spectra = np.fft.rfft(one), np.fft.rfft(other)
+        numbers = np.searchsorted(edges, np.fft.rfftfreq(one.shape[1], 1.0 / record.rate), side="right")
+        for c, (left, right) in enumerate(zip(*spectra)):
+            count = len(edges) + 1
+            agreement[c] += np.bincount(numbers, (left * right.conj()).real, count)
+            variance[c] += np.bincount(numbers, 0.5 * np.abs(left * right) ** 2, count)
+    z = (agreement / np.sqrt(np.where(variance > 0, variance, np.inf)))[:, 1:-1]
+    c, k = np.unravel_index(np.argmax(z), z.shape)
+    return Band(channels[c], float(edges[k]), float(edges[k + 1]), float(z[c, k]))
