@@ -126,19 +126,22 @@ def _renewed(experiment, frame, values, residuals, size: Size, before: np.ndarra
     return frame.flat(column)
 
 
-def covariance(fit: Fit, frame: Frame, keys: Sequence[str], groups: np.ndarray, lost: int) -> tuple[np.ndarray, int]:
+def covariance(
+    fit: Fit, frame: Frame, keys: Sequence[str], groups: np.ndarray, lost: int, known: np.ndarray | float = 0.0
+) -> tuple[np.ndarray, int]:
     """Covariance of the fitted sizes ``keys`` in probes, the others held, and the number of groups it rests on.
 
     Sandwich estimator: errors of one group (element,) may depend on one another in any way (Cameron and Miller 2015, eq. 11).
-    ``lost``: groups that the fit has used up.
+    ``lost``: groups that the fit has used up. ``known``: precision (key,) of what is known of the sizes beforehand.
     """
     columns = fit.columns[[fit.keys.index(key) for key in keys]]
     residual, numbers = frame.flat(fit.residuals), np.unique(groups, return_inverse=True)[1]
-    bread = np.linalg.pinv(evidence.product(columns, columns), rcond=1e-10, hermitian=True)
+    known = np.diag(np.broadcast_to(known, len(keys)))
+    bread = np.linalg.pinv(evidence.product(columns, columns) + known, rcond=1e-10, hermitian=True)
     sums = np.stack([np.bincount(numbers, row * residual) for row in columns])
     used = int(np.sum(np.any(sums != 0, axis=0)))
     factor = used / max(used - lost, 1)
-    return factor * bread @ (sums @ sums.T) @ bread, used
+    return bread @ (factor * sums @ sums.T + known) @ bread, used
 
 
 def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[float, float]]:
@@ -146,9 +149,11 @@ def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[
 
     Errors depend on one another where drives come by the same place, and all along a drive, whose path, clock and mounting
     are its own: clustered both ways (Cameron, Gelbach and Miller 2011, eq. 2.8), degrees of freedom by Satterthwaite (1946).
-    What ended at a bound is held there for the intervals of the others: it has no more to give.
+    A size of an effect that ended at a bound is held there for the intervals of the others. A parameter that did is not: it may
+    be anywhere within its bounds if it went there by the fault of something else, and no farther off than they are wide.
     """
-    moving = [size for size in sizes if is_within(size, fit.values)]
+    free = {size.key for size in frame.experiment.free}
+    moving = [size for size in sizes if size.key in free or is_within(size, fit.values)]
     found = _intervals(fit, frame, moving) if moving else {}
     for size in sizes:
         if size not in moving:
@@ -164,10 +169,12 @@ def is_within(size: Size, values: Mapping[str, float]) -> bool:
 
 def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[float, float]]:
     keys = [size.key for size in sizes]
+    free = {size.key for size in frame.experiment.free}
+    known = np.array([12.0 * (size.probe / (size.upper - size.lower)) ** 2 if size.key in free else 0.0 for size in sizes])
     place, drive = frame.blocks(), frame.drives()
-    own, places = covariance(fit, frame, keys, place, len(keys))
-    along, drives = covariance(fit, frame, keys, drive, 1)
-    both = covariance(fit, frame, keys, place * (drive.max() + 1) + drive, 1)[0]
+    own, places = covariance(fit, frame, keys, place, len(keys), known)
+    along, drives = covariance(fit, frame, keys, drive, 1, known)
+    both = covariance(fit, frame, keys, place * (drive.max() + 1) + drive, 1, known)[0]
     found = {}
     for k, size in enumerate(sizes):
         parts = own[k, k], max(along[k, k] - both[k, k], 0.0) if drives > 1 else 0.0

@@ -128,8 +128,8 @@ def judge(
     explained = max(share, selection.shared_gone) if selection.repeats else share
     met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     refuted = met and held_out < CONFIRMED
-    little = (explained < ENOUGH or refuted) and (selection.shared_z > SHARED_Z or not selection.repeats)
-    little = little or (share < ENOUGH and left)
+    is_sure = lambda z: z > SHARED_Z or not selection.repeats
+    little = explained < ENOUGH and is_sure(selection.remaining.z) or refuted and is_sure(selection.shared_z) or share < ENOUGH and left
     is_wrong = lambda name: by_name[name].instrument
     wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
     vehicle = [effect for effect in effects if effect not in wrong]
