@@ -21,7 +21,7 @@ DECOYS = 6
 """Columns with the spectrum of a candidate and random phases that must never rank."""
 
 DECOY_LEVEL = 0.005
-"""p-value at which a decoy ranks; at LEVEL one of twenty rounds in which nothing is left would call the data suspect."""
+"""p-value at which a decoy ranks, where another is significant, too; one alone would do so by chance now and then."""
 
 FINER = 4.0
 """Parts of a block in the second form of the test, which sees rare events better."""
@@ -123,5 +123,6 @@ def _decoys(frame: Frame, columns: Sequence[Columns], rng: np.random.Generator) 
 
 
 def _decoy_ranks(found: Evidence, candidates: int) -> bool:
-    gains = np.where(found.p_value[candidates:] <= DECOY_LEVEL, found.group_gain[candidates:], 0.0)
-    return bool(gains.max() > found.group_gain[:candidates].max(initial=0.0))
+    p_values = np.sort(found.p_value[candidates:])
+    ranks = found.group_gain[candidates:].max() > found.group_gain[:candidates].max(initial=0.0)
+    return bool(ranks and p_values[0] <= DECOY_LEVEL and p_values[1] <= LEVEL)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .experiment import Frame, Record
+from .floor import denser
 
 FINER = 10.0
 """Parts of a block within which white errors that repeats share depend on one another: they may be those of a single place."""
@@ -64,9 +65,10 @@ def _pairs(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Iterator[tuple[
     for own in groups.values():
         records = [frame.experiment.records[i] for i in own]
         white = [frame.whitening[i](frame.cleaned(i, residuals[i])) for i in own]
+        place, finer = zip(*(denser(record.place, part) for record, part in zip(records, white)))
         for a in range(len(own)):
             for b in range(a):
-                other = np.stack([np.interp(records[a].place, records[b].place, row) for row in white[b]])
+                other = np.stack([np.interp(records[a].place, place[b], row) for row in finer[b]])
                 yield records[a], white[a], other
 
 
