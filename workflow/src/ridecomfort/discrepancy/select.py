@@ -62,8 +62,9 @@ CYCLES = 8
 FINAL_CYCLES = 2
 """Frames of the last fit, each of the residuals of the one before: an error in what makes it white comes out too small."""
 
-ALIAS = 0.05
-"""Share of a candidate's power that nuisances must leave; below it it is one of them under another name."""
+ALIAS, LEAST_OWN = 0.05, 0.01
+"""Share of the power that nuisances must leave of an error of an instrument, below which it is one of them under another name, and of
+an effect of the vehicle, which may be much like one and yet be there."""
 
 
 def select(
@@ -198,7 +199,8 @@ class _Search:
         jobs = [(c.name, shape) for c in self.experiment.candidates for shape in range(len(c.shapes))]
         results = self.each(probe.Probe(self.experiment, base.values, base.residuals), jobs)
         kept = {job: found for job, found in zip(jobs, results) if found}
-        return {job: found for job, found in kept.items() if self.frame.own_shares(list(found.values())).max() > ALIAS}
+        least = lambda name: ALIAS if self.by_name[name].instrument else LEAST_OWN
+        return {job: found for job, found in kept.items() if self.frame.own_shares(list(found.values())).max() > least(job[0])}
 
     def _round(self, base: Fit, check, number: int) -> tuple[Round, Fit]:
         free = self.frame.flats([self.raw[size.key] for size in self._sizes() if refit.is_within(size, base.values)])
@@ -344,8 +346,10 @@ class _Search:
             return outside
         if trial.bic <= 0:
             return "not worth its parameters (BIC)"
-        if np.isfinite(trial.held_out_gain) and not (trial.held_out_gain > 0 and trial.held_out_z > least_z):
-            return "does not improve the drives held out"
+        if np.isfinite(trial.held_out_gain):
+            falls = trial.held_out_gain > 0 and not trial.held_out_share <= 0
+            if not (falls and trial.held_out_z > least_z):
+                return "does not improve the drives held out"
         if trial.share < LEAST_SHARE:
             return f"removes {100 * trial.share:.1f} % of the explainable error"
         return ""
