@@ -322,7 +322,7 @@ class _Search:
         trial = replace(
             trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met
         )
-        return replace(trial, objection=self._objection(trial, candidate, 0.0 if is_weak else HELD_OUT_Z))
+        return replace(trial, objection=self._objection(trial, candidate, is_weak))
 
     def _meets(self, candidate: Candidate, fit: Fit) -> bool:
         """Whether any drive held out has what the candidate acts on, a stop that is reached for example."""
@@ -340,15 +340,15 @@ class _Search:
         seconds = [len(record.place) / record.rate for record in records]
         return len(self.experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
 
-    def _objection(self, trial: Trial, candidate: Candidate, least_z: float) -> str:
+    def _objection(self, trial: Trial, candidate: Candidate, is_weak: bool) -> str:
         outside = _implausible(candidate, trial.fit.values)
         if outside:
             return outside
         if trial.bic <= 0:
             return "not worth its parameters (BIC)"
         if np.isfinite(trial.held_out_gain):
-            falls = trial.held_out_gain > 0 and not trial.held_out_share <= 0
-            if not (falls and trial.held_out_z > least_z):
+            enough = trial.held_out_z > 0 and not trial.held_out_share <= 0 if is_weak else trial.held_out_z > HELD_OUT_Z
+            if not (trial.held_out_gain > 0 and enough):
                 return "does not improve the drives held out"
         if trial.share < LEAST_SHARE:
             return f"removes {100 * trial.share:.1f} % of the explainable error"
