@@ -43,7 +43,8 @@ class Shared:
 
 def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     """What repeats share of their residuals."""
-    pairs = list(_pairs(frame, residuals))
+    cleaned = {index: frame.cleaned(index, residuals[index]) for index in frame.indices}
+    pairs = list(_pairs(frame, {index: frame.whitening[index](part) for index, part in cleaned.items()}))
     if not pairs:
         return Shared(float("nan"), float("nan"), float("nan"), None)
     sums, power = [], 0.0
@@ -54,22 +55,24 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     length = min(len(part) for part in sums)
     total = sum(part[:length] for part in sums)
     z = float(total.sum() / np.sqrt(np.sum(total**2)))
-    return Shared(float(total.sum() / power), z, float(total.sum()), _surest(frame.experiment.channels, pairs))
+    # Equally loud all along the road: were rough places the same ones in all repeats, neighbouring frequencies would not be independent.
+    even = {index: part / frame.whitening[index].scale for index, part in cleaned.items()}
+    band = _surest(frame.experiment.channels, list(_pairs(frame, even)))
+    return Shared(float(total.sum() / power), z, float(total.sum()), band)
 
 
-def _pairs(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:
-    """Every two records of a condition: the first, and the white residuals (channel, sample) of both at its places."""
+def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:
+    """Every two records of a condition: the first, and the series (channel, sample) of both at its places."""
     groups: dict[str, list[int]] = {}
     for index in frame.indices:
         groups.setdefault(frame.experiment.records[index].condition, []).append(index)
     for own in groups.values():
         records = [frame.experiment.records[i] for i in own]
-        white = [frame.whitening[i](frame.cleaned(i, residuals[i])) for i in own]
-        place, finer = zip(*(denser(record.place, part) for record, part in zip(records, white)))
+        place, finer = zip(*(denser(record.place, series[i]) for record, i in zip(records, own)))
         for a in range(len(own)):
             for b in range(a):
                 other = np.stack([np.interp(records[a].place, place[b], row) for row in finer[b]])
-                yield records[a], white[a], other
+                yield records[a], series[own[a]], other
 
 
 def _surest(channels, pairs) -> Band:

@@ -1,0 +1,36 @@
+"""A force of any form has its say where the library has none."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from ridecomfort.discrepancy.diagnose import reconsidered
+from ridecomfort.discrepancy.discover import Discovery
+from ridecomfort.discrepancy.verdict import Verdict
+
+NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
+
+SURE = Discovery("tyre", {"phase_sine": {"front_left": 60.0}}, "force = ...", 0.9, 0.9, 0.0015, "", {}, None)
+
+
+def test_a_sure_force_of_some_form_makes_outside_of_nothing():
+    found = reconsidered(NOTHING, SURE)
+    assert found.verdict == "outside" and "tyre" in found.reasons[-1]
+    assert found.reasons[:-1] == NOTHING.reasons
+
+
+def test_it_is_sure_too_where_held_out_drives_have_nothing_above_their_floor():
+    assert reconsidered(NOTHING, replace(SURE, held_out_share=float("nan"))).verdict == "outside"
+
+
+@pytest.mark.parametrize("doubt", [{"p_value": 0.03}, {"held_out_share": 0.1}, {"place": ""}])
+def test_a_doubtful_one_changes_nothing(doubt):
+    assert reconsidered(NOTHING, replace(SURE, **doubt)) is NOTHING
+
+
+@pytest.mark.parametrize("verdict", ["named", "cluster", "outside", "suspect"])
+def test_other_verdicts_stay(verdict):
+    other = replace(NOTHING, verdict=verdict)
+    assert reconsidered(other, SURE) is other

@@ -1,0 +1,42 @@
+"""What repeats share is seen as a whole and in a single band of a single signal."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort.discrepancy import select, verdict
+from ridecomfort.discrepancy.judged import band
+
+from .linear import RATE, SAMPLES, Linear
+
+
+def judged(model):
+    selection = select.select(model, {"stiffness": 0.0}, most=1)
+    return selection, verdict.judge(selection, model.candidates)
+
+
+def test_what_repeats_share_in_a_narrow_band_is_told_with_its_signal_and_band():
+    model = Linear(8, {})
+    white = np.random.default_rng(0).standard_normal((1, SAMPLES))
+    for noise in model.noise[:3]:
+        noise[2] += 2.0 * band(white, RATE, (26.5, 28.0))[0]
+    selection, found = judged(model)
+    surest = selection.remaining.band
+    assert surest.signal == "c" and surest.lower <= 27.3 <= surest.upper
+    assert selection.remaining.share < verdict.SHARED, "it is too narrow to be seen in the whole"
+    assert found.verdict == "outside" and any("c, 2" in reason for reason in found.reasons)
+
+
+@pytest.mark.parametrize("seed", range(20, 26))
+def test_noise_of_every_drive_agrees_in_no_band(seed):
+    selection, found = judged(Linear(seed, {}))
+    assert selection.remaining.band.z < verdict.SHARED_BAND_Z and found.verdict == "nothing"
+
+
+def test_without_repeats_nothing_is_known_to_be_shared():
+    model = Linear(9, {})
+    model.records = model.records[2:]
+    model.columns, model.noise = model.columns[2:], model.noise[2:]
+    selection, _ = judged(model)
+    assert np.isnan(selection.remaining.share) and selection.remaining.band is None
