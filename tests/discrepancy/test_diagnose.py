@@ -8,7 +8,7 @@ import pytest
 
 from ridecomfort.discrepancy.diagnose import reconsidered
 from ridecomfort.discrepancy.discover import Discovery
-from ridecomfort.discrepancy.verdict import Verdict
+from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 
@@ -31,6 +31,24 @@ def test_a_doubtful_one_changes_nothing(doubt):
 
 
 @pytest.mark.parametrize("verdict", ["named", "cluster", "outside", "suspect"])
-def test_other_verdicts_stay(verdict):
+@pytest.mark.parametrize("is_noisy", [False, True])
+def test_other_verdicts_stay(verdict, is_noisy):
     other = replace(NOTHING, verdict=verdict)
-    assert reconsidered(other, SURE) is other
+    assert reconsidered(other, SURE, is_noisy) is other
+
+
+FOUND = Named("friction", (), "", 0.001, 0.3, 0.3, 0.0, (), {})
+
+LITTLE = replace(NOTHING, verdict="outside", effects=(FOUND,), share=0.3, held_out_share=0.3)
+
+
+def test_noise_of_the_road_does_not_speak_against_what_was_found():
+    weak = replace(SURE, share=0.2)
+    assert reconsidered(LITTLE, weak, is_noisy=True).verdict == "named"
+    assert reconsidered(LITTLE, weak, is_noisy=False).verdict == "outside"
+    alike = replace(LITTLE, effects=(replace(FOUND, like=("knee",)),))
+    assert reconsidered(alike, weak, is_noisy=True).verdict == "cluster"
+
+
+def test_a_force_that_explains_more_does_even_on_a_noisy_road():
+    assert reconsidered(LITTLE, SURE, is_noisy=True) is LITTLE

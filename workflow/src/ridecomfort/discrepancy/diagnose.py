@@ -11,7 +11,12 @@ import xarray as xr
 from .discover import Discovery, discover
 from .propose import SURE
 from .rank import rank
+from .suspect import SMOOTHER
 from .verdict import CONFIRMED, Verdict
+
+
+BETTER = 1.2
+"""Times the share that the library explains which a force of any form must explain to stand for something else."""
 
 
 def diagnose(
@@ -27,19 +32,26 @@ def diagnose(
     if verdict.verdict not in ("outside", "nothing"):
         return table, verdict, None
     proposal = discover(measured, vehicle, **settings)
-    verdict = reconsidered(verdict, proposal)
+    verdict = reconsidered(verdict, proposal, is_noisy=float(table["smoothness"]) > SMOOTHER)
     return table, verdict, proposal if verdict.verdict == "outside" else None
 
 
-def reconsidered(verdict: Verdict, proposal: Discovery) -> Verdict:
-    """The verdict "nothing" as "outside" where a force of some form is sure on fitted drives, and confirmed by those held out.
+def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) -> Verdict:
+    """A verdict in the light of a force of any form.
 
-    What repeats do not share (a wheel out of round, whose turns never begin alike) counts as noise until its form is known.
+    "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
+    (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. Where the points of the road hold noise
+    (``is_noisy``), which repeats share as well, "outside" becomes what the library has unless such a force explains more.
     """
-    if verdict.verdict != "nothing" or not is_sure(proposal):
-        return verdict
-    said = f"a force at the {proposal.place} that the library does not hold is there (p = {proposal.p_value:.2g})"
-    return replace(verdict, verdict="outside", reasons=(*verdict.reasons, said))
+    if verdict.verdict == "nothing" and is_sure(proposal):
+        said = f"a force at the {proposal.place} that the library does not hold is there (p = {proposal.p_value:.2g})"
+        return replace(verdict, verdict="outside", reasons=(*verdict.reasons, said))
+    more = is_sure(proposal) and proposal.share > BETTER * verdict.share
+    if verdict.verdict == "outside" and verdict.effects and is_noisy and not more:
+        said = "no force of any form explains more, and noise of the road's points is shared by repeats, too"
+        kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
+        return replace(verdict, verdict=kind, reasons=(*verdict.reasons, said))
+    return verdict
 
 
 def is_sure(proposal: Discovery) -> bool:

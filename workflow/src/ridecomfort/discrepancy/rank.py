@@ -49,7 +49,7 @@ def rank(
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
-    their gains, shares and objections; over ``model``: the ladder; and what ``signature`` returns. Raises InputError.
+    their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``); and what ``signature`` returns. Raises InputError.
     """
     vehicle, effects = calibrated.apply(calibration, vehicle, effects)
     count = pool.workers() if workers is None else workers
@@ -65,7 +65,7 @@ def rank(
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road)
-    table = dataset(experiment, selection)
+    table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     if signatures:
         say("drawing the missing force")
         curves = signature(

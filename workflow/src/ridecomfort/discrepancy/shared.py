@@ -40,6 +40,9 @@ class Shared:
     power: float
     band: Band | None
 
+    def __str__(self) -> str:
+        return f"{100 * self.share:.0f} % of what is left when white (z = {self.z:.1f}), most surely {self.band}"
+
 
 def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     """What repeats share of their residuals."""

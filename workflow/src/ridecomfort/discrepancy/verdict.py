@@ -23,7 +23,8 @@ SHARED = 0.05
 nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 
 SHARED_BAND_Z = 5.5
-"""z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain."""
+"""z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain; up to
+3.9 where nothing is missing."""
 
 CONFIRMED = 0.25
 """Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""
@@ -122,7 +123,9 @@ def judge(
     effects, reasons = _kept(selection, found, by_name)
     reasons += notes
     first = selection.rounds[0] if selection.rounds else None
-    left = something_left(selection)
+    band = selection.remaining.band
+    in_band = band is not None and band.z > SHARED_BAND_Z
+    left = something_left(selection) or in_band
     assumed = "assumed from the noise of the instruments" if selection.ground.any() else "taken as nil"
     ground = "the floor is known from repeats" if selection.repeats else f"no drive was repeated: the floor is {assumed}"
     explained = max(share, selection.shared_gone) if selection.repeats else share
@@ -161,15 +164,11 @@ def judge(
         elif refuted:
             reasons.append("too little on drives held out to be what is missing")
         else:
-            reasons.append(f"but repeats share an error that it leaves (z = {selection.remaining.z:.1f})")
+            reasons.append(f"but repeats share an error that it leaves: {selection.remaining}")
         return Verdict("outside", tuple(effects), (*reasons, ground), share, held_out)
     if not effects:
-        band = selection.remaining.band
         if left:
-            reasons.append(f"but repeats share an error that no candidate explains (z = {selection.remaining.z:.1f})")
-        elif band is not None and band.z > SHARED_BAND_Z:
-            left = True
-            reasons.append(f"but repeats share an error that no candidate explains: {band}")
+            reasons.append(f"but repeats share an error that no candidate explains: {selection.remaining}")
         return Verdict("outside" if left else "nothing", (), (*reasons, ground), share, held_out)
     for effect in effects:
         if effect.like:
