@@ -30,7 +30,7 @@ def test_a_doubtful_one_changes_nothing(doubt):
     assert reconsidered(NOTHING, replace(SURE, **doubt)) is NOTHING
 
 
-@pytest.mark.parametrize("verdict", ["named", "cluster", "outside", "suspect"])
+@pytest.mark.parametrize("verdict", ["named", "cluster", "outside"])
 @pytest.mark.parametrize("is_noisy", [False, True])
 def test_other_verdicts_stay(verdict, is_noisy):
     other = replace(NOTHING, verdict=verdict)
@@ -52,3 +52,9 @@ def test_noise_of_the_road_does_not_speak_against_what_was_found():
 
 def test_a_force_that_explains_more_does_even_on_a_noisy_road():
     assert reconsidered(LITTLE, SURE, is_noisy=True) is LITTLE
+
+
+def test_a_road_alone_is_not_suspected_where_a_force_explains_most():
+    suspected = replace(NOTHING, verdict="suspect")
+    assert reconsidered(suspected, SURE, is_noisy=True).verdict == "outside"
+    assert reconsidered(suspected, replace(SURE, share=0.4), is_noisy=True) is suspected

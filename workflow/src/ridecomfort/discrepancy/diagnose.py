@@ -12,7 +12,7 @@ from .discover import Discovery, discover
 from .propose import SURE
 from .rank import rank
 from .suspect import SMOOTHER
-from .verdict import CONFIRMED, Verdict
+from .verdict import CONFIRMED, ENOUGH, Verdict
 
 
 BETTER = 1.2
@@ -29,7 +29,7 @@ def diagnose(
     table, verdict = rank(
         measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
     )
-    if verdict.verdict not in ("outside", "nothing"):
+    if verdict.verdict not in ("outside", "nothing") and not (verdict.verdict == "suspect" and table.attrs["suspected"] == "road"):
         return table, verdict, None
     proposal = discover(measured, vehicle, **settings)
     verdict = reconsidered(verdict, proposal, is_noisy=float(table["smoothness"]) > SMOOTHER)
@@ -41,9 +41,10 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. Where the points of the road hold noise
-    (``is_noisy``), which repeats share as well, "outside" becomes what the library has unless such a force explains more.
+    (``is_noisy``), which repeats share as well, "outside" becomes what the library has unless such a force explains more, and "suspect"
+    for that becomes "outside" if it explains most.
     """
-    if verdict.verdict == "nothing" and is_sure(proposal):
+    if is_sure(proposal) and (verdict.verdict == "nothing" or verdict.verdict == "suspect" and proposal.share > ENOUGH):
         said = f"a force at the {proposal.place} that the library does not hold is there (p = {proposal.p_value:.2g})"
         return replace(verdict, verdict="outside", reasons=(*verdict.reasons, said))
     more = is_sure(proposal) and proposal.share > BETTER * verdict.share

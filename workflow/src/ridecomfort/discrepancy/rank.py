@@ -49,7 +49,7 @@ def rank(
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
-    their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``); and what ``signature`` returns. Raises InputError.
+    their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``), and in the attribute ``suspected`` whether "data" are or the "road" alone; and what ``signature`` returns. Raises InputError.
     """
     vehicle, effects = calibrated.apply(calibration, vehicle, effects)
     count = pool.workers() if workers is None else workers
@@ -62,10 +62,12 @@ def rank(
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
     of_road, doubts = suspect.of_road(experiment, smoothness), suspicions(experiment, selection, stands)
+    is_road_alone = not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road)
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
+    table.attrs["suspected"] = "" if not doubts else "road" if is_road_alone else "data"
     if signatures:
         say("drawing the missing force")
         curves = signature(
