@@ -86,11 +86,13 @@ def _surest(channels, pairs) -> Band:
     agreement, variance = np.zeros((2, len(channels), len(edges) + 1))
     for record, one, other in pairs:
         spectra = np.fft.rfft(one), np.fft.rfft(other)
-        numbers = np.searchsorted(edges, np.fft.rfftfreq(one.shape[1], 1.0 / record.rate), side="right")
+        frequency = np.fft.rfftfreq(one.shape[1], 1.0 / record.rate)
+        numbers, count = np.searchsorted(edges, frequency, side="right"), len(edges) + 1
+        lowest = np.maximum(lower, record.lowest or np.zeros(len(channels)))
         for c, (left, right) in enumerate(zip(*spectra)):
-            count = len(edges) + 1
-            agreement[c] += np.bincount(numbers, (left * right.conj()).real, count)
-            variance[c] += np.bincount(numbers, 0.5 * np.abs(left * right) ** 2, count)
+            products = np.where(frequency >= lowest[c], left * right.conj(), 0.0)
+            agreement[c] += np.bincount(numbers, products.real, count)
+            variance[c] += np.bincount(numbers, 0.5 * np.abs(products) ** 2, count)
     z = (agreement / np.sqrt(np.where(variance > 0, variance, np.inf)))[:, 1:-1]
     c, k = np.unravel_index(np.argmax(z), z.shape)
     return Band(channels[c], float(edges[k]), float(edges[k + 1]), float(z[c, k]))

@@ -24,7 +24,7 @@ nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 
 SHARED_BAND_Z = 5.5
 """z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain; up to
-3.9 where nothing is missing."""
+3.9 where nothing is missing and the road is as its file says, 6.5 where it is interpolated otherwise."""
 
 CONFIRMED = 0.25
 """Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""
@@ -116,7 +116,7 @@ def judge(
     selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = (), notes: Sequence[str] = ()
 ) -> Verdict:
     """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it, ``notes`` words
-    that change nothing."""
+    on the road that may be otherwise than it was driven."""
     by_name = {candidate.name: candidate for candidate in candidates}
     share, held_out = total_shares(selection)
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
@@ -124,7 +124,7 @@ def judge(
     reasons += notes
     first = selection.rounds[0] if selection.rounds else None
     band = selection.remaining.band
-    in_band = band is not None and band.z > SHARED_BAND_Z
+    in_band = band is not None and band.z > SHARED_BAND_Z and not notes  # a road that is another makes errors that repeats share
     left = something_left(selection) or in_band
     assumed = "assumed from the noise of the instruments" if selection.ground.any() else "taken as nil"
     ground = "the floor is known from repeats" if selection.repeats else f"no drive was repeated: the floor is {assumed}"
