@@ -22,8 +22,9 @@ from . import kinds, score, trials
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
-SHARES = {"clean": 8, "messy": 4, "another shape": 1, "two": 2, "three": 1, "outside": 2, "nothing": 2, "path error": 1,
-          "clock error, aligned": 1, "clock error, left": 1, "gain error": 1, "scanner noise": 1}  # fmt: skip
+SHARES = {"clean": 8, "messy": 4, "another shape": 1, "two": 2, "three": 1, "outside": 2, "outside, messy": 1, "nothing": 2,
+          "path error": 1, "clock error, aligned": 1, "another interpolation": 1, "clock error, left": 1, "gain error": 1,
+          "scanner noise": 1}  # fmt: skip
 """Trials of each kind in a round."""
 
 
@@ -43,7 +44,7 @@ def one(job: tuple[str, int, int]) -> dict:
     row |= {"reached": trial.truth["reached"], **score.score(draw, trial.truth, table, verdict)}
     row |= {"place_right": "", "form_share": ""}
     ports = {place.port: name for name, place in PLACES.items()}
-    place = ports.get(known[draw.hidden[0]].effect.port) if kind == "outside" else None
+    place = ports.get(known[draw.hidden[0]].effect.port) if kind.startswith("outside") else None
     if place:
         share = proposal.held_out_share if proposal else float("nan")
         row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share}

@@ -86,6 +86,11 @@ def _outside(rng, names, number) -> Draw:
     return Draw((name,), float(rng.choice(STRONG)), frozenset(), missing=() if made_up else (name,))
 
 
+def _outside_messy(rng, names, number) -> Draw:
+    spoilt = {"clock": float(rng.normal(0, 0.005)), "gain": float(rng.normal(0, 0.003)), "scanner": 0.0001, "aligned": True}
+    return Draw((MADE_UP[number % len(MADE_UP)],), float(rng.choice(STRONG)), frozenset(), spoilt=spoilt)
+
+
 def _null(**spoilt) -> Callable:
     return lambda rng, names, number: Draw((), 0.0, frozenset(), spoilt=spoilt)
 
@@ -103,6 +108,8 @@ KINDS: Mapping[str, Callable] = {
     "clock error, left": _null(clock=0.008),
     "gain error": _null(gain=0.03),
     "scanner noise": _null(scanner=0.001),
+    "outside, messy": _outside_messy,
+    "another interpolation": _null(interpolation="linear"),
 }
 
 SUSPECT = ("clock error, left", "gain error", "scanner noise")

@@ -90,11 +90,12 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     for kappa in KAPPAS:
         at = [row for row in single("clean", seen) if reached[id(row)] == kappa]
         line(f"found, clean, kappa {kappa:g}", at, lambda row: row["in_cluster"])
-    for kind in ("nothing", "path error", "clock error, aligned"):
+    for kind in ("nothing", "path error", "clock error, aligned", "another interpolation"):
         line(f"an effect named where nothing is missing: {kind}", of(kind), lambda row: row["found"])
     line("wrong effect named with confidence", rows, lambda row: row["wrong_named"])
-    line('"outside the library" said when it is, kappa >= 0.3', single("outside", strong), lambda row: row["verdict"] == "outside")
-    placed = [row for row in single("outside", strong) if row["form_share"] != ""]
+    for kind in ("outside", "outside, messy"):
+        line(f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3', single(kind, strong), lambda row: row["verdict"] == "outside")
+    placed = [row for kind in ("outside", "outside, messy") for row in single(kind, strong) if row["form_share"] != ""]
     line("place of such an effect right (strut, tyre, body)", placed, lambda row: row["place_right"])
     line(f"its proposed form removes {100 * FORM:.0f} % of the explainable error held out", placed, lambda row: row["form_share"] >= FORM)
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"])
