@@ -9,11 +9,11 @@ import numpy as np
 import xarray as xr
 
 from .discover import Discovery, discover
+from .explain import REPEATS
 from .propose import SURE
 from .rank import rank
 from .suspect import SMOOTHER
 from .verdict import CONFIRMED, ENOUGH, Verdict
-
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
@@ -29,10 +29,12 @@ def diagnose(
     table, verdict = rank(
         measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
     )
-    if verdict.verdict not in ("outside", "nothing") and not (verdict.verdict == "suspect" and table.attrs["suspected"] == "road"):
+    is_open = verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"
+    if not is_open:
         return table, verdict, None
     proposal = discover(measured, vehicle, **settings)
-    verdict = reconsidered(verdict, proposal, is_noisy=float(table["smoothness"]) > SMOOTHER)
+    is_noisy = table.attrs["floor"] == REPEATS and float(table["smoothness"]) > SMOOTHER
+    verdict = reconsidered(verdict, proposal, is_noisy)
     return table, verdict, proposal if verdict.verdict == "outside" else None
 
 

@@ -10,6 +10,7 @@ import xarray as xr
 from .. import calibrated
 from . import car as cars
 from . import floor, pool, suspect
+from .explain import NIL, REPEATS
 from .select import select
 from .signature import signature
 from .selection import Selection
@@ -162,7 +163,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
         },
     )  # fmt: skip
     return result.assign_attrs(
-        floor="from repeats" if selection.repeats else "taken as nil: no drive was repeated",
+        floor=REPEATS if selection.repeats else NIL,
         remaining_band=str(selection.remaining.band or ""),
     )
 

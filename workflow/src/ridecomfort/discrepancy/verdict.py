@@ -18,6 +18,9 @@ ENOUGH = 0.5
 SHARED_Z = 3.0
 """z of the error that repeats still share above which something is left to explain."""
 
+LEFT_Z = 2.33
+"""z of what repeats share beside effects that explain less than half above which something else is missing, too: at a level of 1 %."""
+
 SHARED = 0.05
 """Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
 nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
@@ -131,8 +134,10 @@ def judge(
     explained = max(share, selection.shared_gone) if selection.repeats else share
     met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     refuted = met and held_out < CONFIRMED
-    is_sure = lambda z: z > SHARED_Z or not selection.repeats
-    little = explained < ENOUGH and is_sure(selection.remaining.z) or refuted and is_sure(selection.shared_z) or share < ENOUGH and left
+    is_shared = selection.shared_z > SHARED_Z or not selection.repeats
+    is_left = selection.remaining.z > LEFT_Z or not selection.repeats
+    little = is_shared and ((explained < ENOUGH and is_left) or refuted)
+    little = little or (share < ENOUGH and left)
     is_wrong = lambda name: by_name[name].instrument
     wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
     vehicle = [effect for effect in effects if effect not in wrong]
