@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.signal.windows import tukey
 
 from .experiment import Frame, Record
 from .floor import denser
@@ -15,6 +16,10 @@ FINER = 10.0
 
 WIDTH = 2.0
 """Hz; a shaft or a mode shakes within such a band, and is lost among all others where only the whole is asked."""
+
+
+FADING = 0.2
+"""Share of a record over which it fades in and out before its spectrum is taken."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +90,8 @@ def _surest(channels, pairs) -> Band:
     edges = np.arange(lower, upper + 0.5 * WIDTH, WIDTH)
     agreement, variance = np.zeros((2, len(channels), len(edges) + 1))
     for record, one, other in pairs:
-        spectra = np.fft.rfft(one), np.fft.rfft(other)
+        fading = tukey(one.shape[1], FADING)  # or slow errors, which are not judged, leak into what is
+        spectra = np.fft.rfft(fading * one), np.fft.rfft(fading * other)
         frequency = np.fft.rfftfreq(one.shape[1], 1.0 / record.rate)
         numbers, count = np.searchsorted(edges, frequency, side="right"), len(edges) + 1
         lowest = np.maximum(lower, record.lowest or np.zeros(len(channels)))
