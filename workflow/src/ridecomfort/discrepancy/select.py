@@ -124,9 +124,11 @@ class _Search:
             ladder.append(self._state(turn.winner.name, base, check))
         final, finer = self._final(base)
         bounds = refit.intervals(final, finer, self._sizes())
+        strict = refit.intervals(final, finer, self._sizes(), held=True)
+        sure = frozenset(s.key for s in self._sizes() if not strict[s.key][0] <= s.neutral <= strict[s.key][1])
         return Selection(
             tuple(rounds), tuple(ladder), self.ground, self.held_out_ground, self.repeats, self.frame,
-            tuple(self.accepted), bounds, final, *self._remaining(ladder[0].fit, base),
+            tuple(self.accepted), bounds, sure, final, *self._remaining(ladder[0].fit, base),
         )  # fmt: skip
 
     def _sizes(self, extra: Sequence[str] = ()) -> list[exp.Size]:

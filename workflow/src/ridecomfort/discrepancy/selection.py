@@ -80,6 +80,8 @@ class Selection:
     frame: Frame
     accepted: tuple[str, ...]
     intervals: dict[str, tuple[float, float]]
+    sure: frozenset[str]
+    """Keys of the sizes that are there at all, with 90 % confidence."""
     final: Fit
     remaining: Shared
     """What all repeats still have in common of their errors; nan without repeats."""

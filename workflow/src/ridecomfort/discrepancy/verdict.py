@@ -190,7 +190,7 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
     kept, reasons = [], []
     for effect in found:
         same = _shaped_by(effect, found, by_name)
-        if not _is_certain(effect, by_name[effect.name]):
+        if not any(size.key in selection.sure for size in by_name[effect.name].sizes):
             reasons.append(f"{effect.name} helps, but its size may as well be none")
         elif same:
             reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
@@ -211,14 +211,6 @@ def _shaped_by(effect: Named, found: Sequence[Named], by_name) -> str:
     before = found[: found.index(effect)] if port else ()
     larger = (o.name for o in before if by_name[o.name].port == port and effect.share < ANOTHER_SHAPE * o.share)
     return next(larger, "")
-
-
-def _is_certain(effect: Named, candidate: Candidate) -> bool:
-    """Whether the interval of one of its sizes leaves out the value that changes nothing."""
-    neutral = {size.key.partition(".")[2] or size.key: size.neutral for size in candidate.sizes}
-    return any(
-        not size["interval"][0] <= neutral[size["parameter"]] <= size["interval"][1] for size in effect.sizes
-    )
 
 
 def _named(selection: Selection, number: int, by_name) -> Named:
