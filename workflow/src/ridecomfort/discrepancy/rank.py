@@ -14,6 +14,7 @@ from .explain import NIL, REPEATS
 from .select import select
 from .signature import signature
 from .selection import Selection
+from .shared import is_material
 from .verdict import CONFIRMED, Verdict, judge, something_left, standing
 
 SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
@@ -66,7 +67,7 @@ def rank(
     is_road_alone = not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]
-    verdict = judge(selection, experiment.candidates, doubts, of_road)
+    verdict = judge(selection, experiment.candidates, doubts, of_road, _is_material(selection))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["suspected"] = "" if not doubts else "road" if is_road_alone else "data"
     if signatures:
@@ -78,6 +79,14 @@ def rank(
         )  # fmt: skip
         table = table.merge(curves)
     return table, verdict
+
+
+def _is_material(selection: Selection) -> bool:
+    """Whether what repeats share after the last effect is worth explaining, by the signals that were measured."""
+    frame = selection.frame
+    replays = [frame.experiment.replays[index] for index in frame.indices]
+    measured = {index: again.measured()[:, again.compared] for index, again in zip(frame.indices, replays)}
+    return is_material(frame, selection.ladder[-1].fit.residuals, measured)
 
 
 def _best_share(selection: Selection) -> float:

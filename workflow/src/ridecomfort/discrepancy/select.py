@@ -63,8 +63,8 @@ FINAL_CYCLES = 2
 """Frames of the last fit, each of the residuals of the one before: an error in what makes it white comes out too small."""
 
 ALIAS, LEAST_OWN = 0.05, 0.01
-"""Share of the power that nuisances must leave of an error of an instrument, below which it is one of them under another name, and of
-an effect of the vehicle, which may be much like one and yet be there."""
+"""Share of the power that nuisances must leave of an error of an instrument or of what a tyre feels of the road, below which it is one
+of them under another name, and of any other effect, which may be much like one and yet be there."""
 
 
 def select(
@@ -201,7 +201,8 @@ class _Search:
         jobs = [(c.name, shape) for c in self.experiment.candidates for shape in range(len(c.shapes))]
         results = self.each(probe.Probe(self.experiment, base.values, base.residuals), jobs)
         kept = {job: found for job, found in zip(jobs, results) if found}
-        least = lambda name: ALIAS if self.by_name[name].instrument else LEAST_OWN
+        alias = {name for name, candidate in self.by_name.items() if candidate.instrument or candidate.port == "road"}
+        least = lambda name: ALIAS if name in alias else LEAST_OWN
         return {job: found for job, found in kept.items() if self.frame.own_shares(list(found.values())).max() > least(job[0])}
 
     def _round(self, base: Fit, check, number: int) -> tuple[Round, Fit]:

@@ -18,6 +18,9 @@ WIDTH = 2.0
 """Hz; a shaft or a mode shakes within such a band, and is lost among all others where only the whole is asked."""
 
 
+OF_SIGNAL, OF_BAND = 0.01, 0.1
+"""Shares of the measured power, of a whole signal and within a band, below which an error is not worth explaining."""
+
 FADING = 0.2
 """Share of a record over which it fades in and out before its spectrum is taken."""
 
@@ -83,9 +86,33 @@ def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Rec
                 yield records[a], series[own[a]], other
 
 
+def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> bool:
+    """Whether what repeats share is worth explaining: OF_SIGNAL of a signal's power, or OF_BAND of it in the band where it is surest.
+
+    ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure; what a driver
+    model makes otherwise than a driver is some tenths of a percent.
+    """
+    pairs = list(_pairs(frame, {index: frame.cleaned(index, residuals[index]) for index in frame.indices}))
+    if not pairs:
+        return True
+    edges, agreement, _ = _bands(frame.experiment.channels, pairs)
+    power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
+    band = shared_error(frame, residuals).band
+    surest = frame.experiment.channels.index(band.signal), int(np.argmin(np.abs(edges - band.lower)))
+    return bool((agreement.sum(axis=1) / power.sum(axis=1)).max() > OF_SIGNAL or agreement[surest] > OF_BAND * power[surest])
+
+
 def _surest(channels, pairs) -> Band:
     """The band of WIDTH in which the spectra of repeats agree best: the sum of their products over its standard deviation, had
     each the same powers and phases of its own."""
+    edges, agreement, variance = _bands(channels, pairs)
+    z = agreement / np.sqrt(np.where(variance > 0, variance, np.inf))
+    c, k = np.unravel_index(np.argmax(z), z.shape)
+    return Band(channels[c], float(edges[k]), float(edges[k + 1]), float(z[c, k]))
+
+
+def _bands(channels, pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Edges of the bands, and over (channel, band) the sum of products of the spectra of repeats and its variance by chance."""
     lower, upper = pairs[0][0].band
     edges = np.arange(lower, upper + 0.5 * WIDTH, WIDTH)
     agreement, variance = np.zeros((2, len(channels), len(edges) + 1))
@@ -99,6 +126,4 @@ def _surest(channels, pairs) -> Band:
             products = np.where(frequency >= lowest[c], left * right.conj(), 0.0)
             agreement[c] += np.bincount(numbers, products.real, count)
             variance[c] += np.bincount(numbers, 0.5 * np.abs(products) ** 2, count)
-    z = (agreement / np.sqrt(np.where(variance > 0, variance, np.inf)))[:, 1:-1]
-    c, k = np.unravel_index(np.argmax(z), z.shape)
-    return Band(channels[c], float(edges[k]), float(edges[k + 1]), float(z[c, k]))
+    return edges, agreement[:, 1:-1], variance[:, 1:-1]

@@ -116,10 +116,11 @@ def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[str]
 
 
 def judge(
-    selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = (), notes: Sequence[str] = ()
-) -> Verdict:
+    selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = (), notes: Sequence[str] = (),
+    is_material: bool = True,
+) -> Verdict:  # fmt: skip
     """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it, ``notes`` words
-    on the road that may be otherwise than it was driven."""
+    on the road that may be otherwise than it was driven; ``is_material``: whether what repeats share is worth explaining."""
     by_name = {candidate.name: candidate for candidate in candidates}
     share, held_out = total_shares(selection)
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
@@ -163,6 +164,9 @@ def judge(
         reasons.append(f"{_percent(share)} of the explainable error is removed on the fitted drives")
         if np.isfinite(held_out):
             reasons.append(f"{_percent(held_out)} on drives held out")
+    if found and little and not is_material:
+        reasons.append(f"that is little, and what repeats share beside it too small to matter: {selection.remaining}")
+        return Verdict("nothing", (), (*reasons, ground), share, held_out)
     if found and little:
         if explained < ENOUGH:
             reasons.append("that is less than half" + (" of what repeats share" if selection.repeats else ""))
@@ -172,8 +176,11 @@ def judge(
             reasons.append(f"but repeats share an error that it leaves: {selection.remaining}")
         return Verdict("outside", tuple(effects), (*reasons, ground), share, held_out)
     if not effects:
-        if left:
+        if left and not is_material:
+            reasons.append(f"repeats share an error, too small to matter: {selection.remaining}")
+        elif left:
             reasons.append(f"but repeats share an error that no candidate explains: {selection.remaining}")
+        left = left and is_material
         return Verdict("outside" if left else "nothing", (), (*reasons, ground), share, held_out)
     for effect in effects:
         if effect.like:
