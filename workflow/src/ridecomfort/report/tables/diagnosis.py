@@ -82,7 +82,7 @@ def missing_effects(found: Diagnosis) -> Table:
         rows.append(("none", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
     sources = (Source("all", found.files.get("verdict", ""), "effects", "as in the file, shares in percent"),)
     notes = (
-        "Shares are of the explainable error that was left when the effect was added. Absorbed: share of the effect's response that "
+        "Shares are of the explainable error of the calibrated model before any effect was added. Absorbed: share of the effect's response that "
         "calibration can take up, and so hide.",
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
