@@ -117,6 +117,7 @@ def test_effects_name_the_model_in_whatever_order(project, own_effects):
     ("effects", "said"),
     [
         (["magic"], "unknown effect 'magic'"),
+        (["suspension friction"], "unknown effect 'suspension friction'; did you mean 'suspension_friction'?"),
         ([{"pull": {"sise": 1.0}}], "effect 'pull' has no parameter 'sise'"),
         ([{"pull": {"size": -3.0}}], "pull: size: -3 N, expected 0 to 10 N (how much)"),
     ],

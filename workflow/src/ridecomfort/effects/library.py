@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import importlib.util
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -56,7 +57,9 @@ def choose(effects: Iterable[str] | Mapping[str, Mapping[str, float]], folder=No
     chosen = []
     for name in sorted(sizes):
         if name not in entries:
-            raise InputError(f"unknown effect {name!r}; known are {', '.join(sorted(entries))}")
+            close = difflib.get_close_matches(str(name), entries, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(sorted(entries))}"
+            raise InputError(f"unknown effect {name!r}; {hint}")
         effect = entries[name].effect
         known = [parameter.name for parameter in effect.parameters]
         for parameter in sizes[name] or {}:
