@@ -86,7 +86,7 @@ def _is_material(selection: Selection) -> bool:
     frame = selection.frame
     replays = [frame.experiment.replays[index] for index in frame.indices]
     measured = {index: again.measured()[:, again.compared] for index, again in zip(frame.indices, replays)}
-    return is_material(frame, selection.ladder[-1].fit.residuals, measured)
+    return is_material(frame, selection.ladder[-1].fit.residuals, measured, selection.remaining.band)
 
 
 def _best_share(selection: Selection) -> float:

@@ -17,7 +17,6 @@ FINER = 10.0
 WIDTH = 2.0
 """Hz; a shaft or a mode shakes within such a band, and is lost among all others where only the whole is asked."""
 
-
 OF_SIGNAL, OF_BAND = 0.01, 0.1
 """Shares of the measured power, of a whole signal and within a band, below which an error is not worth explaining."""
 
@@ -86,20 +85,19 @@ def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Rec
                 yield records[a], series[own[a]], other
 
 
-def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> bool:
-    """Whether what repeats share is worth explaining: OF_SIGNAL of a signal's power, or OF_BAND of it in the band where it is surest.
+def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray], surest: Band | None) -> bool:
+    """Whether what repeats share is worth explaining: OF_SIGNAL of a signal's power, or OF_BAND of it in the band where it is ``surest``.
 
     ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure; what a driver
-    model makes otherwise than a driver is some tenths of a percent.
+    model makes otherwise than a driver is some tenths of a percent. True where nothing was repeated.
     """
-    pairs = list(_pairs(frame, {index: frame.cleaned(index, residuals[index]) for index in frame.indices}))
-    if not pairs:
+    if surest is None:
         return True
-    edges, agreement, _ = _bands(frame.experiment.channels, pairs)
-    power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
-    band = shared_error(frame, residuals).band
-    surest = frame.experiment.channels.index(band.signal), int(np.argmin(np.abs(edges - band.lower)))
-    return bool((agreement.sum(axis=1) / power.sum(axis=1)).max() > OF_SIGNAL or agreement[surest] > OF_BAND * power[surest])
+    cleaned = {index: frame.cleaned(index, residuals[index]) for index in frame.indices}
+    channels = frame.experiment.channels
+    (edges, agreement, _), (_, power, _) = (_bands(channels, list(_pairs(frame, series))) for series in (cleaned, measured))
+    band = channels.index(surest.signal), int(np.argmin(np.abs(edges - surest.lower)))
+    return bool((agreement.sum(axis=1) / power.sum(axis=1)).max() > OF_SIGNAL or agreement[band] > OF_BAND * power[band])
 
 
 def _surest(channels, pairs) -> Band:

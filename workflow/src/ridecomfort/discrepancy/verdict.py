@@ -115,6 +115,35 @@ def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[str]
     return [effect.name for effect in _kept(selection, found, by_name)[0]]
 
 
+@dataclass(frozen=True)
+class _Balance:
+    """What a selection explains of what repeats share (of the error where nothing was repeated), and what it leaves."""
+
+    share: float
+    held_out: float
+    explained: float
+    is_refuted: bool
+    """Whether drives held out, which have what was named, are hardly better for it."""
+    is_left: bool
+    """Whether repeats surely share an error still."""
+    is_little: bool
+    """Whether what was found is too little to be what is missing."""
+
+
+def _balance(selection: Selection, notes: Sequence[str]) -> _Balance:
+    share, held_out = total_shares(selection)
+    band = selection.remaining.band
+    in_band = band is not None and band.z > SHARED_BAND_Z and not notes  # a road that is another makes errors that repeats share
+    is_left = something_left(selection) or in_band
+    explained = max(share, selection.shared_gone) if selection.repeats else share
+    is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
+    is_refuted = is_met and held_out < CONFIRMED
+    is_shared = selection.shared_z > SHARED_Z or not selection.repeats
+    may_be_left = selection.remaining.z > LEFT_Z or not selection.repeats
+    is_little = is_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < ENOUGH and is_left)
+    return _Balance(share, held_out, explained, is_refuted, is_left, is_little)
+
+
 def judge(
     selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = (), notes: Sequence[str] = (),
     is_material: bool = True,
@@ -122,72 +151,79 @@ def judge(
     """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it, ``notes`` words
     on the road that may be otherwise than it was driven; ``is_material``: whether what repeats share is worth explaining."""
     by_name = {candidate.name: candidate for candidate in candidates}
-    share, held_out = total_shares(selection)
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
     effects, reasons = _kept(selection, found, by_name)
     reasons += notes
-    first = selection.rounds[0] if selection.rounds else None
-    band = selection.remaining.band
-    in_band = band is not None and band.z > SHARED_BAND_Z and not notes  # a road that is another makes errors that repeats share
-    left = something_left(selection) or in_band
-    assumed = "assumed from the noise of the instruments" if selection.ground.any() else "taken as nil"
-    ground = "the floor is known from repeats" if selection.repeats else f"no drive was repeated: the floor is {assumed}"
-    explained = max(share, selection.shared_gone) if selection.repeats else share
-    met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
-    refuted = met and held_out < CONFIRMED
-    is_shared = selection.shared_z > SHARED_Z or not selection.repeats
-    is_left = selection.remaining.z > LEFT_Z or not selection.repeats
-    little = is_shared and ((explained < ENOUGH and is_left) or refuted)
-    little = little or (share < ENOUGH and left)
+    balance = _balance(selection, notes)
+    is_little = balance.is_little
     is_wrong = lambda name: by_name[name].instrument
     wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
     vehicle = [effect for effect in effects if effect not in wrong]
-    decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if wrong:
         names = ", ".join(effect.name for effect in wrong)
         reasons.append(f"{names} is an error of the measurement, not of the vehicle")
         # An error of the measurement that leaves much is what something else, not in the library, looks like.
-        little = little or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
-        if little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
+        is_little = is_little or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
+        if is_little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
             effects, wrong = vehicle, []
+    decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if decoys:
         reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
     if wrong or decoys or suspicions:
-        return Verdict("suspect", tuple(effects), (*reasons, *suspicions), share, held_out)
-    if not found:
-        best = float(np.min(first.p_value)) if first is not None and first.p_value.size else 1.0
-        if best > LEVEL:
-            reasons.append(f"the best of {len(candidates)} candidates has p = {best:.2g} over the whole library")
-        else:
-            reasons += [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
+        return Verdict("suspect", tuple(effects), (*reasons, *suspicions), balance.share, balance.held_out)
+    reasons += _removed(balance) if found else _unfound(selection, len(candidates))
+    if found and is_little or balance.is_left and not effects:
+        kind = "outside" if is_material else "nothing"
+        reasons.append(_unexplained(selection, balance, found and is_little, is_material))
+    elif effects:
+        kind = "cluster" if any(effect.like for effect in effects) else "named"
+        reasons += [_alike(effect) for effect in effects if effect.like]
     else:
-        reasons.append(f"{_percent(share)} of the explainable error is removed on the fitted drives")
-        if np.isfinite(held_out):
-            reasons.append(f"{_percent(held_out)} on drives held out")
-    if found and little and not is_material:
-        reasons.append(f"that is little, and what repeats share beside it too small to matter: {selection.remaining}")
-        return Verdict("nothing", (), (*reasons, ground), share, held_out)
-    if found and little:
-        if explained < ENOUGH:
-            reasons.append("that is less than half" + (" of what repeats share" if selection.repeats else ""))
-        elif refuted:
-            reasons.append("too little on drives held out to be what is missing")
-        else:
-            reasons.append(f"but repeats share an error that it leaves: {selection.remaining}")
-        return Verdict("outside", tuple(effects), (*reasons, ground), share, held_out)
-    if not effects:
-        if left and not is_material:
-            reasons.append(f"repeats share an error, too small to matter: {selection.remaining}")
-        elif left:
-            reasons.append(f"but repeats share an error that no candidate explains: {selection.remaining}")
-        left = left and is_material
-        return Verdict("outside" if left else "nothing", (), (*reasons, ground), share, held_out)
-    for effect in effects:
-        if effect.like:
-            where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like)
-            reasons.append(f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}")
-    kind = "cluster" if any(effect.like for effect in effects) else "named"
-    return Verdict(kind, tuple(effects), (*reasons, ground), share, held_out)
+        kind = "nothing"
+    effects = effects if kind != "nothing" else []
+    return Verdict(kind, tuple(effects), (*reasons, _floor(selection)), balance.share, balance.held_out)
+
+
+def _removed(balance: _Balance) -> list[str]:
+    """How much of the explainable error the effects remove, in words."""
+    held_out = [f"{_percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
+    return [f"{_percent(balance.share)} of the explainable error is removed on the fitted drives", *held_out]
+
+
+def _unfound(selection: Selection, count: int) -> list[str]:
+    """Why none of ``count`` candidates was accepted, in words."""
+    first = selection.rounds[0] if selection.rounds else None
+    best = float(np.min(first.p_value)) if first is not None and first.p_value.size else 1.0
+    if best > LEVEL:
+        return [f"the best of {count} candidates has p = {best:.2g} over the whole library"]
+    return [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
+
+
+def _unexplained(selection: Selection, balance: _Balance, is_little: bool, is_material: bool) -> str:
+    """What is left beside the effects, in words; ``is_little``: whether too little was found."""
+    if not is_material:
+        little = "that is little, and " if is_little else ""
+        return f"{little}what repeats share beside it is too small to matter: {selection.remaining}"
+    if not is_little:
+        return f"but repeats share an error that no candidate explains: {selection.remaining}"
+    if balance.explained < ENOUGH:
+        return "that is less than half" + (" of what repeats share" if selection.repeats else "")
+    if balance.is_refuted:
+        return "too little on drives held out to be what is missing"
+    return f"but repeats share an error that it leaves: {selection.remaining}"
+
+
+def _alike(effect: Named) -> str:
+    where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like)
+    return f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}"
+
+
+def _floor(selection: Selection) -> str:
+    """What the floor is known from, in words."""
+    if selection.repeats:
+        return "the floor is known from repeats"
+    assumed = "assumed from the noise of the instruments" if selection.ground.any() else "taken as nil"
+    return f"no drive was repeated: the floor is {assumed}"
 
 
 def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[Named], list[str]]:
