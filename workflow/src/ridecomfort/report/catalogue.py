@@ -119,16 +119,22 @@ COMPARISON_FIGURES = {
 
 STRIPS = "below, the critical sections of each class, paler where only some of the runs are critical."
 
+PT_TO_AG = "PT: public transport, ND: normal driving, AG: aggressive driving."
+
+NU_TO_EU = "NU: not uncomfortable, LU: a little, FU: fairly, U: uncomfortable, VU: very, EU: extremely."
+
+VG_TO_P = "VG: very good, G: good, F: fair, M: mediocre, P: poor."
+
 COMFORT_FIGURES = {
     "thresholding_results_1": "Longitudinal and lateral acceleration along the sites, mean over the runs, with the "
-    f"thresholds that apply; {STRIPS}",
+    f"thresholds that apply; {STRIPS} {PT_TO_AG}",
     "thresholding_results_2": "Vertical acceleration along the sites, mean over the runs, with the thresholds that "
-    f"apply; {STRIPS}",
+    f"apply; {STRIPS} {PT_TO_AG}",
     "ride_comfors": "Vibration total value of ISO 2631 along the sites, mean over the runs, on its bands, each shown "
-    f"from its lower edge to that of the next; {STRIPS}",
+    f"from its lower edge to that of the next; {STRIPS} {NU_TO_EU}",
     "IRI_thresholds": "IRI along the sites as a survey reports it and in full resolution, on the classes at the mean "
-    f"speed of the runs; {STRIPS}",
-    "critical_shares": "Share of critical sections by method and class.",
+    f"speed of the runs; {STRIPS} {VG_TO_P}",
+    "critical_shares": f"Share of critical sections by method and class. {PT_TO_AG} {NU_TO_EU} {VG_TO_P}",
     "iri_resolution": "Share of the road by the class of the IRI, of a survey and in full resolution.",
     "agreement": "Agreement of the methods on each site and on all: weighted kappa, rank correlation along the road, "
     "and by how much the first method lags behind the second; 95 % intervals by block bootstrap.",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
+from . import style
 from .figures import evidence, signature
 from .study import Diagnosis
 from .table import Table
@@ -27,4 +28,5 @@ def scores(found: Diagnosis) -> dict[str, Table]:
 
 def figures(found: Diagnosis) -> dict[str, Callable]:
     """Functions without arguments that draw the figures of ``catalogue.DIAGNOSIS_FIGURES``."""
-    return {"evidence": partial(evidence.evidence, found), "signature": partial(signature.signature, found)}
+    marked = lambda draw: style.marked(draw(found), found.standin_mark())
+    return {"evidence": partial(marked, evidence.evidence), "signature": partial(marked, signature.signature)}

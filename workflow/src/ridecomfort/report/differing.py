@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
+from . import style
 from .figures import conditions, ladder, located
 from .study import Difference
 from .table import Table
@@ -26,5 +27,6 @@ def tables(found: Difference) -> dict[str, Table]:
 def figures(found: Difference) -> dict[str, Callable]:
     """Functions without arguments that draw the figures of ``catalogue.difference_figures``."""
     kinds = {"located": located.located, "conditions": conditions.conditions, "responses": conditions.responses}
-    of_sites = {f"{kind}_{site.name}": partial(draw, found, site.name) for site in found.sites for kind, draw in kinds.items()}
-    return {**of_sites, "error_ladder": partial(ladder.error_ladder, found)}
+    of_site = lambda draw, name: style.marked(draw(found, name), found.standin_mark(name))
+    of_sites = {f"{kind}_{site.name}": partial(of_site, draw, site.name) for site in found.sites for kind, draw in kinds.items()}
+    return {**of_sites, "error_ladder": lambda: style.marked(ladder.error_ladder(found), found.standin_mark())}

@@ -72,6 +72,10 @@ class Difference:
         """As of a Study."""
         return standin_note([site.label for site in self.sites if site.standin])
 
+    def standin_mark(self, site: str | None = None) -> str | None:
+        """As of a Study."""
+        return standin_mark([each.label for each in self.sites if each.standin and site in (None, each.name)])
+
 
 @dataclass(frozen=True)
 class Diagnosis:
@@ -91,6 +95,10 @@ class Diagnosis:
     def standin_note(self) -> str | None:
         """As of a Study."""
         return standin_note(list(self.standin))
+
+    def standin_mark(self) -> str | None:
+        """As of a Study."""
+        return standin_mark(list(self.standin))
 
 
 @dataclass(frozen=True)
@@ -136,6 +144,10 @@ class Study:
         """The sentence that goes wherever results of stand-in sites are shown, None without them."""
         return standin_note([site.label for site in self.standin])
 
+    def standin_mark(self, site: str | None = None) -> str | None:
+        """The words that go into figures of stand-in sites (of this ``site``, of any), None without them."""
+        return standin_mark([each.label for each in self.standin if site in (None, each.name)])
+
 
 def standin_note(labels: Sequence[str]) -> str | None:
     """The sentence that says of these sites that they are stand-ins, None without any."""
@@ -145,3 +157,8 @@ def standin_note(labels: Sequence[str]) -> str | None:
         f"{STANDIN}the roads and measured drives of {', '.join(labels)} are made from seeds to match what the "
         "paper publishes of its inputs; they are not the paper's own."
     )
+
+
+def standin_mark(labels: Sequence[str]) -> str | None:
+    """The words for a figure's corner that say of these sites that they are stand-ins, None without any."""
+    return f"{STANDIN}{', '.join(labels)}" if labels else None

@@ -122,6 +122,13 @@ def note(axes: Axes, text: str, place: tuple[float, float]) -> None:
     axes.annotate(text, place, xytext=(3, 4), textcoords="offset points", fontsize=6)
 
 
+def marked(drawn: Figure, words: str | None) -> Figure:
+    """The figure with words in its lower right corner; as it is without any."""
+    if words:
+        drawn.supxlabel(words, x=0.995, ha="right", fontsize=6, color=FLOOR)
+    return drawn
+
+
 def save(drawn: Figure, path) -> None:
     """Write a figure as PNG or PDF, by the ending of its path, without time stamps: equal data, equal bytes."""
     with styled():

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from matplotlib.figure import Figure
 
-from .. import style
+from .. import catalogue, style
 from ..study import Study
 from . import agreement, along, calibration, diagrams, overview, roads, roughness, surface, weighting
 
@@ -41,6 +41,7 @@ def draw(study: Study, name: str) -> Figure:
     """One figure by its name in ``catalogue.figures``, in the study's style."""
     with style.styled():
         if name in BUILDERS:
-            return BUILDERS[name](study)
+            mark = None if name in catalogue.METHOD_FIGURES else study.standin_mark()
+            return style.marked(BUILDERS[name](study), mark)
         kind, _, site = name.partition("_")
-        return OF_SITE[kind](study, site)
+        return style.marked(OF_SITE[kind](study, site), study.standin_mark(site))

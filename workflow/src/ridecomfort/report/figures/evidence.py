@@ -26,6 +26,15 @@ DOT = {"marker": "o", "linestyle": "", "color": style.CALIBRATED, "markersize": 
 DIAMOND = {**DOT, "marker": "D", "color": style.REFERENCE, "markeredgecolor": "black", "markeredgewidth": 0.4}
 
 
+OUTCOMES = {
+    "lies outside what is plausible": "size not plausible",
+    "not worth its parameters": "not worth its sizes (BIC)",
+    "does not improve the drives held out": "not better held out",
+    "of the explainable error": "too little",
+}
+"""How objections of the search are said in a few words, by a part of each."""
+
+
 def evidence(found: Diagnosis) -> Figure:
     """Score test of the strongest effects (left) and, of those refitted, the explainable error removed (right), a row each round."""
     ranking = found.ranking
@@ -61,8 +70,12 @@ def evidence(found: Diagnosis) -> Figure:
                 place = names.index(name)
                 shares = [100 * float(ranking[key].values[k]) for key in ("trial_share", "trial_held_out_share")]
                 right.plot(shares, [place, place], color=style.FAINT, linewidth=0.8, zorder=1)
-                right.plot(shares[0], place, **DOT)
-                right.plot(shares[1], place, **DIAMOND)
+                right.plot(shares[0], place, **DOT, clip_on=False)
+                right.plot(shares[1], place, **DIAMOND, clip_on=False)
+                outcome = _outcome(name, winner, str(ranking["trial_objection"].values[k]))
+                said = f"{shares[0]:.0f} / {shares[1]:.0f} %" if np.isfinite(shares[1]) else f"{shares[0]:.0f} %"
+                right.text(1.02, place, f"{said}  {outcome}", transform=right.get_yaxis_transform(), va="center", fontsize=6)
+        right.set_title("refits of the best: fitted / held out")
         right.set_xlim(min(right.get_xlim()[0], -LEAST), max(right.get_xlim()[1], LEAST))
         right.locator_params(axis="x", nbins=5)
         right.axvline(0.0, color=style.FLOOR, linewidth=0.7)
@@ -78,3 +91,10 @@ def evidence(found: Diagnosis) -> Figure:
     ]
     drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
+
+
+def _outcome(name: str, winner: str, objection: str) -> str:
+    """What came of a refit, in a few words."""
+    if objection:
+        return next((short for part, short in OUTCOMES.items() if part in objection), objection)
+    return "accepted" if name == winner else "explains less"

@@ -15,7 +15,7 @@ from ..study import Difference
 from ..tables.ladder import METHODS, rung_title
 
 TITLES = {rungs.FITTED: "fitted drives", rungs.HELD_OUT: "drives held out"}
-COLOURS = {"thresholds": ("#6A3D9A", "s"), "iso2631": ("#3A3A3A", "o")}
+COLOURS = {"thresholds": ("#6A3D9A", "p"), "iso2631": ("#3A3A3A", "h")}
 HIGHEST = 200.0
 """% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen."""
 
@@ -57,9 +57,10 @@ def error_ladder(study: Difference) -> Figure:
     panels[-1, 0].set_ylim(bottom=0.0)
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
     lines = [key(look, symbol(signal)) for signal, look in style.SIGNAL_LINES.items()]
-    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals"))
+    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals, in figures"))
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor (repeats)"))
     lines += [key(look, METHODS[name]) for name, look in COLOURS.items()]
+    lines.append(Line2D([], [], color=style.MEASURED, linestyle="--", linewidth=0.8, label="repeats among themselves"))
     if blank:
         blank[0].legend(handles=lines, loc="center left", ncols=2).set_in_layout(False)
     else:
@@ -73,7 +74,11 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
         colour, marker = style.SIGNAL_LINES[signal]
         values = 100 * chosen["left"].sel(signal=signal).values
         axes.plot(*_known(places, values), color=colour, marker=marker, markersize=3.5)
-    axes.plot(*_known(places, 100 * chosen["left_overall"].values), color="black", linewidth=2.2, zorder=1)
+    overall = _known(places, 100 * chosen["left_overall"].values)
+    axes.plot(*overall, color="black", linewidth=2.2, zorder=1)
+    for place, value in zip(*overall):
+        if value <= HIGHEST:
+            axes.annotate(f"{value:.0f}", (place, value), xytext=(3, 4), textcoords="offset points", fontsize=6, fontweight="bold")
     beyond = 100 * float(chosen["left"].max())
     if beyond > HIGHEST:
         axes.text(0.03, 0.97, f"up to {beyond:,.0f} %", transform=axes.transAxes, va="top", fontsize="x-small")

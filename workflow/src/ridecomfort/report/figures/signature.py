@@ -15,7 +15,7 @@ BAND = 1.645
 """Standard errors of a 90 % interval."""
 
 POORLY_KNOWN = 8.0
-"""Times the largest force within reach beyond which an interval is cut off: where the car was hardly ever."""
+"""Times the usual standard error beyond which an estimate is not drawn: where the car was hardly ever."""
 
 NOTHING = 0.01
 """Share of the largest force within reach below which the named effects show nothing."""
@@ -43,7 +43,7 @@ def signature(found: Diagnosis) -> Figure:
         for axes, axle in zip(row, axles):
             own = one.sel(axle=axle)
             force, error = own["missing_force"].values, BAND * own["missing_force_error"].values
-            known = np.isfinite(force) & np.isfinite(error)
+            known = _known(one).sel(axle=axle).values
             at = factor * own["seen_at"].values
             colour, marker = AXLE_LINES[str(axle)]
             axes.axhline(0.0, color=style.FLOOR, linewidth=0.7)
@@ -55,8 +55,8 @@ def signature(found: Diagnosis) -> Figure:
             axes.set_ylim(-reach, reach)
             most = ", explains most" if place == places[strongest] else ""
             axes.set_title(f"{axle} {place}{most}")
-            axes.set_xlabel(f"{place} [{unit}]")
-        row[0].set_ylabel("missing force [N]")
+            axes.set_xlabel(f"{place}, in compression [{unit}]")
+        row[0].set_ylabel("missing force,\npushing apart [N]")
     together = " and ".join(words(str(effect)) for effect in ranking["named_effect"].values)
     handles = [
         Line2D([], [], color=colour, marker=marker, markersize=3.5, label=f"estimated, {axle}")
@@ -71,10 +71,13 @@ def signature(found: Diagnosis) -> Figure:
 
 
 def _reach(one) -> float:
-    """N that a row of panels shows: the estimates, with their intervals, that are about as well known as most of them."""
-    force, error = one["missing_force"].values, BAND * one["missing_force_error"].values
-    known = np.isfinite(force) & np.isfinite(error)
-    if not known.any():
-        return 1.0
-    sure = known & (error <= max(np.median(error[known]) * POORLY_KNOWN, 1e-9))
-    return 1.1 * float(np.max(np.abs(force[sure]) + error[sure])) + 1e-9
+    """N that a row of panels shows: the estimates that are drawn, with their intervals."""
+    known = _known(one).values
+    reach = (np.abs(one["missing_force"]) + BAND * one["missing_force_error"]).values[known]
+    return 1.1 * float(reach.max(initial=0.0)) + 1e-9
+
+
+def _known(one):
+    """Whether (axle, knot) an estimate is about as well known as most of them of its row."""
+    error = one["missing_force_error"].where(np.isfinite(one["missing_force"]))
+    return error <= max(POORLY_KNOWN * float(error.median()), 1e-9)
