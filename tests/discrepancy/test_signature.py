@@ -35,7 +35,7 @@ def test_friction_shows_as_a_step_where_the_velocity_turns(found):
 
 
 def test_the_place_where_the_force_acts_explains_most(found):
-    assert str(found["seen"].values[int(np.argmax(found["seen_gain"].values))]) == "strut velocity"
+    assert str(found["seen"].values[int(np.argmax(found["seen_share"].values))]) == "strut velocity"
 
 
 def test_a_force_at_rest_does_not_show(found):

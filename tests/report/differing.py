@@ -154,7 +154,7 @@ def curves() -> xr.Dataset:
         {
             "seen_at": (("seen", "knot"), np.stack([knots, knots])),
             "seen_unit": ("seen", ["m/s", "m"]),
-            "seen_gain": ("seen", [900.0, 3.0]),
+            "seen_share": ("seen", [0.6, 0.01]),
             "missing_force": (over, force),
             "missing_force_error": (over, np.full(force.shape, 5.0)),
             "named_force": (("named_effect", *over), named),

@@ -1,5 +1,7 @@
 """The verdict, the evidence and the score: every kind of verdict is said, and says what to do."""
 
+import re
+
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
@@ -58,6 +60,14 @@ def test_the_figure_shows_every_round_and_nothing_is_cut_off():
     assert box.x0 > -0.02 and box.x1 < width + 0.02 and box.y0 > -0.02 and box.y1 < height + 0.02
     said = [text.get_text() for text in each.findobj(Text)]
     assert "round 1: suspension friction accepted" in said and "round 2: nothing accepted" in said
+    assert any("Stand-in data" in text for text in said)
+
+
+def test_the_figure_says_what_came_of_every_refit():
+    with style.styled():
+        each = diagnosed.figures(made_up.diagnosis())["evidence"]()
+    said = " ".join(text.get_text() for text in each.findobj(Text))
+    assert re.search(r"\d+ / 75 %  accepted", said) and "makes the drives held out worse" in said
 
 
 HIDDEN = {"suspension_friction": {"front": 75.0, "rear": 60.0}, "damper_asymmetry": {"front": 0.3}}
@@ -76,7 +86,7 @@ def test_the_missing_force_is_drawn_beside_what_the_named_effect_would_show():
         each = diagnosed.figures(found)["signature"]()
         FigureCanvasAgg(each).draw()
     said = " ".join(text.get_text() for text in each.findobj(Text))
-    assert "front strut velocity, explains most" in said and "suspension friction" in said and "[mm]" in said
+    assert "front strut velocity: 60 % of the error" in said and "suspension friction" in said and "[mm]" in said
     drawn = [line for axes in each.axes for line in axes.lines if line.get_linestyle() == "--"]
     assert len(drawn) == 2  # one an axle, and none where the effect does not act
 

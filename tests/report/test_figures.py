@@ -72,6 +72,19 @@ def test_equal_data_give_equal_bytes(suffix, paper_like, tmp_path):
     assert b"CreationDate" not in one and b"Matplotlib" not in one
 
 
+def words_of(figure):
+    return " ".join(text.get_text() for text in figure.findobj(Text))
+
+
+def test_figures_of_stand_in_sites_say_so_and_others_do_not(drawn, own_site):
+    """A figure is shown without its caption sooner or later."""
+    for name, each in drawn.items():
+        shows_data = name not in catalogue.METHOD_FIGURES
+        assert ("Stand-in data: Ts" in words_of(each)) == shows_data, name
+    assert "Stand-in data: Ts2" in words_of(drawn["views_ts2"]) and "Ts1" not in words_of(drawn["views_ts2"])
+    assert "Stand-in" not in words_of(figures.draw(own_site, "critical_shares"))
+
+
 def test_drawing_leaves_the_settings_of_others_alone(own_site):
     import matplotlib
 

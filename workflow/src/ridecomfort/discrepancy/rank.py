@@ -15,7 +15,7 @@ from .select import select
 from .signature import signature
 from .selection import Selection
 from .shared import is_material
-from .verdict import CONFIRMED, Verdict, judge, something_left, standing
+from .verdict import CONFIRMED, Verdict, judge, shares, something_left, standing
 
 SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
 """What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""
@@ -141,8 +141,9 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
             "trial_bic": by_trial(lambda trial: trial.bic),
             "trial_held_out_gain": by_trial(lambda trial: trial.held_out_gain),
             "trial_held_out_z": by_trial(lambda trial: trial.held_out_z),
-            "trial_share": by_trial(lambda trial: trial.share),
-            "trial_held_out_share": by_trial(lambda trial: trial.held_out_share),
+            # Above the last floor, as all other shares that are told; the search went by the floor of its time.
+            "trial_share": by_trial(lambda trial: shares(selection, trial.before, trial.after)[0]),
+            "trial_held_out_share": by_trial(lambda trial: shares(selection, trial.before, trial.after)[1] if trial.met else np.nan),
             "trial_correlation": (
                 "trial", np.array([turn.correlation.get(trial.name, np.nan) for _, trial, turn in trials], dtype=float),
             ),

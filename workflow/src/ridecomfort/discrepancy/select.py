@@ -323,8 +323,9 @@ class _Search:
             before.held_out_squares, now.held_out_squares, first.held_out_squares, self.held_out_ground
         )
         trial = replace(
-            trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met
-        )
+            trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met,
+            before=before, after=now,
+        )  # fmt: skip
         return replace(trial, objection=self._objection(trial, candidate, is_weak))
 
     def _meets(self, candidate: Candidate, fit: Fit) -> bool:

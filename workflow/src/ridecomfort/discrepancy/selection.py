@@ -29,6 +29,9 @@ class Trial:
     objection: str
     met: bool = True
     """Whether the drives held out have what the candidate acts on."""
+    before: State | None = None
+    after: State | None = None
+    """The model without and with it, as far as this refit goes."""
 
 
 @dataclass(frozen=True)

@@ -67,8 +67,8 @@ def signature(
     Arguments as for ``rank``, calibration applied. ``named``: sizes of effects to compare with, as mapping of name to
     {parameter: value}. Returns over ``seen`` (what it depends on), ``axle`` and ``knot``: ``seen_at`` (in ``seen_unit``),
     ``missing_force`` (N) with its standard ``missing_force_error``, and over ``named_effect`` too ``named_force``: what
-    the estimate would show were the effect the truth (nan where it acts elsewhere); ``seen_gain`` (fall of
-    the white sum of squares) says which place explains most.
+    the estimate would show were the effect the truth (nan where it acts elsewhere); ``seen_share`` of the
+    error when white, noise included, that the curves of a place take says which explains most.
     """
     count = pool.workers() if workers is None else workers
     each = pool.mapped(count)
@@ -110,7 +110,7 @@ class _Curve:
     error: np.ndarray
     resolution: np.ndarray
     """What the estimate makes of a true curve, (axle and knot, axle and knot)."""
-    gain: float
+    share: float
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ def _curve(frame: Frame, residuals, free, columns, seen: Seen) -> _Curve:
     shown = _without_line(np.array(seen.knots), spread)
     error = np.sqrt(np.diag(shown @ spread @ shown.T))
     error[[k for k in range(count) if k not in where]] = np.nan
-    return _Curve(shown @ values, error, shown @ resolution, float(residual @ residual - left @ left))
+    return _Curve(shown @ values, error, shown @ resolution, 1.0 - float(left @ left / (residual @ residual)))
 
 
 def _without_line(knots: np.ndarray, spread: np.ndarray) -> np.ndarray:
@@ -199,7 +199,7 @@ def _dataset(curves: Sequence[_Curve], names: Sequence[str], shapes: Sequence[Ma
         {
             "seen_at": (("seen", "knot"), at),
             "seen_unit": ("seen", np.array([seen.unit for seen in SEEN.values()])),
-            "seen_gain": ("seen", np.array([curve.gain for curve in curves]), {"units": "1"}),
+            "seen_share": ("seen", np.array([curve.share for curve in curves]), {"units": "1"}),
             "missing_force": (over, force, {"units": "N", "long_name": "force that the model lacks"}),
             "missing_force_error": (over, error, {"units": "N", "long_name": "standard error of it"}),
             "named_force": (("named_effect", *over), drawn, {"units": "N", "long_name": "what named effects would show"}),

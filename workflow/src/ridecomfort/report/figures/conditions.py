@@ -78,7 +78,7 @@ def responses(study: Difference, site: str) -> Figure:
                 values = one["road_coherence"].sel(source=source).values[kept]
                 coherent.plot(frequency, values, color=colour, linewidth=0.7, linestyle=(0, (2, 1)), label=f"{source} and road")
             road.set_yscale("log")
-        road.set_ylabel(f"{symbol(signal)} [{unit} per m/s]")
+        road.set_ylabel(f"{symbol(signal)}\n[{unit} per m/s]")
         road.set_title(f"road {INPUTS[INPUT[signal]]} → {symbol(signal)}")
         gain.axhline(1.0, color=style.FAINT, linewidth=0.7)
         gain.plot(frequency, one["model_gain"].values[kept], color=style.ERROR)

@@ -7,15 +7,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from ...discrepancy.propose import CERTAIN, LEVEL
 from .. import style
 from ..notation import words
 from ..study import Diagnosis
 
 SHOWN = 12
 """Effects of each round that are drawn, the strongest."""
-
-LEVEL = 0.05
-"""p-value over the library below which an effect is significant."""
 
 LEAST = 1.0
 """Percent to both sides of zero that shares are drawn over at least: what removes nothing must look like nothing."""
@@ -57,7 +55,8 @@ def evidence(found: Diagnosis) -> Figure:
             colour = ACCEPTED if name == winner else SIGNIFICANT if p_value[k] <= LEVEL else OTHER
             left.barh(place, max(gain[k], 0.0), height=0.7, color=colour)
             end = max(gain[k], 0.0), place
-            left.annotate(f"p = {p_value[k]:.2g}", end, xytext=(3, 0), textcoords="offset points", va="center", fontsize=6)
+            said = f"p = {p_value[k]:.2g}" if p_value[k] > CERTAIN else f"p < {CERTAIN:g}"
+            left.annotate(said, end, xytext=(3, 0), textcoords="offset points", va="center", fontsize=6)
         left.set_yticks(range(len(names)), [words(name) for name in names])
         left.invert_yaxis()
         left.margins(x=0.15)
@@ -73,15 +72,16 @@ def evidence(found: Diagnosis) -> Figure:
                 right.plot(shares[0], place, **DOT, clip_on=False)
                 right.plot(shares[1], place, **DIAMOND, clip_on=False)
                 outcome = _outcome(name, winner, str(ranking["trial_objection"].values[k]))
-                said = f"{shares[0]:.0f} / {shares[1]:.0f} %" if np.isfinite(shares[1]) else f"{shares[0]:.0f} %"
-                right.text(1.02, place, f"{said}  {outcome}", transform=right.get_yaxis_transform(), va="center", fontsize=6)
+                said = " / ".join(f"{share:.0f}" for share in np.round(shares) + 0.0 if np.isfinite(share))
+                right.text(1.06, place, f"{said} %  {outcome}", transform=right.get_yaxis_transform(), va="center", fontsize=6)
         right.set_title("refits of the best: fitted / held out")
         right.set_xlim(min(right.get_xlim()[0], -LEAST), max(right.get_xlim()[1], LEAST))
-        right.locator_params(axis="x", nbins=5)
+        for axes, count in ((left, 4), (right, 5)):
+            axes.locator_params(axis="x", nbins=count)
         right.axvline(0.0, color=style.FLOOR, linewidth=0.7)
         right.tick_params(axis="y", length=0)
-    panels[-1][0].set_xlabel("fall of twice the negative log-likelihood, score test [-]")
-    panels[-1][1].set_xlabel("explainable error removed by the refit [%]")
+    panels[-1][0].set_xlabel("fall of $-2$ ln likelihood in the score test [-]")
+    panels[-1][1].set_xlabel("explainable error removed [%]")
     handles = [
         Patch(color=ACCEPTED, label="accepted"),
         Patch(color=SIGNIFICANT, label=f"significant over the library (p ≤ {LEVEL:g})"),

@@ -57,7 +57,7 @@ def error_ladder(study: Difference) -> Figure:
     panels[-1, 0].set_ylim(bottom=0.0)
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
     lines = [key(look, symbol(signal)) for signal, look in style.SIGNAL_LINES.items()]
-    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals, in figures"))
+    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals (numbers)"))
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor (repeats)"))
     lines += [key(look, METHODS[name]) for name, look in COLOURS.items()]
     lines.append(Line2D([], [], color=style.MEASURED, linestyle="--", linewidth=0.8, label="repeats among themselves"))

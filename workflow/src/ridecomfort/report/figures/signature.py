@@ -35,11 +35,10 @@ def signature(found: Diagnosis) -> Figure:
         return drawn
     places, axles = ranking["seen"].values, ranking["axle"].values
     panels = drawn.subplots(len(places), len(axles), squeeze=False, sharey="row")
-    strongest = int(np.nanargmax(ranking["seen_gain"].values))
     for row, place in zip(panels, places):
         one = ranking.sel(seen=place)
         factor, unit = (1e3, "mm") if str(one["seen_unit"].item()) == "m" else (1.0, str(one["seen_unit"].item()))
-        reach = _reach(one)
+        reach, share = _reach(one), 100 * float(one["seen_share"])
         for axes, axle in zip(row, axles):
             own = one.sel(axle=axle)
             force, error = own["missing_force"].values, BAND * own["missing_force_error"].values
@@ -53,8 +52,7 @@ def signature(found: Diagnosis) -> Figure:
             if np.abs(shown[known]).max(initial=0.0) > NOTHING * reach:
                 axes.plot(at[known], shown[known], color=style.ERROR, linestyle="--")
             axes.set_ylim(-reach, reach)
-            most = ", explains most" if place == places[strongest] else ""
-            axes.set_title(f"{axle} {place}{most}")
+            axes.set_title(f"{axle} {place}: {share:.0f} % of the error")
             axes.set_xlabel(f"{place}, in compression [{unit}]")
         row[0].set_ylabel("missing force,\npushing apart [N]")
     together = " and ".join(words(str(effect)) for effect in ranking["named_effect"].values)
