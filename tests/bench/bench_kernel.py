@@ -43,12 +43,12 @@ def _kernel(course, car, drive=None) -> tuple[int, float]:
     """Steps of a drive and the least time in s that a kernel needs for them, by default the one with no effects."""
     drive = drive or compose.compose([]).drive
     targets = np.stack([np.full(course.u.size, SPEED), np.zeros(course.u.size), course.curvature], axis=1)
-    record, accelerations = np.empty((20000, 11)), np.empty((3, 200000))
+    record, sensed = np.empty((20000, 11)), np.empty((6, 200000))
 
     def call():
         return drive(
             constants(car), wheel_table(car), course.surface, course.elevation, targets, 0.8, 4.0, LENGTH - 4.0,
-            simulate.STEP, 10, (0.0, 0.0, 0.0), np.zeros(0), 0, record, accelerations,
+            simulate.STEP, 10, (0.0, 0.0, 0.0), np.zeros(0), 0, record, sensed,
         )  # fmt: skip
 
     return call()[1], _best(call)
@@ -58,10 +58,10 @@ def _reference(course, car) -> float:
     """Seconds a step of the plain model."""
     targets = np.stack([np.full(course.u.size, SPEED), np.zeros(course.u.size), course.curvature], axis=1)
     start = time.process_time()
-    _, accelerations = reference.drive(
+    _, sensed = reference.drive(
         car, course.surface, course.elevation, targets, 0.8, 4.0, 24.0, simulate.STEP, 10
     )
-    return (time.process_time() - start) / accelerations.shape[1]
+    return (time.process_time() - start) / sensed.shape[1]
 
 
 def _best(call, repeats: int = 7) -> float:

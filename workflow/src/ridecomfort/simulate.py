@@ -16,7 +16,7 @@ from .road import surface
 from .vehicle import driver
 from .vehicle.constants import constants, wheel_table
 from .vehicle.ground import Surface
-from .vehicle.motion import ACCELERATIONS, COLUMNS
+from .vehicle.motion import COLUMNS, SENSED
 from .vehicle.parameters import Vehicle
 from .vehicle.parameters import read as read_vehicle
 from .vocabulary import describe
@@ -97,9 +97,9 @@ def run(
     of gravity of the sprung mass. ``start`` and ``end``: m along the reference line; the whole
     road by default. ``step`` of the integration in s, ``rate`` of the records in Hz.
 
-    Accelerations are those of the sensor in body axes without gravity, band-limited below
-    half the rate before they are sampled, as an instrument does it. Rates need no filter at 100 Hz: less than 0.05 percent
-    of their power lies above 50 Hz (tests/test_simulate.py).
+    Accelerations are those of the sensor in body axes without gravity. They and the rates are band-limited below
+    half the rate before they are sampled, as an instrument does it: of a roll rate on a rough road some percent of what is
+    sampled at 25 to 40 Hz would else be folded down from above 50 Hz.
     """
     course = road if isinstance(road, Course) else prepare(road)
     chosen = library.choose(effects, effects_folder)
@@ -195,14 +195,14 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     compiled = compose.compose([entry for entry, _ in chosen])
     steps = int(seconds / step)
     record = np.empty((steps // every + 1, len(COLUMNS)))
-    accelerations = np.empty((3, steps))
+    sensed = np.empty((6, steps))
     records, steps = compiled.drive(
         constants(vehicle), wheel_table(vehicle), course.surface, course.elevation, targets, float(friction),
         float(start), float(end), float(step), every, tuple(float(place) for place in sensor),
-        compose.parameters(chosen), compiled.state_count, record, accelerations,
+        compose.parameters(chosen), compiled.state_count, record, sensed,
     )  # fmt: skip
     record = record[:records]
-    if not np.isfinite(record[:, :3]).all() or not np.isfinite(accelerations[:, :steps]).all():
+    if not np.isfinite(record[:, :3]).all() or not np.isfinite(sensed[:, :steps]).all():
         raise InputError(
             "the simulated drive did not stay finite; is a parameter or an effect out of reason?",
             place=f"vehicle {vehicle.name}",
@@ -213,7 +213,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
             "is the friction too low for the grade or the bend?",
             place=f"vehicle {vehicle.name}",
         )
-    _low_pass(accelerations, steps, _taps(every), every, record[:, ACCELERATIONS])
+    _low_pass(sensed, steps, _taps(every), every, record[:, SENSED])
     return record
 
 

@@ -40,7 +40,7 @@ class Seen:
 
 
 SEEN: Mapping[str, Seen] = {
-    "strut velocity": Seen("suspension", "velocity", "m/s", (-0.6, -0.3, -0.12, -0.04, 0.0, 0.04, 0.12, 0.3, 0.6)),
+    "strut velocity": Seen("suspension", "velocity", "m/s", (-0.6, -0.3, -0.12, -0.04, -0.01, 0.0, 0.01, 0.04, 0.12, 0.3, 0.6)),
     "strut deflection": Seen("suspension", "deflection", "m", (-0.05, -0.03, -0.015, -0.005, 0.0, 0.005, 0.015, 0.03, 0.05)),
     "tyre deflection": Seen("tyre_vertical", "deflection - rest", "m", (-0.015, -0.008, -0.004, 0.0, 0.004, 0.008, 0.015)),
 }

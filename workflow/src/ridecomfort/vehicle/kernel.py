@@ -65,6 +65,7 @@ from ridecomfort.vehicle.motion import (
     E,
     S,
     Z,
+    body_course,
     body_rates,
     sensor_acceleration,
     sin_cos,
@@ -91,7 +92,7 @@ GRADE_LENGTH = 20.0
 @njit(cache=True, nogil=True)
 def drive(
     car, wheels, surface, elevation, targets, friction, start, end, step, every, sensor,
-    parameters, state_count, record, accelerations,
+    parameters, state_count, record, sensed,
 ):  # fmt: skip
     """Drive along the road; the number of records and of steps made.
 
@@ -100,16 +101,16 @@ def drive(
     of the road. ``start``, ``end``: m along the reference line. ``step``: s. ``every``: steps
     between records. ``sensor``: its place in m relative to the centre of gravity.
     ``parameters``, ``state_count``: of the effects. Filled: ``record`` (records, COLUMNS), all
-    but its accelerations, and ``accelerations`` (3, steps) of the sensor at every step.
+    but what is SENSED, and ``sensed`` (6, steps): accelerations and rates of the sensor at every step.
     """
     body = np.zeros((5, 6))
-    felt = np.zeros(3)
+    feels = np.zeros((2, 3))
     wheel = np.zeros((13, 4))
     ground = np.zeros((4, 4))
     states = np.zeros((4, state_count))
     return _drive(
         car, wheels, surface, elevation, targets, friction * car.tyre_friction, start, end, step, every,
-        sensor, parameters, record, accelerations, felt,
+        sensor, parameters, record, sensed, feels[0], feels[1],
         body[0], body[1], body[2], body[3], body[4],
         wheel[0], wheel[1], wheel[2], wheel[3], wheel[4], wheel[5], wheel[6], wheel[7], wheel[8], wheel[9],
         wheel[10], wheel[11], wheel[12], ground, states[0], states[1], states[2], states[3],
@@ -121,7 +122,7 @@ def drive(
 @njit(error_model="numpy", _nrt=False, fastmath={"contract", "arcp", "reassoc", "nsz"})
 def _drive(
     car, wheels, surface, elevation, targets, friction, start, end, step, every,
-    sensor, parameters, record, accelerations, felt,
+    sensor, parameters, record, sensed, felt, rates,
     pose, pose_rate, speeds, change, now,
     wheel_z, wheel_v, wheel_change, spin, spin_change, rotation, force_x, force_y, load, torque,
     suspension, travel_rate, side_push, ground, states, slopes, slopes_before, slopes_earlier,
@@ -135,7 +136,7 @@ def _drive(
     integral = STANDARD_GRAVITY * rise / (GRADE_LENGTH * SPEED_INTEGRAL_GAIN)
 
     records, steps = 0, 0
-    room = min(record.shape[0] * every, accelerations.shape[1])
+    room = min(record.shape[0] * every, sensed.shape[1])
     while pose[S] < end and speeds[V_X] > STANDSTILL and steps < room:
         for k in range(6):
             now[k] = speeds[k] + half * change[k]
@@ -170,11 +171,15 @@ def _drive(
         )  # fmt: skip
 
         sensor_acceleration(felt, sensor, pose, now, change)
-        accelerations[0, steps] = felt[0] + flex_x
-        accelerations[1, steps] = felt[1] + flex_y
-        accelerations[2, steps] = felt[2] + flex_z
+        body_rates(rates, pose, now)
+        sensed[0, steps] = felt[0] + flex_x
+        sensed[1, steps] = felt[1] + flex_y
+        sensed[2, steps] = felt[2] + flex_z
+        sensed[3, steps] = rates[0]
+        sensed[4, steps] = rates[1]
+        sensed[5, steps] = rates[2]
         if steps % every == 0:
-            body_rates(record[records], pose, now)
+            body_course(record[records], pose, now)
             records += 1
         steps += 1
 

@@ -9,8 +9,8 @@ from numba import njit
 COLUMNS = ("s", "e", "v_x", "a_x", "a_y", "a_z", "roll_rate", "pitch_rate", "yaw_rate", "roll", "pitch")
 """Columns of a kernel's record, named as in the vocabulary."""
 
-ACCELERATIONS = slice(3, 6)
-"""The columns that hold the accelerations."""
+SENSED = slice(3, 9)
+"""The columns of what a sensor senses: accelerations and rates."""
 
 SPEED, LATERAL, CURVATURE = range(3)
 """Columns of what the driver aims for: speed (m/s), lateral position (m), curvature of the road (1/m)."""
@@ -78,16 +78,22 @@ def sensor_acceleration(row, sensor, pose, speeds, change):
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def body_rates(row, pose, speeds):
-    """Put place, speed, rates about the body's axes and angles into a row of COLUMNS."""
+    """Rates about the body's axes."""
     roll, pitch = pose[ROLL], pose[PITCH]
     p, q, r = speeds[ROLL_RATE], speeds[PITCH_RATE], speeds[YAW_RATE]
+    row[0] = p - pitch * r
+    row[1] = q + roll * r
+    row[2] = r + pitch * p - roll * q
+
+
+@njit(forceinline=True, error_model="numpy", _nrt=False)
+def body_course(row, pose, speeds):
+    """Put place, speed and angles of the body into a row of COLUMNS."""
+    pitch = pose[PITCH]
     row[0] = pose[S]
     row[1] = pose[E]
     row[2] = speeds[V_X] * (1.0 - 0.5 * pitch * pitch) - pitch * speeds[V_Z]
-    row[6] = p - pitch * r
-    row[7] = q + roll * r
-    row[8] = r + pitch * p - roll * q
-    row[9] = roll
+    row[9] = pose[ROLL]
     row[10] = pitch
 
 

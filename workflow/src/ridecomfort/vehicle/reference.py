@@ -111,7 +111,7 @@ class Car:
 def drive(
     vehicle, surface, elevation, targets, friction, start, end, step, every, sensor=(0.0, 0.0, 0.0), watch=None
 ):
-    """Records (records, COLUMNS) and accelerations (3, steps) of the sensor, as ``kernel.drive`` gives them.
+    """Records (records, COLUMNS) and what the sensor senses (6, steps), accelerations and rates, as ``kernel.drive`` gives them.
 
     ``watch`` is called at every step with a dictionary of what the car does at that instant.
     """
@@ -145,7 +145,7 @@ def drive(
     acceleration, wheel_acceleration, force_y = np.zeros(6), np.zeros(4), np.zeros(4)
     side_push = np.zeros(4)
     rates = np.array([speed, 0.0, 0.0])
-    records, accelerations = [], []
+    records, sensed = [], []
 
     while s < end and q[0] > STANDSTILL:
         v_x, v_y, r, v_z, p, w = now = q + step / 2 * acceleration
@@ -232,11 +232,11 @@ def drive(
                      travel=travel, twist=twist, deflection=deflection, load=load, suspension=suspension,
                      force_x=force_x, force_y=force_y, angle=angle, heading=heading, acceleration=acceleration)
             )  # fmt: skip
-        accelerations.append(_felt(sensor, now, acceleration, roll, pitch))
-        if (len(accelerations) - 1) % every == 0:
-            turning = _in_body_axes(np.array([p, w, r]), roll, pitch)
+        turning = _in_body_axes(np.array([p, w, r]), roll, pitch)
+        sensed.append([*_felt(sensor, now, acceleration, roll, pitch), *turning])
+        if (len(sensed) - 1) % every == 0:
             along_body = v_x * (1 - pitch**2 / 2) - pitch * v_z
-            records.append([s, e, along_body, np.nan, np.nan, np.nan, *turning, roll, pitch])
+            records.append([s, e, along_body, *np.full(6, np.nan), roll, pitch])
 
         spin = spin + step * spin_change
         wheel_v = wheel_v + step * wheel_acceleration
@@ -249,7 +249,7 @@ def drive(
         s, e, heading = s + step * rates[0], e + step * rates[1], heading + step * rates[2]
         z, roll, pitch = z + step * q[3], roll + step * q[4], pitch + step * q[5]
         ground = [ahead, *ground[:2]]
-    return np.array(records), np.array(accelerations).T
+    return np.array(records), np.array(sensed).T
 
 
 def _in_body_axes(vector, roll, pitch):
