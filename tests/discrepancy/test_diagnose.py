@@ -30,11 +30,19 @@ def test_a_doubtful_one_changes_nothing(doubt):
     assert reconsidered(NOTHING, replace(SURE, **doubt)) is NOTHING
 
 
-@pytest.mark.parametrize("verdict", ["named", "cluster", "outside"])
 @pytest.mark.parametrize("is_noisy", [False, True])
-def test_other_verdicts_stay(verdict, is_noisy):
-    other = replace(NOTHING, verdict=verdict)
+def test_outside_stays_where_such_a_force_explains_more(is_noisy):
+    other = replace(NOTHING, verdict="outside")
     assert reconsidered(other, SURE, is_noisy) is other
+
+
+@pytest.mark.parametrize("kind", ["named", "cluster"])
+def test_a_name_gives_way_to_a_force_that_explains_more_on_fitted_and_held_out_drives(kind):
+    named = replace(NOTHING, verdict=kind, effects=(FOUND,), share=0.6, held_out_share=0.5)
+    found = reconsidered(named, SURE)
+    assert found.verdict == "outside" and "90 %" in found.reasons[-1] and found.effects == named.effects
+    for weaker in (replace(SURE, share=0.7), replace(SURE, held_out_share=0.55), replace(SURE, p_value=0.03)):
+        assert reconsidered(named, weaker) is named
 
 
 FOUND = Named("friction", (), "", 0.001, 0.3, 0.3, 0.0, (), {})

@@ -18,6 +18,9 @@ from .verdict import CONFIRMED, ENOUGH, Verdict
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
+DOUBTFUL = 0.8
+"""Share of the explainable error below which what the library explains may be the work of something that is not in it."""
+
 
 def diagnose(
     measured: Mapping[str, tuple], vehicle, *, among=None, noise_density=None, signatures: bool = False, **settings
@@ -29,11 +32,11 @@ def diagnose(
     table, verdict = rank(
         measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
     )
-    is_open = verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"
-    if not is_open:
+    is_noisy = table.attrs["floor"] == REPEATS and float(table["smoothness"]) > SMOOTHER
+    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL and not is_noisy
+    if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
         return table, verdict, None
     proposal = discover(measured, vehicle, **settings)
-    is_noisy = table.attrs["floor"] == REPEATS and float(table["smoothness"]) > SMOOTHER
     verdict = reconsidered(verdict, proposal, is_noisy)
     return table, verdict, proposal if verdict.verdict == "outside" else None
 
@@ -42,19 +45,26 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
     """A verdict in the light of a force of any form.
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
-    (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. Where the points of the road hold noise
-    (``is_noisy``), which repeats share as well, "outside" becomes what the library has unless such a force explains more, and "suspect"
-    for that becomes "outside" if it explains most.
+    (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. What is named becomes "outside" where
+    such a force explains more on fitted and held-out drives alike. Where the points of the road hold noise (``is_noisy``), which repeats
+    share as well, "outside" becomes what the library has unless such a force explains more, and "suspect" for that becomes "outside" if
+    it explains most.
     """
+    said = f"a force at the {proposal.place} that the library does not hold"
     if is_sure(proposal) and (verdict.verdict == "nothing" or verdict.verdict == "suspect" and proposal.share > ENOUGH):
-        said = f"a force at the {proposal.place} that the library does not hold is there (p = {proposal.p_value:.2g})"
-        return replace(verdict, verdict="outside", reasons=(*verdict.reasons, said))
+        return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
+    held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     more = is_sure(proposal) and proposal.share > BETTER * verdict.share
+    if verdict.verdict in ("named", "cluster") and more and not proposal.held_out_share < BETTER * held_out:
+        return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
+    kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_noisy and not more:
-        said = "no force of any form explains more, and noise of the road's points is shared by repeats, too"
-        kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
-        return replace(verdict, verdict=kind, reasons=(*verdict.reasons, said))
+        return _said(verdict, kind, "no force of any form explains more, and noise of the road's points is shared by repeats, too")
     return verdict
+
+
+def _said(verdict: Verdict, kind: str, reason: str) -> Verdict:
+    return replace(verdict, verdict=kind, reasons=(*verdict.reasons, reason))
 
 
 def is_sure(proposal: Discovery) -> bool:

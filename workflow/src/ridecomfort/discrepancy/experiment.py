@@ -97,8 +97,8 @@ class Experiment(Protocol):
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """What the alignment of a record may still get wrong, (direction, channel, sample)."""
 
-    def finer(self) -> Experiment:
-        """The same, simulated as exactly as the sizes that are told deserve."""
+    def exact(self, values: Mapping[str, float], indices: Sequence[int]) -> Experiment:
+        """The same with what integration makes wrong at these values made good in the residuals of these records."""
 
     def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> tuple[Experiment, dict[int, np.ndarray]]:
         """The same with these records driven along the measured path at these values to start with, and their residuals."""

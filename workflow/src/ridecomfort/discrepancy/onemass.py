@@ -134,8 +134,8 @@ class OneMass:
         """An offset of the recorded output."""
         return np.full((1, 1, len(self.outputs[index])), np.std(self.outputs[index]))
 
-    def finer(self) -> OneMass:
-        """The same: an offset has no scale."""
+    def exact(self, values: Mapping[str, float], indices: Sequence[int]) -> OneMass:
+        """The same: its steps are exact enough."""
         return self
 
     def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> tuple[OneMass, dict[int, np.ndarray]]:

@@ -63,11 +63,13 @@ def rank(
     selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
-    of_road, doubts = suspect.of_road(experiment, smoothness), suspicions(experiment, selection, stands)
+    matters = _is_material(selection)
+    of_road = suspect.of_road(experiment, smoothness)
+    doubts = suspicions(experiment, selection, stands, something_left(selection) and matters)
     is_road_alone = not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]
-    verdict = judge(selection, experiment.candidates, doubts, of_road, _is_material(selection))
+    verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["suspected"] = "" if not doubts else "road" if is_road_alone else "data"
     if signatures:
@@ -86,7 +88,7 @@ def _is_material(selection: Selection) -> bool:
     frame = selection.frame
     replays = [frame.experiment.replays[index] for index in frame.indices]
     measured = {index: again.measured()[:, again.compared] for index, again in zip(frame.indices, replays)}
-    return is_material(frame, selection.ladder[-1].fit.residuals, measured, selection.remaining.band)
+    return is_material(frame, selection.ladder[-1].fit.residuals, measured)
 
 
 def _best_share(selection: Selection) -> float:
@@ -94,12 +96,13 @@ def _best_share(selection: Selection) -> float:
     return max((trial.share for turn in selection.rounds for trial in turn.trials if np.isfinite(trial.share)), default=0.0)
 
 
-def suspicions(experiment: cars.Car, selection: Selection, stands: bool) -> list[str]:
-    """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains; ``stands``: whether an effect does."""
+def suspicions(experiment: cars.Car, selection: Selection, stands: bool, is_left: bool) -> list[str]:
+    """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains; ``stands``: whether an effect
+    does, ``is_left``: whether repeats share an error still."""
     reasons = suspect.of_drives(experiment)
     first, last = selection.ladder[0], selection.ladder[-1]
     reasons += suspect.of_signs(experiment, first.fit.residuals)
-    if selection.repeats and not stands and not something_left(selection):
+    if selection.repeats and not stands and not is_left:
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     explainable = np.maximum(first.squares - selection.ground, 0.0)[0]
     index = selection.frame.indices[0]

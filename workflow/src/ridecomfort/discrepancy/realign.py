@@ -21,7 +21,7 @@ def aligned(
     experiment: Experiment, values: Mapping[str, float], indices: Sequence[int]
 ) -> tuple[Mapping[int, np.ndarray], Frame, Experiment]:
     """Residuals of records at these values, their frame, and the experiment in which they are aligned for the model."""
-    experiment, residuals = experiment.retuned(values, indices)
+    experiment, residuals = experiment.exact(values, indices).retuned(values, indices)
     frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, residuals))
     moved, experiment = closer(experiment, values, residuals, frame)
     if moved is residuals:

@@ -122,9 +122,9 @@ class _Search:
             check, self.check_frame = self._aligned(base.values, self.held_out)
             self._grounds(base, check)
             ladder.append(self._state(turn.winner.name, base, check))
-        final, finer = self._final(base)
-        bounds = refit.intervals(final, finer, self._sizes())
-        strict = refit.intervals(final, finer, self._sizes(), held=True)
+        final, frame = self._final(base)
+        bounds = refit.intervals(final, frame, self._sizes())
+        strict = refit.intervals(final, frame, self._sizes(), held=True)
         sure = frozenset(s.key for s in self._sizes() if not strict[s.key][0] <= s.neutral <= strict[s.key][1])
         return Selection(
             tuple(rounds), tuple(ladder), self.ground, self.held_out_ground, self.repeats, self.frame,
@@ -155,8 +155,7 @@ class _Search:
         return frame, fit
 
     def _final(self, base: Fit) -> tuple[Fit, Frame]:
-        """The fit whose sizes are told, with its frame: simulated as exactly as they deserve."""
-        self.experiment = self.experiment.finer()
+        """The fit whose sizes are told, with its frame."""
         values = base.values
         residuals, frame = self._aligned(values, self.fitted)
         for cycle in range(FINAL_CYCLES):

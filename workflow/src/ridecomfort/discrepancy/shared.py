@@ -17,8 +17,15 @@ FINER = 10.0
 WIDTH = 2.0
 """Hz; a shaft or a mode shakes within such a band, and is lost among all others where only the whole is asked."""
 
-OF_SIGNAL, OF_BAND = 0.01, 0.1
-"""Shares of the measured power, of a whole signal and within a band, below which an error is not worth explaining."""
+DRIVEN = 3.0
+"""Hz below which foot and hands of a driver show, which a driver model moves otherwise: on roads and drives without any other error that is
+2 % of the power of a_x in the band, 1 % of pitch rate, 0.5 % of yaw rate, and less than 0.1 % of any signal above."""
+
+OF_DRIVEN, OF_BAND = 0.03, 0.002
+"""Shares of the measured power within a band below and above that, up to which an error is not worth explaining."""
+
+LIKELY = 3.0
+"""z of what repeats share in a band from which on it may be worth explaining."""
 
 FADING = 0.2
 """Share of a record over which it fades in and out before its spectrum is taken."""
@@ -85,19 +92,19 @@ def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Rec
                 yield records[a], series[own[a]], other
 
 
-def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray], surest: Band | None) -> bool:
-    """Whether what repeats share is worth explaining: OF_SIGNAL of a signal's power, or OF_BAND of it in the band where it is ``surest``.
+def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> bool:
+    """Whether what repeats share in any band is worth explaining; True where nothing was repeated.
 
-    ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure; what a driver
-    model makes otherwise than a driver is some tenths of a percent. True where nothing was repeated.
+    ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure.
     """
-    if surest is None:
-        return True
     cleaned = {index: frame.cleaned(index, residuals[index]) for index in frame.indices}
-    channels = frame.experiment.channels
-    (edges, agreement, _), (_, power, _) = (_bands(channels, list(_pairs(frame, series))) for series in (cleaned, measured))
-    band = channels.index(surest.signal), int(np.argmin(np.abs(edges - surest.lower)))
-    return bool((agreement.sum(axis=1) / power.sum(axis=1)).max() > OF_SIGNAL or agreement[band] > OF_BAND * power[band])
+    pairs = list(_pairs(frame, cleaned))
+    if not pairs:
+        return True
+    edges, agreement, variance = _bands(frame.experiment.channels, pairs)
+    power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
+    least = np.where(edges[:-1] < DRIVEN, OF_DRIVEN, OF_BAND) * power
+    return bool(((agreement > least) & (agreement > LIKELY * np.sqrt(variance))).any())
 
 
 def _surest(channels, pairs) -> Band:

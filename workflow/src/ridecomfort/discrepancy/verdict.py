@@ -25,9 +25,9 @@ SHARED = 0.05
 """Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
 nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 
-SHARED_BAND_Z = 5.5
+SHARED_BAND_Z = 5.0
 """z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain; up to
-3.9 where nothing is missing and the road is as its file says, 6.5 where it is interpolated otherwise."""
+3.8 where nothing is missing and the road is as its file says, 6.5 where it is interpolated otherwise."""
 
 CONFIRMED = 0.25
 """Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""
@@ -125,16 +125,16 @@ class _Balance:
     is_refuted: bool
     """Whether drives held out, which have what was named, are hardly better for it."""
     is_left: bool
-    """Whether repeats surely share an error still."""
+    """Whether repeats surely share an error still that is worth explaining."""
     is_little: bool
     """Whether what was found is too little to be what is missing."""
 
 
-def _balance(selection: Selection, notes: Sequence[str]) -> _Balance:
+def _balance(selection: Selection, notes: Sequence[str], is_material: bool) -> _Balance:
     share, held_out = total_shares(selection)
     band = selection.remaining.band
     in_band = band is not None and band.z > SHARED_BAND_Z and not notes  # a road that is another makes errors that repeats share
-    is_left = something_left(selection) or in_band
+    is_left = is_material and (something_left(selection) or in_band)
     explained = max(share, selection.shared_gone) if selection.repeats else share
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     is_refuted = is_met and held_out < CONFIRMED
@@ -154,7 +154,7 @@ def judge(
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
     effects, reasons = _kept(selection, found, by_name)
     reasons += notes
-    balance = _balance(selection, notes)
+    balance = _balance(selection, notes, is_material)
     is_little = balance.is_little
     is_wrong = lambda name: by_name[name].instrument
     wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
@@ -173,14 +173,15 @@ def judge(
         return Verdict("suspect", tuple(effects), (*reasons, *suspicions), balance.share, balance.held_out)
     reasons += _removed(balance) if found else _unfound(selection, len(candidates))
     if found and is_little or balance.is_left and not effects:
-        kind = "outside" if is_material else "nothing"
-        reasons.append(_unexplained(selection, balance, found and is_little, is_material))
+        kind = "outside"
+        reasons.append(_unexplained(selection, balance, found and is_little))
     elif effects:
         kind = "cluster" if any(effect.like for effect in effects) else "named"
         reasons += [_alike(effect) for effect in effects if effect.like]
     else:
         kind = "nothing"
-    effects = effects if kind != "nothing" else []
+        if something_left(selection):
+            reasons.append(f"repeats share an error, too small to matter: {selection.remaining}")
     return Verdict(kind, tuple(effects), (*reasons, _floor(selection)), balance.share, balance.held_out)
 
 
@@ -199,11 +200,8 @@ def _unfound(selection: Selection, count: int) -> list[str]:
     return [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
 
 
-def _unexplained(selection: Selection, balance: _Balance, is_little: bool, is_material: bool) -> str:
+def _unexplained(selection: Selection, balance: _Balance, is_little: bool) -> str:
     """What is left beside the effects, in words; ``is_little``: whether too little was found."""
-    if not is_material:
-        little = "that is little, and " if is_little else ""
-        return f"{little}what repeats share beside it is too small to matter: {selection.remaining}"
     if not is_little:
         return f"but repeats share an error that no candidate explains: {selection.remaining}"
     if balance.explained < ENOUGH:
