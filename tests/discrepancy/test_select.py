@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import select, verdict
+from ridecomfort.errors import InputError
 
 from .linear import Linear
 
@@ -78,6 +79,19 @@ def test_where_the_held_out_drive_is_too_weak_to_decide_any_fall_confirms_what_t
         assert (trial.objection == "") == (trial.held_out_gain > 0 and trial.held_out_z > 0)
         zs.append(trial.held_out_z)
     assert any(0 < z < select.HELD_OUT_Z for z in zs)
+
+
+def test_a_size_beyond_which_nothing_drives_is_probed_the_other_way():
+    model = Linear(1, {"effect_2.size": 0.95})
+    plain = model.residual
+
+    def residual(values, index):
+        if values.get("effect_2.size", 0.0) > 1.0:
+            raise InputError("came to a stand")
+        return plain(values, index)
+
+    model.residual = residual
+    assert [e.name for e in judged(model)[1].effects] == ["effect_2"]
 
 
 def test_suspicions_keep_the_data_from_naming_anything():

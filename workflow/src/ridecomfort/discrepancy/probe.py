@@ -46,7 +46,12 @@ class _Secant:
     def __call__(self, size: Size) -> dict[int, np.ndarray]:
         value = self.values.get(size.key, size.neutral)
         inward = 1.0 if size.lower <= value + size.probe <= size.upper else -1.0
-        return exp.secant(self.experiment, self.values, self.residuals, size, inward)
+        for step in (inward, -inward, 0.25 * inward):  # a vehicle that drives at its size may not a probe farther on
+            try:
+                return exp.secant(self.experiment, self.values, self.residuals, size, step)
+            except (InputError, ValueError) as problem:
+                refused = problem
+        raise refused
 
 
 def secants(
