@@ -19,7 +19,8 @@ BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
 DOUBTFUL = 0.8
-"""Share of the explainable error below which what the library explains may be the work of something that is not in it."""
+"""Share of the explainable error, and of what repeats share of it, below which what the library explains may be the work of something
+that is not in it."""
 
 
 def diagnose(
@@ -33,7 +34,8 @@ def diagnose(
         measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
     )
     is_noisy = table.attrs["floor"] == REPEATS and float(table["smoothness"]) > SMOOTHER
-    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL and not is_noisy
+    explained = np.nanmax([verdict.share, float(table["shared_gone"])])
+    is_doubtful = verdict.verdict in ("named", "cluster") and explained < DOUBTFUL and not is_noisy
     if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
         return table, verdict, None
     proposal = discover(measured, vehicle, **settings)
