@@ -11,6 +11,7 @@ sys.path.insert(0, str(PROJECT / "workflow" / "src"))
 from ridecomfort import config as configuration
 from ridecomfort.errors import InputError
 from ridecomfort.report import catalogue
+from ridecomfort.schema import read_yaml
 from ridecomfort.steps import models, modules, progress
 
 os.environ.update(
@@ -20,6 +21,12 @@ os.environ.update(
     RIDECOMFORT_CACHE=str(PROJECT / ".cache"),
     OPENBLAS_NUM_THREADS="1",  # jobs run side by side, and those with threads divide their work themselves
 )
+
+
+try:
+    read_yaml("config/study.yaml")  # Snakemake would name neither the file nor the line
+except InputError as problem:
+    sys.exit(f"error: {problem}")
 
 
 configfile: "config/study.yaml"

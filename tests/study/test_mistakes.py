@@ -26,6 +26,12 @@ def test_on_the_command_line(project, setting, said):
     assert_refused(project.snakemake("--dry-run", "--config", setting), "--config: ", said)
 
 
+def test_a_bracket_that_is_not_closed(project):
+    settings = project.folder / "config" / "study.yaml"
+    settings.write_text("runs: 40\neffects: [suspension_friction\nsites: [one]\n")
+    assert_refused(project.snakemake("--dry-run"), "config/study.yaml: line 3: is not valid YAML")
+
+
 def test_a_missing_road(project):
     project.site("one", road={"file": "data/one/road.crg"})
     assert_refused(project.snakemake("--dry-run"), "config/sites/one.yaml: road: file: no such file 'data/one/road.crg'")
