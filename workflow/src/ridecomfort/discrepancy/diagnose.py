@@ -12,7 +12,6 @@ from .discover import Discovery, discover
 from .explain import REPEATS
 from .propose import SURE
 from .rank import rank
-from .suspect import SMOOTHER
 from .verdict import CONFIRMED, ENOUGH, Verdict
 
 BETTER = 1.2
@@ -33,7 +32,7 @@ def diagnose(
     table, verdict = rank(
         measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
     )
-    is_noisy = table.attrs["floor"] == REPEATS and float(table["smoothness"]) > SMOOTHER
+    is_noisy = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     explained = np.nanmax([verdict.share, float(table["shared_gone"])])
     is_doubtful = verdict.verdict in ("named", "cluster") and explained < DOUBTFUL and not is_noisy
     if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
@@ -48,8 +47,8 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. What is named becomes "outside" where
-    such a force explains more on fitted and held-out drives alike. Where the points of the road hold noise (``is_noisy``), which repeats
-    share as well, "outside" becomes what the library has unless such a force explains more, and "suspect" for that becomes "outside" if
+    such a force explains more on fitted and held-out drives alike. Where the road may be another or its points hold noise (``is_noisy``),
+    which repeats share as well, "outside" becomes what the library has unless such a force explains more, and "suspect" for that becomes "outside" if
     it explains most.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
@@ -61,7 +60,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
         return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_noisy and not more:
-        return _said(verdict, kind, "no force of any form explains more, and noise of the road's points is shared by repeats, too")
+        return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
     return verdict
 
 

@@ -51,7 +51,9 @@ def rank(
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
-    their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``), and in the attribute ``suspected`` whether "data" are or the "road" alone; and what ``signature`` returns. Raises InputError.
+    their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``); and what
+    ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, and ``suspected`` whether the
+    "data" are or the "road" alone. Raises InputError.
     """
     vehicle, effects = calibrated.apply(calibration, vehicle, effects)
     count = pool.workers() if workers is None else workers
@@ -66,11 +68,12 @@ def rank(
     matters = _is_material(selection)
     of_road = suspect.of_road(experiment, smoothness)
     doubts = suspicions(experiment, selection, stands, something_left(selection) and matters)
-    is_road_alone = not doubts
+    said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
+    table.attrs["road"] = said_of_road
     table.attrs["suspected"] = "" if not doubts else "road" if is_road_alone else "data"
     if signatures:
         say("drawing the missing force")
