@@ -58,6 +58,11 @@ def test_noise_of_the_road_does_not_speak_against_what_was_found():
     assert reconsidered(alike, weak, is_noisy=True).verdict == "cluster"
 
 
+def test_little_on_such_a_road_may_be_the_road():
+    less = replace(LITTLE, share=0.1)
+    assert reconsidered(less, replace(SURE, share=0.05), is_noisy=True).verdict == "suspect"
+
+
 def test_a_force_that_explains_more_does_even_on_a_noisy_road():
     assert reconsidered(LITTLE, SURE, is_noisy=True) is LITTLE
 

@@ -17,6 +17,9 @@ from .verdict import CONFIRMED, ENOUGH, Verdict
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
+OF_ROAD = 0.2
+"""Share of the explainable error below which an effect that was found may be what a road that is otherwise looks like."""
+
 DOUBTFUL = 0.8
 """Share of the explainable error, and of what repeats share of it, below which what the library explains may be the work of something
 that is not in it."""
@@ -34,7 +37,7 @@ def diagnose(
     )
     is_noisy = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     explained = np.nanmax([verdict.share, float(table["shared_gone"])])
-    is_doubtful = verdict.verdict in ("named", "cluster") and explained < DOUBTFUL and not is_noisy
+    is_doubtful = verdict.verdict in ("named", "cluster") and explained < DOUBTFUL
     if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
         return table, verdict, None
     proposal = discover(measured, vehicle, **settings)
@@ -48,8 +51,8 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. What is named becomes "outside" where
     such a force explains more on fitted and held-out drives alike. Where the road may be another or its points hold noise (``is_noisy``),
-    which repeats share as well, "outside" becomes what the library has unless such a force explains more, and "suspect" for that becomes "outside" if
-    it explains most.
+    which repeats share as well, "outside" becomes what the library has unless such a force explains more ("suspect" where that is
+    little), and "suspect" for that becomes "outside" if such a force explains most.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
     if is_sure(proposal) and (verdict.verdict == "nothing" or verdict.verdict == "suspect" and proposal.share > ENOUGH):
@@ -60,6 +63,8 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
         return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_noisy and not more:
+        if not verdict.share >= OF_ROAD:
+            return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
         return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
     return verdict
 

@@ -15,7 +15,7 @@ from .select import select
 from .signature import signature
 from .selection import Selection
 from .shared import is_material
-from .verdict import CONFIRMED, Verdict, judge, shares, something_left, standing
+from .verdict import CONFIRMED, ENOUGH, Verdict, judge, shares, something_left, standing, total_shares
 
 SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
 """What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""
@@ -67,7 +67,8 @@ def rank(
     smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
     matters = _is_material(selection)
     of_road = suspect.of_road(experiment, smoothness)
-    doubts = suspicions(experiment, selection, stands, something_left(selection) and matters)
+    is_explained = stands and total_shares(selection)[0] >= ENOUGH
+    doubts = suspicions(experiment, selection, is_explained, something_left(selection) and matters)
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]
@@ -99,13 +100,13 @@ def _best_share(selection: Selection) -> float:
     return max((trial.share for turn in selection.rounds for trial in turn.trials if np.isfinite(trial.share)), default=0.0)
 
 
-def suspicions(experiment: cars.Car, selection: Selection, stands: bool, is_left: bool) -> list[str]:
-    """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains; ``stands``: whether an effect
-    does, ``is_left``: whether repeats share an error still."""
+def suspicions(experiment: cars.Car, selection: Selection, is_explained: bool, is_left: bool) -> list[str]:
+    """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains; ``is_explained``: whether effects
+    explain most of the error, ``is_left``: whether repeats share one still."""
     reasons = suspect.of_drives(experiment)
     first, last = selection.ladder[0], selection.ladder[-1]
     reasons += suspect.of_signs(experiment, first.fit.residuals)
-    if selection.repeats and not stands and not is_left:
+    if selection.repeats and not is_explained and not is_left:
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     explainable = np.maximum(first.squares - selection.ground, 0.0)[0]
     index = selection.frame.indices[0]
