@@ -21,8 +21,7 @@ OF_ROAD = 0.2
 """Share of the explainable error below which an effect that was found may be what a road that is otherwise looks like."""
 
 DOUBTFUL = 0.8
-"""Share of the explainable error, and of what repeats share of it, below which what the library explains may be the work of something
-that is not in it."""
+"""Share of the explainable error below which what the library explains may be the work of something that is not in it."""
 
 
 def diagnose(
@@ -36,8 +35,7 @@ def diagnose(
         measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
     )
     is_noisy = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
-    explained = np.nanmax([verdict.share, float(table["shared_gone"])])
-    is_doubtful = verdict.verdict in ("named", "cluster") and explained < DOUBTFUL
+    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL
     if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
         return table, verdict, None
     proposal = discover(measured, vehicle, **settings)
@@ -50,7 +48,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. What is named becomes "outside" where
-    such a force explains more on fitted and held-out drives alike. Where the road may be another or its points hold noise (``is_noisy``),
+    such a force explains more of the fitted drives, and no less of those held out. Where the road may be another or its points hold noise (``is_noisy``),
     which repeats share as well, "outside" becomes what the library has unless such a force explains more ("suspect" where that is
     little), and "suspect" for that becomes "outside" if such a force explains most.
     """
@@ -59,7 +57,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
         return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     more = is_sure(proposal) and proposal.share > BETTER * verdict.share
-    if verdict.verdict in ("named", "cluster") and more and not proposal.held_out_share < BETTER * held_out:
+    if verdict.verdict in ("named", "cluster") and more and not proposal.held_out_share < held_out:
         return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_noisy and not more:
