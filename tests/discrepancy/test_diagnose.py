@@ -30,10 +30,10 @@ def test_a_doubtful_one_changes_nothing(doubt):
     assert reconsidered(NOTHING, replace(SURE, **doubt)) is NOTHING
 
 
-@pytest.mark.parametrize("is_noisy", [False, True])
-def test_outside_stays_where_such_a_force_explains_more(is_noisy):
+@pytest.mark.parametrize("is_road_open", [False, True])
+def test_outside_stays_where_such_a_force_explains_more(is_road_open):
     other = replace(NOTHING, verdict="outside")
-    assert reconsidered(other, SURE, is_noisy) is other
+    assert reconsidered(other, SURE, is_road_open) is other
 
 
 @pytest.mark.parametrize("kind", ["named", "cluster"])
@@ -52,22 +52,22 @@ LITTLE = replace(NOTHING, verdict="outside", effects=(FOUND,), share=0.3, held_o
 
 def test_noise_of_the_road_does_not_speak_against_what_was_found():
     weak = replace(SURE, share=0.2)
-    assert reconsidered(LITTLE, weak, is_noisy=True).verdict == "named"
-    assert reconsidered(LITTLE, weak, is_noisy=False).verdict == "outside"
+    assert reconsidered(LITTLE, weak, is_road_open=True).verdict == "named"
+    assert reconsidered(LITTLE, weak, is_road_open=False).verdict == "outside"
     alike = replace(LITTLE, effects=(replace(FOUND, like=("knee",)),))
-    assert reconsidered(alike, weak, is_noisy=True).verdict == "cluster"
+    assert reconsidered(alike, weak, is_road_open=True).verdict == "cluster"
 
 
 def test_little_on_such_a_road_may_be_the_road():
     less = replace(LITTLE, share=0.1)
-    assert reconsidered(less, replace(SURE, share=0.05), is_noisy=True).verdict == "suspect"
+    assert reconsidered(less, replace(SURE, share=0.05), is_road_open=True).verdict == "suspect"
 
 
 def test_a_force_that_explains_more_does_even_on_a_noisy_road():
-    assert reconsidered(LITTLE, SURE, is_noisy=True) is LITTLE
+    assert reconsidered(LITTLE, SURE, is_road_open=True) is LITTLE
 
 
 def test_a_road_alone_is_not_suspected_where_a_force_explains_most():
     suspected = replace(NOTHING, verdict="suspect")
-    assert reconsidered(suspected, SURE, is_noisy=True).verdict == "outside"
-    assert reconsidered(suspected, replace(SURE, share=0.4), is_noisy=True) is suspected
+    assert reconsidered(suspected, SURE, is_road_open=True).verdict == "outside"
+    assert reconsidered(suspected, replace(SURE, share=0.4), is_road_open=True) is suspected

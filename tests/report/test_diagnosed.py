@@ -1,14 +1,17 @@
 """The verdict, the evidence and the score: every kind of verdict is said, and says what to do."""
 
+import inspect
 import re
 
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
+from ridecomfort.discrepancy import select
 from ridecomfort.discrepancy.score import score
 from ridecomfort.discrepancy.verdict import KINDS
 from ridecomfort.report import catalogue, diagnosed, style, table
+from ridecomfort.report.figures import evidence
 from tests.report import differing as made_up
 
 
@@ -68,6 +71,11 @@ def test_the_figure_says_what_came_of_every_refit():
         each = diagnosed.figures(made_up.diagnosis())["evidence"]()
     said = " ".join(text.get_text() for text in each.findobj(Text))
     assert re.search(r"\d+ / 75 %  accepted", said) and "makes the drives held out worse" in said
+
+
+def test_what_the_figure_shortens_is_what_the_search_says():
+    source = inspect.getsource(select)
+    assert all(part in source for part in evidence.OBJECTIONS)
 
 
 HIDDEN = {"suspension_friction": {"front": 75.0, "rear": 60.0}, "damper_asymmetry": {"front": 0.3}}

@@ -106,7 +106,6 @@ class Car:
     """Effects that are in every simulation at neutral values, so that one compiled kernel serves for all of them."""
     channels: tuple[str, ...] = SIGNALS
     each_record: Callable = map
-    simulations: int = 0
     exactness: Mapping[int, np.ndarray] = field(default_factory=dict)
     """By record, what a residual (6, sample) lacks because the step of integration is not nil."""
 
@@ -127,7 +126,6 @@ class Car:
 
         An effect that moves a vehicle aside makes it meet another road, unless its driver makes up for it as the measured one did.
         """
-        self.simulations += 1
         vehicle, effects = with_values(self.vehicle, self.effects, values)
         again, effects = self.replays[index], {**self.quiet, **effects}
         run = again.run(vehicle, effects)
@@ -187,8 +185,8 @@ class Car:
     def exact(self, values: Mapping[str, float], indices: Sequence[int]) -> Car:
         """The same with what the step makes wrong at these values made good in the residuals of these records.
 
-        The error falls with the square of the step, so half of it tells what nil would make. On a quiet record, 0.05 percent of
-        the power of a_y is enough to pass for tyres that envelop 6 cm.
+        The error falls with the square of the step: half a step takes three quarters of it, and four thirds of that change are
+        all of it. On a quiet record, 0.05 percent of the power of a_y is enough to pass for tyres that envelop 6 cm.
         """
 
         def missing(index: int) -> np.ndarray | float:

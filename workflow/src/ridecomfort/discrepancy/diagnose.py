@@ -34,23 +34,24 @@ def diagnose(
     table, verdict = rank(
         measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
     )
-    is_noisy = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
+    is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL
     if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
         return table, verdict, None
     proposal = discover(measured, vehicle, **settings)
-    verdict = reconsidered(verdict, proposal, is_noisy)
+    verdict = reconsidered(verdict, proposal, is_road_open)
     return table, verdict, proposal if verdict.verdict == "outside" else None
 
 
-def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) -> Verdict:
+def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = False) -> Verdict:
     """A verdict in the light of a force of any form.
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. What is named becomes "outside" where
-    such a force explains more of the fitted drives, and no less of those held out. Where the road may be another or its points hold noise (``is_noisy``),
-    which repeats share as well, "outside" becomes what the library has unless such a force explains more ("suspect" where that is
-    little), and "suspect" for that becomes "outside" if such a force explains most.
+    such a force explains more of the fitted drives, and no less of those held out. Where the road may be another than that of its file, by
+    noise of its points or by what lies between them (``is_road_open``), which repeats share as well, "outside" becomes what the library
+    has unless such a force explains more ("suspect" where that is little), and "suspect" for that becomes "outside" if such a force
+    explains most.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
     if is_sure(proposal) and (verdict.verdict == "nothing" or verdict.verdict == "suspect" and proposal.share > ENOUGH):
@@ -60,7 +61,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_noisy: bool = False) 
     if verdict.verdict in ("named", "cluster") and more and not proposal.held_out_share < held_out:
         return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
-    if verdict.verdict == "outside" and verdict.effects and is_noisy and not more:
+    if verdict.verdict == "outside" and verdict.effects and is_road_open and not more:
         if not verdict.share >= OF_ROAD:
             return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
         return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")

@@ -11,6 +11,7 @@ from ...discrepancy.propose import CERTAIN, LEVEL
 from .. import style
 from ..notation import words
 from ..study import Diagnosis
+from ..tables.diagnosis import outcome
 
 SHOWN = 12
 """Effects of each round that are drawn, the strongest."""
@@ -24,7 +25,7 @@ DOT = {"marker": "o", "linestyle": "", "color": style.CALIBRATED, "markersize": 
 DIAMOND = {**DOT, "marker": "D", "color": style.REFERENCE, "markeredgecolor": "black", "markeredgewidth": 0.4}
 
 
-OUTCOMES = {
+OBJECTIONS = {
     "lies outside what is plausible": "size not plausible",
     "not worth its parameters": "not worth its sizes (BIC)",
     "does not improve the drives held out": "not better held out",
@@ -71,9 +72,9 @@ def evidence(found: Diagnosis) -> Figure:
                 right.plot(shares, [place, place], color=style.FAINT, linewidth=0.8, zorder=1)
                 right.plot(shares[0], place, **DOT, clip_on=False)
                 right.plot(shares[1], place, **DIAMOND, clip_on=False)
-                outcome = _outcome(name, winner, str(ranking["trial_objection"].values[k]))
+                came = _shortened(outcome(name, winner, str(ranking["trial_objection"].values[k])))
                 said = " / ".join(f"{share:.0f}" for share in np.round(shares) + 0.0 if np.isfinite(share))
-                right.text(1.06, place, f"{said} %  {outcome}", transform=right.get_yaxis_transform(), va="center", fontsize=6)
+                right.text(1.06, place, f"{said} %  {came}", transform=right.get_yaxis_transform(), va="center", fontsize=6)
         right.set_title("refits of the best: fitted / held out")
         right.set_xlim(min(right.get_xlim()[0], -LEAST), max(right.get_xlim()[1], LEAST))
         for axes, count in ((left, 4), (right, 5)):
@@ -93,8 +94,6 @@ def evidence(found: Diagnosis) -> Figure:
     return drawn
 
 
-def _outcome(name: str, winner: str, objection: str) -> str:
+def _shortened(came: str) -> str:
     """What came of a refit, in a few words."""
-    if objection:
-        return next((short for part, short in OUTCOMES.items() if part in objection), objection)
-    return "accepted" if name == winner else "explains less"
+    return next((short for part, short in OBJECTIONS.items() if part in came), came)

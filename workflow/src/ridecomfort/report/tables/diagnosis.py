@@ -115,18 +115,16 @@ def evidence(found: Diagnosis) -> Table:
             if not np.isfinite(gain[place]):
                 continue
             refit = (None,) * 5
-            outcome = ""
+            said = ""
             if name in trials:
                 trial = ranking.isel(trial=trials[name])
                 refit = (
                     str(trial["trial_sizes"].item()), *(float(trial[f"trial_{key}"]) for key in ("gain", "bic")),
                     *(_percent(float(trial[f"trial_{key}"])) for key in ("share", "held_out_share")),
                 )  # fmt: skip
-                outcome = str(trial["trial_objection"].item()) or "holds"
-            if name == str(one["winner"].item()):
-                outcome = "accepted"
+                said = outcome(name, str(one["winner"].item()), str(trial["trial_objection"].item()))
             score = float(one["p_value"][place]), float(gain[place]), _percent(float(one["absorbed"][place]))
-            rows.append((int(turn), words(name), *score, refit[0] or "", *refit[1:], outcome))
+            rows.append((int(turn), words(name), *score, refit[0] or "", *refit[1:], said))
     sources = (
         Source("score test", found.files.get("ranking", ""), "p_value, gain, absorbed", "as in the file"),
         Source("refit", found.files.get("ranking", ""), "trial_*", "as in the file, shares in percent"),
@@ -137,6 +135,11 @@ def evidence(found: Diagnosis) -> Table:
         "wild bootstrap. Every effect is tested; the best are refitted together with the calibrated parameters.",
     )
     return _table(found, "evidence", columns, rows, sources, notes, breaks[1:])
+
+
+def outcome(name: str, winner: str, objection: str) -> str:
+    """What came of the refit of an effect in a round that ``winner`` won (empty where none did)."""
+    return "accepted" if name == winner else objection or "explains less"
 
 
 def _alike(effect) -> str:
