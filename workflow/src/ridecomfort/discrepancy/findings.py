@@ -26,7 +26,7 @@ CONDITIONS: dict[str, tuple[Callable[[float], str], Callable[[float], str]]] = {
     "speed": (lambda v: f"speeds above {3.6 * v:.0f} km/h", lambda v: f"speeds below {3.6 * v:.0f} km/h"),
     "curvature": (lambda c: f"radii below {1 / max(c, 1e-6):.0f} m", lambda c: f"radii above {1 / max(c, 1e-6):.0f} m"),
     "lateral_acceleration": (
-        lambda a: f"lateral accelerations above {a:.1f} m/s2", lambda a: f"lateral accelerations below {a:.1f} m/s2",
+        lambda a: f"lateral accelerations above {a:.1f} m/s²", lambda a: f"lateral accelerations below {a:.1f} m/s²",
     ),
     "suspension_velocity": (
         lambda v: f"suspension velocities above {v:.2f} m/s", lambda v: f"suspension velocities below {v:.2f} m/s",
