@@ -44,14 +44,11 @@ class Linear:
     def nuisances(self, values, index):
         return np.ones((1, 4, SAMPLES))
 
-    def finer(self):
-        return self
-
-    def exact(self, values, indices):
-        return self
-
-    def retuned(self, values, indices):
+    def retuned(self, values, indices, exactly=False):
         return self, {index: self.residual(values, index) for index in indices}
 
     def realigned(self, amounts):
+        return self
+
+    def taking(self, other, indices):
         return self

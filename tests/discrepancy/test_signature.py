@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy.rung import begin
 from ridecomfort.discrepancy.signature import signature
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
@@ -16,10 +17,9 @@ from tests.blind import trials
 def found(repository):
     car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
     trial = trials.make(7, car, {"suspension_friction": library.find()["suspension_friction"].effect.values()}, 1.0)
-    true_car = {**trial.truth["car"]}
-    experiment = cars.car(cars.sites_of(trial.measured), car, library_names=[])
-    values = {**cars.start_values(experiment), **true_car}
-    return signature(trial.measured, car, values, named=trial.truth["effects"], workers=1)
+    experiment = cars.opened(trial.measured, car, among=(), workers=1)
+    rung = begin(experiment, {**cars.start_values(experiment), **trial.truth["car"]})
+    return signature(rung, named=trial.truth["effects"])
 
 
 def test_friction_shows_as_a_step_where_the_velocity_turns(found):

@@ -209,10 +209,10 @@ def test_a_drive_with_a_wrong_unit_or_role_is_refused():
 def test_samples_at_any_place_are_those_of_the_filter_and_their_slopes_its_derivative():
     rng = np.random.default_rng(0)
     interval, time = 0.001, np.linspace(0.5, 1.5, 300)
-    values = np.cumsum(rng.standard_normal((2000, 2)), axis=0)
+    values = np.cumsum(rng.standard_normal((2, 2000)), axis=1)
     found = sampling.resampled(values, interval, time / interval, 50.0)
     slopes = sampling.resampled_slopes(values, interval, time / interval, 50.0)
-    expected = np.stack([sampling.band_limited(0.0, interval, column, time, 50.0) for column in values.T], axis=1)
+    expected = np.stack([sampling.band_limited(0.0, interval, row, time, 50.0) for row in values])
     np.testing.assert_allclose(found, expected, rtol=0, atol=2e-3 * values.std())
     ahead, behind = (sampling.resampled(values, interval, (time + shift) / interval, 50.0) for shift in (1e-4, -1e-4))
     np.testing.assert_allclose(slopes, (ahead - behind) / 2e-4, rtol=0, atol=0.02 * slopes.std())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -15,9 +15,10 @@ from ..drive.record import unstack, upward
 from ..drive.replay import Replay, Simulated, replay
 from ..effects import library
 from ..effects.contract import COMPILED, Effect, Parameter
-from ..calibrated import with_values
+from ..calibrated import apply, with_values
 from ..vehicle.parameters import PARAMETERS
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY, VARIABLES
+from . import pool
 from .experiment import Candidate, Record, Size
 from .explain import INSTRUMENT
 
@@ -108,16 +109,30 @@ class Car:
     each_record: Callable = map
     exactness: Mapping[int, np.ndarray] = field(default_factory=dict)
     """By record, what a residual (6, sample) lacks because the step of integration is not nil."""
+    driven: Mapping[int, tuple[Mapping[str, float], Simulated]] = field(default_factory=dict)
+    """By record, the values at which its replay was driven last, and what the model did."""
+
+    def looking_for(self, candidates: Sequence[Candidate], folder) -> Car:
+        """The same with these candidates, whose effects are in the files of a folder."""
+        known = library.find(folder)
+        names = {size.key.partition(".")[0] for candidate in candidates for size in candidate.sizes}
+        quiet = {name: known[name].effect.neutral for name in names}
+        replays = [replace(again, options={**again.options, "effects_folder": folder}) for again in self.replays]
+        return replace(self, candidates=tuple(candidates), quiet=quiet, replays=replays)
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """Simulated minus measured signals (6, sample) behind the run-in of the model."""
-        return self._residual(index, *self._driven(values, index))
+        again, run = self._driven(values, index)
+        return self._residual(index, again, again.sample(run))
 
-    def _residual(self, index: int, again: Replay, run: xr.Dataset) -> np.ndarray:
-        return again.residual(again.sample(run))[:, again.compared] + self.exactness.get(index, 0.0)
+    def _residual(self, index: int, again: Replay, simulated: Simulated) -> np.ndarray:
+        return again.residual(simulated)[:, again.compared] + self.exactness.get(index, 0.0)
 
     def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
         """What the model does on a drive."""
+        known, simulated = self.driven.get(index, (None, None))
+        if known == dict(values):
+            return simulated
         again, run = self._driven(values, index)
         return again.sample(run)
 
@@ -182,35 +197,45 @@ class Car:
         shift = np.interp(its.place, mine.place, mine.time) - mine.time
         return float(np.median(shift[mine.compared]))
 
-    def exact(self, values: Mapping[str, float], indices: Sequence[int]) -> Car:
-        """The same with what the step makes wrong at these values made good in the residuals of these records.
+    def retuned(
+        self, values: Mapping[str, float], indices: Sequence[int], exactly: bool = False
+    ) -> tuple[Car, dict[int, np.ndarray]]:
+        """The same with drivers who bring the model to the measured speed and path at these values, and the residuals then.
 
-        The error falls with the square of the step: half a step takes three quarters of it, and four thirds of that change are
-        all of it. On a quiet record, 0.05 percent of the power of a_y is enough to pass for tyres that envelop 6 cm.
+        ``exactly``: with what the step makes wrong at these values made good in the residuals from now on. The error falls with the
+        square of the step: half a step takes three quarters of it, and four thirds of that change are all of it. On a quiet record,
+        0.05 percent of the power of a_y is enough to pass for tyres that envelop 6 cm.
         """
 
-        def missing(index: int) -> np.ndarray | float:
-            again = self.replays[index]
-            fine = _finer(again)
-            if fine is again:
-                return 0.0
-            vehicle, effects = with_values(self.vehicle, self.effects, values)
-            one, two = (each(vehicle, {**self.quiet, **effects}).signals for each in (again, fine))
-            return 4.0 / 3.0 * (two - one)[:, again.compared]
-
-        found = dict(zip(indices, self.each_record(missing, indices)))
-        return replace(self, exactness={**self.exactness, **found})
-
-    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> tuple[Car, dict[int, np.ndarray]]:
-        """The same with drivers who bring the model to the measured speed and path at these values, and the residuals then."""
-
-        def driven(index: int) -> tuple[Replay, np.ndarray]:
+        def driven(index: int) -> tuple[Replay, Simulated, np.ndarray | float]:
             again, run = self._driven(values, index)
-            return again, self._residual(index, again, run)
+            simulated = again.sample(run)
+            return again, simulated, self._missing(values, again, simulated) if exactly else self.exactness.get(index, 0.0)
 
         found = dict(zip(indices, self.each_record(driven, indices)))
-        replays = [found[index][0] if index in found else again for index, again in enumerate(self.replays)]
-        return replace(self, replays=replays), {index: residual for index, (_, residual) in found.items()}
+        retuned = replace(
+            self,
+            replays=[found[index][0] if index in found else again for index, again in enumerate(self.replays)],
+            exactness={**self.exactness, **{index: missing for index, (_, _, missing) in found.items()}},
+            driven={**self.driven, **{index: (dict(values), simulated) for index, (_, simulated, _) in found.items()}},
+        )
+        return retuned, {index: retuned._residual(index, again, simulated) for index, (again, simulated, _) in found.items()}
+
+    def _missing(self, values: Mapping[str, float], again: Replay, simulated: Simulated) -> np.ndarray | float:
+        """What a residual (6, sample) lacks because the step of integration is not nil."""
+        fine = _finer(again)
+        if fine is again:
+            return 0.0
+        vehicle, effects = with_values(self.vehicle, self.effects, values)
+        return 4.0 / 3.0 * (fine(vehicle, {**self.quiet, **effects}).signals - simulated.signals)[:, again.compared]
+
+    def taking(self, other: Car, indices: Collection[int]) -> Car:
+        """The same with these records as ``other`` has them."""
+        mixed = lambda mine, its: [its[i] if i in indices else one for i, one in enumerate(mine)]
+        own = {index: other.driven[index] for index in indices if index in other.driven}
+        return replace(
+            self, replays=mixed(self.replays, other.replays), records=mixed(self.records, other.records), driven={**self.driven, **own}
+        )
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""
@@ -228,7 +253,8 @@ class Car:
             drive = again.drive.assign(e=again.drive["e"] - np.interp(again.time, again.time[kept], left))
             replays[index] = replace(again, drive=drive, place=place, demand={**again.demand, "lateral": lateral - aside})
             records[index] = replace(records[index], place=place[kept])
-        return replace(self, replays=replays, records=records)
+        driven = {index: known for index, known in self.driven.items() if index not in amounts}
+        return replace(self, replays=replays, records=records, driven=driven)
 
 
 def car(
@@ -295,6 +321,20 @@ def car(
     quiet = {n: known[n].effect.neutral for n in wanted if n not in effects and known[n].effect.port in COMPILED}
     sized = tuple(c for c in candidates if c.sizes)
     return Car(records, replays, vehicle, effects, tuple(free), sized, quiet, each_record=each_record)
+
+
+def opened(
+    measured: Mapping[str, tuple], vehicle, *, calibration: xr.Dataset | None = None, effects=None, among=None, workers=None, **settings
+) -> Car:
+    """The experiment of ``measured`` drives, mapping of site to (road, aligned drives), beside a vehicle and its ``calibration``.
+
+    ``among``: names of the effects to look among; ``workers``: drives side by side, by default one for each core; ``settings`` as for
+    ``car``.
+    """
+    vehicle, effects = apply(calibration, vehicle, effects)
+    count = pool.workers() if workers is None else workers
+    each = pool.side_by_side(count)
+    return car(sites_of(measured), vehicle, effects=effects, library_names=among, each_record=each, **settings)
 
 
 def _same(speed: float, speeds: Sequence[float]) -> float | None:

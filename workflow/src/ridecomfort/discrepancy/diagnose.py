@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
-from .discover import Discovery, discover
+from . import car as cars
+from . import pool
+from .discover import Discovery, discovered
 from .explain import REPEATS
 from .propose import SURE
-from .rank import rank
+from .rank import ranked
+from .rung import begin
 from .verdict import CONFIRMED, ENOUGH, Verdict
 
 BETTER = 1.2
@@ -25,20 +28,23 @@ DOUBTFUL = 0.8
 
 
 def diagnose(
-    measured: Mapping[str, tuple], vehicle, *, among=None, noise_density=None, signatures: bool = False, **settings
-) -> tuple[xr.Dataset, Verdict, Discovery | None]:
+    measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0,
+    workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,
+) -> tuple[xr.Dataset, Verdict, Discovery | None]:  # fmt: skip
     """The evidence, the verdict and the form that is proposed where the library does not explain the drives, else None.
 
-    Arguments as for ``rank``; ``settings`` are those that ``discover`` has, too.
+    Arguments as for ``rank``.
     """
-    table, verdict = rank(
-        measured, vehicle, among=among, noise_density=noise_density, signatures=signatures, **settings
-    )
+    experiment = cars.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
+    common = {"effects_folder": effects_folder, "seed": seed, "say": say}
+    common["each"] = pool.mapped(pool.workers() if workers is None else workers)
+    rung = begin(experiment, cars.start_values(experiment), common["each"])
+    table, verdict = ranked(experiment, rung, signatures=signatures, **common)
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL
     if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
         return table, verdict, None
-    proposal = discover(measured, vehicle, **settings)
+    proposal = discovered(rung, **common)
     verdict = reconsidered(verdict, proposal, is_road_open)
     return table, verdict, proposal if verdict.verdict == "outside" else None
 

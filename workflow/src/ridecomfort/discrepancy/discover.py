@@ -9,19 +9,18 @@ places at once, sparsely, decided by the drives held out (compare Brunton et al.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import dataclass, replace
 
 import xarray as xr
 
-from .. import calibrated
 from . import car as cars
 from . import pool
 from .experiment import Candidate, Size
+from .made import beside
 from .places import FORCE, PLACES, STRONGEST, effect_source, in_words, parameter, scale
-from .select import select
+from .rung import Rung, begin
+from .select import search
 from .selection import Selection
 from .verdict import plain, total_shares
 
@@ -68,54 +67,54 @@ def discover(
 
     ``most``: terms of its force. All terms of a proposal act at the place of the first.
     """
-    vehicle, effects = calibrated.apply(calibration, vehicle, effects)
-    count = pool.workers() if workers is None else workers
-    with tempfile.TemporaryDirectory() as folder:
-        for path in sorted(Path(effects_folder).glob("*.py")) if effects_folder else ():
-            (Path(folder) / path.name).write_bytes(path.read_bytes())
-        unknown = [(place, term) for place in PLACES for term in PLACES[place].terms]
-        for place, term in unknown:
-            text = effect_source(_name(place, term), place, {term: {}}, "A force that is looked for.")
-            (Path(folder) / f"{_name(place, term)}.py").write_text(text, encoding="utf-8")
-        experiment = cars.car(
-            cars.sites_of(measured), vehicle, effects=effects, effects_folder=folder, fitted_on=fitted_on,
-            bounds=bounds, uncertain=uncertain,
-            library_names=[_name(place, term) for place, term in unknown], options=options,
-            each_record=pool.side_by_side(count),
-        )  # fmt: skip
-        return _search(experiment, name, most, seed, pool.mapped(count), say)
+    experiment = cars.opened(
+        measured, vehicle, calibration=calibration, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
+        bounds=bounds, uncertain=uncertain, among=(), workers=workers, options=options,
+    )  # fmt: skip
+    each = pool.mapped(pool.workers() if workers is None else workers)
+    rung = begin(experiment, cars.start_values(experiment), each)
+    return discovered(rung, name=name, effects_folder=effects_folder, most=most, seed=seed, each=each, say=say)
 
 
-def _search(experiment, name, most, seed, each, say) -> Discovery:
-    start = cars.start_values(experiment)
-    experiment.candidates = tuple(_terms(place) for place in PLACES)
-    experiment.candidates = tuple(term for terms in experiment.candidates for term in terms)
-    first = select(experiment, start, most=1, seed=seed, each=each, say=say)
+def discovered(
+    rung: Rung, *, name: str = "discovered", effects_folder=None, most: int = 2, seed: int = 0, each: Callable = map,
+    say: Callable[[str], None] = lambda words: None,
+) -> Discovery:  # fmt: skip
+    """``discover`` from the ``rung`` of a calibrated model."""
+    unknown = {_name(place, term): (place, term) for place in PLACES for term in PLACES[place].terms}
+    text = "A force that is looked for."
+    with beside(effects_folder, {own: effect_source(own, place, {term: {}}, text) for own, (place, term) in unknown.items()}) as folder:
+        candidates = [candidate for place in PLACES for candidate in _terms(place)]
+        rung = replace(rung, experiment=rung.experiment.looking_for(candidates, folder))
+        together = lambda first, other: _place(first.name) == _place(other.name)
+        selection = search(rung, most=most, seed=seed, each=each, together=together, say=say)
+    return _discovery(selection, name)
+
+
+def _discovery(selection: Selection, name: str) -> Discovery:
+    first = selection.rounds[0]
     by_place = {
-        place: max((g for n, g in zip(first.rounds[0].names, first.rounds[0].gain) if n.startswith(place)), default=0.0)
-        for place in PLACES
+        place: max((gain for own, gain in zip(first.names, first.gain) if _place(own) == place), default=0.0) for place in PLACES
     }
-    if not first.accepted:
-        return Discovery("", {}, "", float("nan"), float("nan"), 1.0, "", by_place, first)
-    place = first.accepted[0].partition(":")[0]
-    selection = first
-    if most > 1:
-        experiment.candidates = _terms(place)
-        selection = select(experiment, start, most=most, seed=seed, each=each, say=say)
-    values, terms = selection.final.values, {}
+    if not selection.accepted:
+        return Discovery("", {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
+    place, terms = _place(selection.accepted[0]), {}
     for accepted in selection.accepted:
         term = accepted.partition(":")[2]
-        terms[term] = {
-            part: values[_key(place, term, part)] for part in PLACES[place].terms[term].parts if _key(place, term, part) in values
-        }
+        keys = {part: _key(place, term, part) for part in PLACES[place].terms[term].parts}
+        terms[term] = {part: selection.final.values[key] for part, key in keys.items() if key in selection.final.values}
     form = in_words(place, terms)
     share, held_out = total_shares(selection)
-    winner = first.rounds[0].winner
-    p_value = float(first.rounds[0].p_value[first.rounds[0].names.index(winner.name)])
+    p_value = float(first.p_value[first.names.index(first.winner.name)])
     sentence = f"Found on measured drives, not in the library: at the {place}, {form}."
     return Discovery(
         place, terms, form, share, held_out, p_value, effect_source(name, place, terms, sentence), by_place, selection
     )
+
+
+def _place(name: str) -> str:
+    """The place of a term by the name of its candidate."""
+    return name.partition(":")[0]
 
 
 def _name(place: str, term: str) -> str:

@@ -6,7 +6,7 @@ parameters. Everything else, which effect, how sure, how large, is done with tho
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -97,14 +97,17 @@ class Experiment(Protocol):
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """What the alignment of a record may still get wrong, (direction, channel, sample)."""
 
-    def exact(self, values: Mapping[str, float], indices: Sequence[int]) -> Experiment:
-        """The same with what integration makes wrong at these values made good in the residuals of these records."""
-
-    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> tuple[Experiment, dict[int, np.ndarray]]:
-        """The same with these records driven along the measured path at these values to start with, and their residuals."""
+    def retuned(
+        self, values: Mapping[str, float], indices: Sequence[int], exactly: bool = False
+    ) -> tuple[Experiment, dict[int, np.ndarray]]:
+        """The same with these records driven along the measured path at these values to start with, and their residuals; ``exactly``:
+        with what integration makes wrong at these values made good from now on."""
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Experiment:
         """The same with these amounts of the nuisances (direction,) taken out of its records."""
+
+    def taking(self, other: Experiment, indices: Collection[int]) -> Experiment:
+        """The same with these records as ``other`` has them."""
 
 
 @dataclass
@@ -150,6 +153,10 @@ class Frame:
         """A residual (channel, sample) less what its nuisances explain of it."""
         return self.spans[index].cleaned(residual)
 
+    def all_cleaned(self, residuals: Mapping[int, np.ndarray]) -> dict[int, np.ndarray]:
+        """``cleaned`` of several records."""
+        return {index: self.cleaned(index, residual) for index, residual in residuals.items()}
+
     def parts(self, rows: np.ndarray) -> list[np.ndarray]:
         """Vectors (..., element) taken apart by record, each (..., channel, sample)."""
         counts = [len(self.experiment.channels) * len(self.experiment.records[index].place) for index in self.indices]
@@ -194,7 +201,7 @@ def frame(
     made = Frame(experiment, indices, whitening, dict(nuisances))
     if cleaned is not None:
         return made
-    return frame(experiment, residuals, nuisances, {index: made.cleaned(index, residuals[index]) for index in indices})
+    return frame(experiment, residuals, nuisances, made.all_cleaned(residuals))
 
 
 def condition_spectra(experiment: Experiment, residuals: Mapping[int, np.ndarray]) -> dict[str, Spectrum]:

@@ -134,16 +134,18 @@ class OneMass:
         """An offset of the recorded output."""
         return np.full((1, 1, len(self.outputs[index])), np.std(self.outputs[index]))
 
-    def exact(self, values: Mapping[str, float], indices: Sequence[int]) -> OneMass:
-        """The same: its steps are exact enough."""
-        return self
-
-    def retuned(self, values: Mapping[str, float], indices: Sequence[int]) -> tuple[OneMass, dict[int, np.ndarray]]:
-        """The same, as its input is given, and the residuals."""
+    def retuned(
+        self, values: Mapping[str, float], indices: Sequence[int], exactly: bool = False
+    ) -> tuple[OneMass, dict[int, np.ndarray]]:
+        """The same, as its input is given and its steps are exact enough, and the residuals."""
         return self, {index: self.residual(values, index) for index in indices}
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> OneMass:
         """The same: an offset is linear."""
+        return self
+
+    def taking(self, other: OneMass, indices: Sequence[int]) -> OneMass:
+        """The same: nothing is realigned."""
         return self
 
     def _linear(self) -> tuple[float, float, float]:

@@ -75,8 +75,9 @@ def propose(
     All sizes of a candidate in one shape count together and each alone.
     """
     rows, group, sign, labels = [], [], [], []
+    white = iter(frame.flats([column for own in columns.values() for column in own.values()]))
     for number, (job, own) in enumerate(columns.items()):
-        parts, keys = list(frame.flats(list(own.values()))), list(own)
+        parts, keys = [next(white) for _ in own], list(own)
         signs = [size.sign for size in candidates[job[0]].sizes if size.key in own]
         if len(parts) > 1:
             parts, signs, keys = [*parts, sum(parts)], [*signs, int(all(signs))], [*keys, "all"]

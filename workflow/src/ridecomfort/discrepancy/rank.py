@@ -7,11 +7,11 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from .. import calibrated
 from . import car as cars
-from . import floor, pool, suspect
+from . import pool, suspect
 from .explain import NIL, REPEATS
-from .select import select
+from .rung import Rung, begin
+from .select import search
 from .signature import signature
 from .selection import Selection
 from .shared import is_material
@@ -55,14 +55,23 @@ def rank(
     ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, and ``suspected`` whether the
     "data" are or the "road" alone. Raises InputError.
     """
-    vehicle, effects = calibrated.apply(calibration, vehicle, effects)
-    count = pool.workers() if workers is None else workers
-    experiment = cars.car(
-        cars.sites_of(measured), vehicle, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
-        bounds=bounds, uncertain=uncertain, noise_density=noise_density, library_names=among, options=options, each_record=pool.side_by_side(count),
+    experiment = cars.opened(
+        measured, vehicle, calibration=calibration, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
+        bounds=bounds, uncertain=uncertain, among=among, noise_density=noise_density, workers=workers, options=options,
     )  # fmt: skip
-    each = pool.mapped(count)
-    selection = select(experiment, cars.start_values(experiment), most=most, seed=seed, each=each, say=say)
+    each = pool.mapped(pool.workers() if workers is None else workers)
+    rung = begin(experiment, cars.start_values(experiment), each)
+    return ranked(
+        experiment, rung, most=most, seed=seed, signatures=signatures, effects_folder=effects_folder, each=each, say=say
+    )
+
+
+def ranked(
+    experiment: cars.Car, rung: Rung, *, most: int = 3, seed: int = 0, signatures: bool = False, effects_folder=None, each=map,
+    say: Callable[[str], None] = lambda words: None,
+) -> tuple[xr.Dataset, Verdict]:  # fmt: skip
+    """``rank`` from an ``experiment`` as its drives came and the ``rung`` of its calibrated model."""
+    selection = search(rung, most=most, seed=seed, each=each, say=say)
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
     matters = _is_material(selection)
@@ -78,11 +87,8 @@ def rank(
     table.attrs["suspected"] = "" if not doubts else "road" if is_road_alone else "data"
     if signatures:
         say("drawing the missing force")
-        curves = signature(
-            measured, vehicle, selection.ladder[0].fit.values, effects=effects, effects_folder=effects_folder,
-            fitted_on=fitted_on, bounds=bounds, uncertain=uncertain, workers=workers, options=options,
-            named={e.name: {size["parameter"]: size["size"] for size in e.sizes} for e in verdict.effects},
-        )  # fmt: skip
+        named = {e.name: {size["parameter"]: size["size"] for size in e.sizes} for e in verdict.effects}
+        curves = signature(rung, named=named, effects_folder=effects_folder, each=each)
         table = table.merge(curves)
     return table, verdict
 

@@ -21,7 +21,7 @@ def aligned(
     experiment: Experiment, values: Mapping[str, float], indices: Sequence[int]
 ) -> tuple[Mapping[int, np.ndarray], Frame, Experiment]:
     """Residuals of records at these values, their frame, and the experiment in which they are aligned for the model."""
-    experiment, residuals = experiment.exact(values, indices).retuned(values, indices)
+    experiment, residuals = experiment.retuned(values, indices, exactly=True)
     frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, residuals))
     moved, experiment = closer(experiment, values, residuals, frame)
     if moved is residuals:
@@ -43,7 +43,7 @@ def closer(
         after = {i: _loss(frame, i, moved[i]) for i in residuals}
         better = [i for i in residuals if after[i] < loss[i]]
         if better and len(better) < len(residuals):
-            realigned, _ = experiment.realigned({i: amounts[i] for i in better}).retuned(values, better)
+            realigned = experiment.taking(realigned, better)
         if better:
             experiment, residuals = realigned, {i: moved[i] if i in better else residuals[i] for i in residuals}
             loss |= {i: after[i] for i in better}

@@ -18,6 +18,12 @@ from .experiment import Experiment, Frame, Size
 BEYOND = 0.5
 """Share of the plausible range that a fit may go beyond it, to see that it wants to."""
 
+WORTHWHILE = 1.0
+"""Fall of the white loss below which a shortened step is not tried."""
+
+SHORTEST = 0.1
+"""Share of a step that it is shortened to at most."""
+
 RENEWAL = 0.3
 """Probes that a size must have moved for its column to be made anew."""
 
@@ -63,8 +69,8 @@ def refit(
 
     ``columns``: white change per probe of each key at the start; those of ``renewed`` are made anew, as secants, after
     every step. ``residuals``: those at the start, where they are known. ``beyond``: share of an effect's
-    plausible range that its size may go beyond it. Steps that do not lower the loss, or that
-    cannot be simulated, are halved.
+    plausible range that its size may go beyond it. A step that does not lower the loss is shortened to where a parabola through
+    it has its least, one that cannot be simulated is halved.
     """
     free = {size.key for size in experiment.free}
     values = dict(values)
@@ -89,10 +95,15 @@ def refit(
                 step = step / 2
                 continue
             flat_trial = frame.flat(found)
-            if flat_trial @ flat_trial < loss:
+            rise = float(flat_trial @ flat_trial) - loss
+            if rise < 0:
                 improved = True
                 break
-            step = step / 2
+            slope = 2.0 * float(flat @ (step @ matrix))
+            shorter = -0.5 * slope / (rise - slope) if slope < 0 else 0.0
+            if -0.5 * shorter * slope < WORTHWHILE:
+                break
+            step = max(shorter, SHORTEST) * step
         if not improved:
             break
         gained = loss - float(flat_trial @ flat_trial)

@@ -9,21 +9,19 @@ for comparison has passed through the same estimate.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 from scipy.linalg import block_diag
 
 from ..effects import library
-from . import car as cars
-from . import evidence, pool, probe
-from . import experiment as exp
+from . import evidence, probe
 from .experiment import Candidate, Frame, Size
+from .made import beside
 from .places import AXLES, FORCE, PLACES
+from .rung import Rung
 
 EXPECTED = 500.0
 """N; usual size of a missing force, which holds what the data do not show near zero."""
@@ -49,59 +47,27 @@ ARGUMENTS = {place.port: ", ".join(place.arguments) for place in PLACES.values()
 
 
 def signature(
-    measured: Mapping[str, tuple],
-    vehicle,
-    values: Mapping[str, float],
-    *,
-    effects: Mapping[str, Mapping[str, float]] | None = None,
-    effects_folder=None,
-    fitted_on: Sequence[str] | None = None,
-    bounds: Mapping[str, Sequence[float]] | None = None,
-    uncertain: Mapping[str, float] | None = None,
-    named: Mapping[str, Mapping[str, float]] | None = None,
-    workers: int | None = None,
-    options: Mapping | None = None,
+    rung: Rung, *, named: Mapping[str, Mapping[str, float]] | None = None, effects_folder=None, each: Callable = map
 ) -> xr.Dataset:
-    """Curves of the missing force at ``values`` of the parameters, from the drives that are fitted.
+    """Curves of the force that a ``rung`` misses, from the drives that are fitted.
 
-    Arguments as for ``rank``, calibration applied. ``named``: sizes of effects to compare with, as mapping of name to
-    {parameter: value}. Returns over ``seen`` (what it depends on), ``axle`` and ``knot``: ``seen_at`` (in ``seen_unit``),
+    ``named``: sizes of effects to compare with, as mapping of name to {parameter: value}; ``each``: a ``map`` over curves.
+    Returns over ``seen`` (what it depends on), ``axle`` and ``knot``: ``seen_at`` (in ``seen_unit``),
     ``missing_force`` (N) with its standard ``missing_force_error``, and over ``named_effect`` too ``named_force``: what
     the estimate would show were the effect the truth (nan where it acts elsewhere); ``seen_share`` of the
     error when white, noise included, that the curves of a place take says which explains most.
     """
-    count = pool.workers() if workers is None else workers
-    each = pool.mapped(count)
-    with tempfile.TemporaryDirectory() as folder:
-        for path in sorted(Path(effects_folder).glob("*.py")) if effects_folder else ():
-            (Path(folder) / path.name).write_bytes(path.read_bytes())
-        for number, seen in enumerate(SEEN.values()):
-            (Path(folder) / f"{_name(number)}.py").write_text(_source(_name(number), seen), encoding="utf-8")
-        experiment = cars.car(
-            _fitted_only(measured, fitted_on), vehicle, effects=effects, effects_folder=folder, fitted_on=fitted_on,
-            bounds=bounds, uncertain=uncertain,
-            library_names=[_name(number) for number in range(len(SEEN))], options=options,
-            each_record=pool.side_by_side(count),
-        )  # fmt: skip
-        experiment.candidates = tuple(_candidate(number, seen) for number, seen in enumerate(SEEN.values()))
-        fitted = [index for index, record in enumerate(experiment.records) if record.role == "fit"]
-        experiment, residuals = experiment.retuned(values, fitted)
-        frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, fitted))
-        free = probe.secants(experiment, values, residuals, experiment.free, each)
-        found = each(probe.Probe(experiment, values, residuals), [(c.name, 0) for c in experiment.candidates])
-        free = evidence.basis(frame.flats(list(free.values())).astype(float))
+    frame, values, residuals = rung.frame, rung.fit.values, rung.fit.residuals
+    free = evidence.basis(frame.flats(list(rung.raw.values())).astype(float))
+    sources = {_name(number): _source(_name(number), seen) for number, seen in enumerate(SEEN.values())}
+    with beside(effects_folder, sources) as folder:
+        candidates = [_candidate(number, seen) for number, seen in enumerate(SEEN.values())]
+        experiment = rung.experiment.looking_for(candidates, folder)
+        found = each(probe.Probe(experiment, values, residuals), [(c.name, 0) for c in candidates])
         curves = list(each(_Estimate(frame, residuals, free), list(zip(found, SEEN.values()))))
     known = library.find(effects_folder)
     names = [name for name in named or {} if known[name].effect.port in ARGUMENTS]
     return _dataset(curves, names, [_shapes(known[name], (named or {})[name]) for name in names])
-
-
-def _fitted_only(measured: Mapping[str, tuple], fitted_on: Sequence[str] | None) -> list[cars.Site]:
-    """The sites with the drives that are fitted, and no others."""
-    wanted = list(fitted_on) if fitted_on else list(measured)[:1]
-    sites = cars.sites_of({name: measured[name] for name in wanted})
-    own = [[drive for drive in site.drives if drive.attrs.get("role", "fit") == "fit"] for site in sites]
-    return [replace(site, drives=drives) for site, drives in zip(sites, own)]
 
 
 @dataclass(frozen=True)

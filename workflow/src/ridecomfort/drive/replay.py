@@ -71,7 +71,7 @@ class Simulated:
     @cached_property
     def slopes(self) -> np.ndarray:
         """Time derivatives of the signals, (6, time)."""
-        return resampled_slopes(*self.source)[:, : len(SIGNALS)].T
+        return resampled_slopes(*self.source)[: len(SIGNALS)]
 
 
 @dataclass(frozen=True)
@@ -112,10 +112,10 @@ class Replay:
         time = run["time"].values
         interval = float(time[1] - time[0])
         places = (np.interp(place, travelled, time) - time[0]) / interval
-        values = np.stack([run[name].values for name in (*SIGNALS, "roll", "pitch")], axis=1)
+        values = np.stack([run[name].values for name in (*SIGNALS, "roll", "pitch")])
         source = (values, interval, places, float(self.drive.attrs["cut_off"]))
-        *signals, roll, pitch = resampled(*source).T
-        return Simulated(np.stack(signals), roll, pitch, source)
+        found = resampled(*source)
+        return Simulated(found[: len(SIGNALS)], found[-2], found[-1], source)
 
     def tuned(self, vehicle, effects=()) -> Replay:
         """The same, asking the model's driver for as much more or less as brings it to the measured speed and path.

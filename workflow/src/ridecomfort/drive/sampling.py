@@ -130,53 +130,68 @@ def _convolve(values, taps):
 
 
 def resampled(values: np.ndarray, interval: float, places: np.ndarray, cut_off: float) -> np.ndarray:
-    """Rows of (time, channel) at fractional indices, low-passed as by ``band_limited``.
+    """(channel, time) at fractional indices, low-passed as by ``band_limited``: (channel, place).
 
     Only what is asked for is filtered, so the samples may be as dense as they come.
     """
     kernel, _ = _tables(interval, cut_off)
-    sums, total = _weighted(np.ascontiguousarray(values), places, kernel, FINE)
-    return sums / total[:, None]
+    sums, total = _weighted(np.ascontiguousarray(values), places, kernel)
+    return sums / total
 
 
 def resampled_slopes(values: np.ndarray, interval: float, places: np.ndarray, cut_off: float) -> np.ndarray:
-    """Time derivatives of ``resampled``, (place, channel)."""
+    """Time derivatives of ``resampled``, (channel, place)."""
     kernel, slope = _tables(interval, cut_off)
     values = np.ascontiguousarray(values)
-    sums, total = _weighted(values, places, kernel, FINE)
-    turned, drift = _weighted(values, places, -slope, FINE)
-    return (turned - (drift / total)[:, None] * sums) / total[:, None] / interval
+    sums, total = _weighted(values, places, kernel)
+    turned, drift = _weighted(values, places, slope)
+    return (turned - drift / total * sums) / total / interval
 
 
 @lru_cache
 def _tables(interval: float, cut_off: float) -> tuple[np.ndarray, np.ndarray]:
-    """The kernel of ``band_limited`` at FINE points an interval, and its slope per interval."""
+    """The kernel of ``band_limited`` and its slope per interval at a place FINE points an interval behind a sample: (point, tap)."""
     width = HALF_WIDTH / (2 * cut_off * interval)
-    distance = np.arange(-np.ceil(width), np.ceil(width) + 0.5 / FINE, 1 / FINE)
+    half = int(np.ceil(width))
+    distance = np.arange(-half * FINE, (half + 1) * FINE + 1) / FINE
     window = np.i0(KAISER * np.sqrt(np.clip(1 - (distance / width) ** 2, 0, None))) * (np.abs(distance) <= width)
     kernel = np.sinc(2 * cut_off * interval * distance) * window
-    return kernel, np.gradient(kernel, 1 / FINE)
+    taps = FINE * np.arange(1, 2 * half + 1) - np.arange(FINE + 1)[:, None]
+    return kernel[taps], -np.gradient(kernel, 1 / FINE)[taps]
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def _weighted(values, places, table, fine):
-    """Sums of the rows around every place, weighted by a ``table`` with ``fine`` points an interval that is straight between,
-    and the sums of the weights; the ends are held."""
-    count, channels = values.shape
-    half = (len(table) - 1) // 2 // fine
-    sums = np.zeros((len(places), channels))
+def _weighted(values, places, table):
+    """Sums of (channel, time) around every place, weighted by a ``table`` (point, tap) that is straight between its points,
+    (channel, place), and the sums of the weights; the ends are held."""
+    channels, count = values.shape
+    points, taps = table.shape
+    sums = np.zeros((channels, len(places)))
     total = np.zeros(len(places))
+    weights = np.empty(taps)
     for i in range(len(places)):
-        first = int(np.ceil(places[i])) - half
-        offset = (first - places[i]) * fine + half * fine
-        for j in range(2 * half):
-            at = offset + j * fine
-            k = min(max(int(at), 0), len(table) - 2)
-            weight = table[k] + (at - k) * (table[k + 1] - table[k])
-            m = min(max(first + j, 0), count - 1)
-            total[i] += weight
-            for c in range(channels):
-                sums[i, c] += weight * values[m, c]
+        whole = int(np.floor(places[i]))
+        first = whole - taps // 2 + 1
+        at = (places[i] - whole) * (points - 1)
+        k = min(int(at), points - 2)
+        before, behind = table[k], table[k + 1]
+        part = at - k
+        all_of_them = 0.0
+        for j in range(taps):
+            weights[j] = before[j] + part * (behind[j] - before[j])
+            all_of_them += weights[j]
+        total[i] = all_of_them
+        inside = first >= 0 and first + taps <= count
+        for c in range(channels):
+            found = 0.0
+            if inside:
+                own = values[c, first : first + taps]
+                for j in range(taps):
+                    found += weights[j] * own[j]
+            else:
+                for j in range(taps):
+                    found += weights[j] * values[c, min(max(first + j, 0), count - 1)]
+            sums[c, i] = found
     return sums, total
 
 

@@ -1,0 +1,112 @@
+"""A model beside drives that are aligned for it, its free sizes fitted: where a search begins, and where every accepted effect leads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from . import experiment as exp
+from . import floor, probe, realign, refit
+from .experiment import Experiment, Frame, Size
+from .refit import Fit
+
+FITS = 2
+"""Fits from one alignment, each in the frame of the residuals of the one before: an error in what makes it white comes out too small."""
+
+Raw = Mapping[str, Mapping[int, np.ndarray]]
+"""Change of the residuals per probe of each size, by record."""
+
+
+@dataclass(frozen=True)
+class Rung:
+    """``experiment``: its records aligned for the model. Of the fitted records ``frame``, ``fit`` and the ``raw`` columns of what is
+    fitted; of those held out ``check`` (residuals) and ``check_frame``, empty and None without any. ``ground``, ``held_out_ground``: the
+    floor, mean squares (record, channel); ``repeats``: whether it is known from them."""
+
+    experiment: Experiment
+    frame: Frame
+    fit: Fit
+    raw: Raw
+    check: Mapping[int, np.ndarray]
+    check_frame: Frame | None
+    ground: np.ndarray
+    held_out_ground: np.ndarray
+    repeats: bool
+
+
+def roles(experiment: Experiment) -> tuple[list[int], list[int]]:
+    """Indices of the records that are fitted, and of those held out. Raises InputError when none is fitted."""
+    fitted = [i for i, record in enumerate(experiment.records) if record.role == "fit"]
+    if not fitted:
+        raise InputError("no drive has the role 'fit' (expected at least one)", place="drives")
+    return fitted, [i for i, record in enumerate(experiment.records) if record.role != "fit"]
+
+
+def begin(experiment: Experiment, start: Mapping[str, float], each: Callable = map) -> Rung:
+    """The calibrated model at ``start`` as a rung, its drives aligned a second time for what the first fit found."""
+    experiment, _, fit, raw = _fitted(experiment, start, experiment.free, each)
+    return climb(experiment, fit.values, experiment.free, each, raw=raw)
+
+
+def climb(
+    experiment: Experiment, values: Mapping[str, float], sizes: Sequence[Size], each: Callable = map, *, raw: Raw | None = None,
+    before: Rung | None = None,
+) -> Rung:  # fmt: skip
+    """The rung of a model from ``values``, its ``sizes`` fitted; ``raw``: columns of these where they are known, ``before``: the rung
+    below it, above whose floor none can lie."""
+    held_out = roles(experiment)[1]
+    experiment, frame, fit, raw = _fitted(experiment, values, sizes, each, raw)
+    check, check_frame = {}, None
+    if held_out:
+        check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out)
+    repeats, ground, held_out_ground = _grounds(experiment, frame, fit, check, check_frame)
+    if before is not None:
+        ground, held_out_ground = np.minimum(before.ground, ground), np.minimum(before.held_out_ground, held_out_ground)
+    return Rung(experiment, frame, fit, raw, check, check_frame, ground, held_out_ground, repeats)
+
+
+def final_fit(rung: Rung, sizes: Sequence[Size]) -> tuple[Fit, Frame]:
+    """The fit whose sizes are told, with its frame: the drives aligned once more for what was found."""
+    values = rung.fit.values
+    residuals, frame, experiment = realign.aligned(rung.experiment, values, rung.frame.indices)
+    for number in range(FITS):
+        if number:
+            frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
+        fit = refit.refit(experiment, frame, values, sizes, probe.white(frame, rung.raw), iterations=2, residuals=residuals)
+        values, residuals = fit.values, fit.residuals
+    return fit, frame
+
+
+def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Experiment, Frame, Fit, Raw]:
+    """The fitted records aligned for a model, and the model fitted to them, at its own spectrum."""
+    residuals, frame, experiment = realign.aligned(experiment, values, roles(experiment)[0])
+    raw = raw or probe.secants(experiment, values, residuals, sizes, each)
+    for _ in range(FITS):
+        columns = probe.white(frame, raw)
+        fit = refit.refit(experiment, frame, values, sizes, columns, iterations=3, residuals=residuals)
+        values, residuals = fit.values, fit.residuals
+        frame = exp.frame(experiment, fit.residuals, frame.nuisances, frame.all_cleaned(fit.residuals))
+    return experiment, frame, fit, raw
+
+
+def _grounds(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
+    """Whether the floor is known from repeats, and its mean squares on fitted and held-out records; of a condition without repeats, as
+    of the others. Repeats differ in their path, so what the model lacks differs too: the floor sinks as the model improves."""
+    cleaned = frame.all_cleaned(fit.residuals)
+    known = floor.floor(experiment, cleaned)
+    grounds = []
+    for indices in roles(experiment):
+        rows = np.zeros((len(indices), len(experiment.channels)))
+        for row, index in zip(rows, indices):
+            record = experiment.records[index]
+            found = known.get(record.condition) or next(iter(known.values()), None)
+            row[:] = floor.assumed(record) if found is None else found.power(record.band, record.rate)
+        grounds.append(rows)
+    # No floor lies above what a model has reached.
+    ground, held_out_ground = np.minimum(grounds[0], floor.squares(experiment, cleaned)), grounds[1]
+    if check:
+        held_out_ground = np.minimum(held_out_ground, floor.squares(experiment, check_frame.all_cleaned(check)))
+    return bool(known), ground, held_out_ground
