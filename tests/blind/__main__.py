@@ -45,10 +45,13 @@ def one(job: tuple[str, int, int]) -> dict:
     row |= {"place_right": "", "form_share": ""}
     ports = {place.port: name for name, place in PLACES.items()}
     place = ports.get(known[draw.hidden[0]].effect.port) if kind.startswith("outside") else None
+    fall = lambda first, last: score.against_oracle(trial, car, trials.SHAPES, first, last)
     if place:
-        share = proposal.held_out_share if proposal else float("nan")
+        ladder = proposal.selection.ladder if proposal else ()
+        share = fall(ladder[0].held_out_squares, ladder[-1].held_out_squares) if ladder else float("nan")
         row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share}
-    oracle = score.against_oracle(trial, car, trials.SHAPES, table) if draw.hidden and kind != "messy" else float("nan")
+    reached = table["held_out_mean_square"].values
+    oracle = fall(reached[0], reached[-1]) if draw.hidden and kind != "messy" else float("nan")
     return {**row, "against_oracle": oracle, "cpu_seconds": seconds, "reasons": "; ".join(verdict.reasons)}
 
 

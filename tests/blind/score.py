@@ -16,7 +16,7 @@ from ridecomfort.errors import InputError
 from .kinds import KAPPAS, SUSPECT, Draw
 
 FORM = 0.8
-"""Share of the explainable error held out from which on a form counts as that of the effect."""
+"""Share of what the true effect removes of the error held out from which on a form counts as that of the effect."""
 
 VISIBLE = 0.8
 """Share of a kappa that must be reached for a trial to count as one of that kappa."""
@@ -41,8 +41,9 @@ def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
     }  # fmt: skip
 
 
-def against_oracle(trial, vehicle, effects_folder, table) -> float:
-    """Fall of the held-out error relative to that of who knows the effects and all parameters; nan where there is none."""
+def against_oracle(trial, vehicle, effects_folder, first, last) -> float:
+    """Fall of the held-out error, mean squares (record, channel) from ``first`` to ``last``, relative to that of who knows the effects and
+    all parameters; nan where there is none."""
     sizes = trial.truth["effects"]
     true_vehicle, _ = cars.with_values(vehicle, {}, trial.truth["car"])
     try:
@@ -56,7 +57,6 @@ def against_oracle(trial, vehicle, effects_folder, table) -> float:
         return float("nan")
     frame = exp.frame(knowing, residuals, exp.nuisances(knowing, values, held_out))
     oracle = floor.squares(knowing, {index: frame.cleaned(index, residuals[index]) for index in held_out})
-    first, last = (table["held_out_mean_square"].isel(model=k).values for k in (0, -1))
     possible = np.sum((first - oracle) / first)
     return float(np.sum((first - last) / first) / possible) if possible > floor.LEAST else float("nan")
 
@@ -97,7 +97,7 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
         line(f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3', single(kind, strong), lambda row: row["verdict"] == "outside")
     placed = [row for kind in ("outside", "outside, messy") for row in single(kind, strong) if row["form_share"] != ""]
     line("place of such an effect right (strut, tyre, body)", placed, lambda row: row["place_right"])
-    line(f"its proposed form removes {100 * FORM:.0f} % of the explainable error held out", placed, lambda row: row["form_share"] >= FORM)
+    line(f"its proposed form removes {100 * FORM:.0f} % of what the true one does, held out", placed, lambda row: row["form_share"] >= FORM)
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"])
     line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"])
     for kind in SUSPECT:

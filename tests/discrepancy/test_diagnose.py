@@ -67,7 +67,8 @@ def test_a_force_that_explains_more_does_even_on_a_noisy_road():
     assert reconsidered(LITTLE, SURE, is_road_open=True) is LITTLE
 
 
-def test_a_road_alone_is_not_suspected_where_a_force_explains_most():
+def test_a_road_alone_is_not_suspected_where_a_force_explains_more_than_its_noise_could():
     suspected = replace(NOTHING, verdict="suspect")
-    assert reconsidered(suspected, SURE, is_road_open=True).verdict == "outside"
-    assert reconsidered(suspected, replace(SURE, share=0.4), is_road_open=True) is suspected
+    assert reconsidered(suspected, replace(SURE, share=0.4, held_out_share=0.1), is_road_open=True).verdict == "outside"
+    for weaker in ({"share": 0.15}, {"held_out_share": -0.1}, {"p_value": 0.03}, {"place": ""}):
+        assert reconsidered(suspected, replace(SURE, **weaker), is_road_open=True) is suspected

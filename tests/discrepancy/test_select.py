@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import select, verdict
+from ridecomfort.discrepancy.propose import CERTAIN
 from ridecomfort.errors import InputError
 
 from .linear import Linear
@@ -79,6 +80,26 @@ def test_where_the_held_out_drive_is_too_weak_to_decide_any_fall_confirms_what_t
         assert (trial.objection == "") == (trial.held_out_gain > 0 and trial.held_out_z > 0)
         zs.append(trial.held_out_z)
     assert any(0 < z < select.HELD_OUT_Z for z in zs)
+
+
+def test_a_fall_confirms_a_first_effect_and_a_later_one_only_where_the_held_out_drive_is_weak(monkeypatch):
+    monkeypatch.setattr(select, "WEAK", 0.0)
+
+    def objections(number, truth):
+        """Of effect_4 in a round, where the fitted drives leave no doubt of it and the weak one held out says yes without being sure."""
+        for seed in range(1, 13):
+            model = Linear(seed, truth)
+            weak = lambda key: 0.07 if key == "effect_4.size" else 1.0
+            model.columns[3] = {key: weak(key) * column for key, column in model.columns[3].items()}
+            turn = judged(model)[0].rounds[number]
+            for trial in turn.trials:
+                is_certain = turn.p_value[turn.names.index(trial.name)] <= CERTAIN
+                if trial.name == "effect_4" and is_certain and 0 < trial.held_out_z < select.HELD_OUT_Z:
+                    if trial.held_out_gain > 0 and trial.held_out_share > 0:
+                        yield trial.objection
+
+    assert set(objections(0, {"effect_4.size": 0.5})) == {""}
+    assert set(objections(1, {"effect_1.size": 1.0, "effect_4.size": 0.5})) == {"does not improve the drives held out"}
 
 
 def test_a_size_beyond_which_nothing_drives_is_probed_the_other_way():

@@ -15,13 +15,14 @@ from .explain import REPEATS
 from .propose import SURE
 from .rank import ranked
 from .rung import begin
-from .verdict import CONFIRMED, ENOUGH, Verdict
+from .verdict import CONFIRMED, Verdict
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
 OF_ROAD = 0.2
-"""Share of the explainable error below which an effect that was found may be what a road that is otherwise looks like."""
+"""Share of the explainable error below which what was found may be what a road that is otherwise looks like: forces of any form take up
+to 0.13 where nothing but noise of the road is wrong."""
 
 DOUBTFUL = 0.8
 """Share of the explainable error below which what the library explains may be the work of something that is not in it."""
@@ -57,10 +58,12 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     such a force explains more of the fitted drives, and no less of those held out. Where the road may be another than that of its file, by
     noise of its points or by what lies between them (``is_road_open``), which repeats share as well, "outside" becomes what the library
     has unless such a force explains more ("suspect" where that is little), and "suspect" for that becomes "outside" if such a force
-    explains most.
+    explains more than noise could.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
-    if is_sure(proposal) and (verdict.verdict == "nothing" or verdict.verdict == "suspect" and proposal.share > ENOUGH):
+    # Beside noise of the road, which weighs more the weaker an effect is, any fall on drives held out will do.
+    is_more_than_noise = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > OF_ROAD and proposal.held_out_share > 0
+    if verdict.verdict == "nothing" and is_sure(proposal) or verdict.verdict == "suspect" and is_more_than_noise:
         return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     more = is_sure(proposal) and proposal.share > BETTER * verdict.share

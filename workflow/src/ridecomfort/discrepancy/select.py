@@ -43,7 +43,9 @@ HELD_OUT_Z = 2.0
 
 WEAK = 16.0
 """Fall of the white loss of held-out drives below which not even the truth reaches HELD_OUT_Z half of the time: a change of that size
-falls by itself on average, with a standard deviation of twice its root. There any fall confirms what the fitted drives leave no doubt of."""
+falls by itself on average, with a standard deviation of twice its root. There any fall confirms what the fitted drives leave no doubt of.
+So it does for a first effect: beside drives without it a change makes the loss rise by as much on average, and from this size on a fall
+has a chance of 2 %. A later one may be what the shape of those before it leaves, on all drives, and has to do better."""
 
 MET = 0.01
 """White power of what an effect does to a drive held out, against that on a fitted one, below which the first cannot decide on it."""
@@ -262,7 +264,7 @@ class _Search:
             held_gain = refit.information(rung.check_frame, held) - refit.information(rung.check_frame, rung.check)
             held_z = refit.advantage(rung.check_frame, held, rung.check)[1]
             change = rung.check_frame.flat(held) - rung.check_frame.flat(rung.check)
-            is_weak = candidate.name in self.certain and float(change @ change) < WEAK
+            is_weak = candidate.name in self.certain and (not self.accepted or float(change @ change) < WEAK)
         met = not self.held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
         if not met:
             held_gain, held_z = float("nan"), float("nan")
