@@ -32,6 +32,11 @@ def test_a_bracket_that_is_not_closed(project):
     assert_refused(project.snakemake("--dry-run"), "config/study.yaml: line 3: is not valid YAML")
 
 
+@pytest.mark.parametrize(("asked", "hint"), [("onee", "did you mean 'one'"), ("reprt", "did you mean 'report'"), ("xyz", "see README")])
+def test_a_target_that_is_not_there(project, asked, hint):
+    assert_refused(project.snakemake("--dry-run", asked), f"{asked}: no site of the study and no target", hint)
+
+
 def test_a_missing_road(project):
     project.site("one", road={"file": "data/one/road.crg"})
     assert_refused(project.snakemake("--dry-run"), "config/sites/one.yaml: road: file: no such file 'data/one/road.crg'")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import logging
 import re
 import sys
 import time
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -24,6 +25,9 @@ PAGE = "results/report.html"
 
 CHANGED_SETTINGS = re.compile(r"Params have changed since last execution: .*?before: '(\{.*\})' now: '(\{.*\})' ?")
 """How Snakemake says so, with the settings of the step before and now (JSON)."""
+
+MISSING_RULE = re.compile(r"No rule to produce ([^\s/]+) \(")
+"""How Snakemake says that it was asked for something that is neither a rule nor the path of a file."""
 
 LOG_LINES = 15
 """Lines shown of the log of a job that failed unexpectedly."""
@@ -43,11 +47,14 @@ class Progress(logging.Handler):
     The time left is that of the jobs still to come, each taken to last as long as those of its
     rule have lasted so far, or last time (Snakemake's benchmark files), shared among as many as
     run at once. Where the rule with the most jobs to come was never timed, none is given.
-    A dry run (``planning``) has one line per job too: what would run, and why.
+    A dry run (``planning``) has one line per job too: what would run, and why. ``rules``: the names that may be asked for.
     """
 
-    def __init__(self, benchmarks: Path, stream: TextIO | None = None, planning: bool = False):
+    def __init__(
+        self, benchmarks: Path, stream: TextIO | None = None, planning: bool = False, rules: Callable[[], Collection[str]] = list
+    ):
         super().__init__()
+        self.rules = rules
         self.stream = stream or sys.stderr
         self.planning = planning
         self.earlier = _earlier(benchmarks)
@@ -71,6 +78,10 @@ class Progress(logging.Handler):
                     self._finished(record.job_id)
                 case "job_error":
                     self._failed(record)
+                case "error" if missing := _missing(record):
+                    close = difflib.get_close_matches(missing, self.rules(), n=1)
+                    hint = f"did you mean {close[0]!r}?" if close else "see README.md"
+                    self._write(f"error: {missing}: no site of the study and no target of this name; {hint}")
         except Exception:  # a study must not end because of a line on the screen
             self.handleError(record)
 
@@ -80,7 +91,7 @@ class Progress(logging.Handler):
             return False
         if getattr(record, "exception", None) == "RuleException" and "CalledProcessError" in str(record.msg):
             return False
-        return not str(record.msg).startswith(CHATTER)
+        return not str(record.msg).startswith(CHATTER) and not _missing(record)
 
     def time_left(self) -> float | None:
         """Seconds until all jobs are done, None where too little is known."""
@@ -172,10 +183,17 @@ def follow(workflow) -> None:
         return
     for handler in logger.handlers:
         if handler.name == "DefaultStreamHandler":
-            progress = Progress(Path("results/benchmarks"), planning=output.dryrun)
+            rules = lambda: [rule.name for rule in workflow.rules]
+            progress = Progress(Path("results/benchmarks"), planning=output.dryrun, rules=rules)
             handler.addFilter(progress.replaces)
             logger.addHandler(progress)
             return
+
+
+def _missing(record: logging.LogRecord) -> str:
+    """The name that was asked for where there is no rule for it; empty for any other record."""
+    found = MISSING_RULE.search(str(record.msg)) if getattr(record, "exception", None) == "MissingRuleException" else None
+    return found.group(1) if found else ""
 
 
 def _earlier(benchmarks: Path) -> dict[str, float]:
