@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin, tanh
+from math import cos, pi, sin, tanh
 from types import SimpleNamespace
 
 import pytest
@@ -27,11 +27,16 @@ def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp
     for name, term in where.terms.items():
         entry = found[f"found_{name}"]
         own = {WHOLE: "", AXLES: AXLES[wheel // 2], WHEELS: WHEELS[wheel]}[term.parts]
-        value = factors[name][own] * eval(term.expression, KNOWN, dict(seen))
-        expected = [value if result == term.result else 0.0 for result in where.results]
-        arguments = {key: seen[key] for key in where.arguments}
-        assert entry.act(**arguments, **entry.effect.values()) == pytest.approx(expected if len(expected) > 1 else value)
-        assert not any(map(float, _tuple(entry.act(**arguments, **entry.effect.neutral))))
+        states = {state.name: 0.3 + 0.1 * k for k, state in enumerate(term.states)}
+        worth = lambda expression: eval(expression, KNOWN, seen | states)
+        value = factors[name][own] * worth(term.expression)
+        expected = {result: value if result == term.result else 0.0 for result in where.results}
+        if term.ahead:
+            expected["moment_y"] -= worth(term.ahead) * value
+        slopes = [worth(state.slope) for state in term.states]
+        arguments = {key: seen[key] for key in where.arguments} | dict(zip(entry.effect.states, states.values()))
+        assert _tuple(entry.act(**arguments, **entry.effect.values())) == pytest.approx([*expected.values(), *slopes])
+        assert not any(_tuple(entry.act(**arguments, **entry.effect.neutral))[: len(expected)])
 
 
 def _tuple(found):
@@ -48,3 +53,25 @@ def test_a_form_is_said_with_its_sizes():
         "force = (57.3 N front and 48 N rear) tanh(velocity / 0.005)"
     )
     assert in_words("body", {"lift": {"": -0.5}}) == "force_z = (-0.5 N s2/m2) motion.speed**2"
+    assert in_words("strut", {"velocity_below_10_Hz": {"front": 57.3, "rear": 48.0}}) == (
+        "force = (57.3 N s/m front and 48 N s/m rear) slow, slow' = 62.83 * (velocity - slow)"
+    )
+
+
+def test_a_part_that_moves_on_a_spring_of_its_own_swings_at_its_frequency_and_is_rigid_below(tmp_path):
+    """Free, it turns at 11 Hz; pushed along slowly, it weighs nothing beside the body that carries it already."""
+    source = effect_source("found", "body", {"resonance_front_11_Hz": {"": 100.0}}, "Found.")
+    (tmp_path / "found.py").write_text(source)
+    act = library.find(tmp_path)["found"].act
+    still = {"vertical_acceleration": 0.0, "pitch_acceleration": 0.0, "front": 1.2, "rear": -1.5, "speed": 20.0}
+    lift, rate, step, places = 1e-3, 0.0, 1e-4, []
+    for _ in range(10000):
+        *_, rising, turning = act(SimpleNamespace(**still), lift, rate, 100.0)
+        rate += step * turning
+        lift += step * rate
+        places.append(lift)
+    crossings = sum(a > 0 >= b for a, b in zip(places, places[1:]))
+    assert crossings == pytest.approx(11, abs=1)
+    pushed = SimpleNamespace(**(still | {"vertical_acceleration": 1.0}))
+    balance = -1.0 / (2 * pi * 11) ** 2
+    assert abs(act(pushed, balance, 0.0, 100.0)[2]) < 0.1

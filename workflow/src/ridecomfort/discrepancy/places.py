@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import pi
 from types import SimpleNamespace
 
 import numpy as np
@@ -29,14 +30,26 @@ SIDE = "(1.0 - 2.0 * (wheel % 2))"
 
 
 @dataclass(frozen=True)
+class State:
+    """What a force remembers: its ``name``, its ``slope`` (an expression, per second), and a ``typical`` value."""
+
+    name: str
+    slope: str
+    typical: float
+
+
+@dataclass(frozen=True)
 class Term:
-    """A part of a force: its ``expression`` in what the place sees, the ``unit`` of its factor, the ``result`` it adds to, and the
-    ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's)."""
+    """A part of a force: its ``expression`` in what the place sees and in its own ``states``, the ``unit`` of its factor, the ``result``
+    it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force on the body
+    acts ``ahead`` (m, an expression) of the centre of gravity where that is given."""
 
     expression: str
     unit: str
     result: str = "force"
     parts: tuple[str, ...] = AXLES
+    states: tuple[State, ...] = ()
+    ahead: str = ""
 
 
 @dataclass(frozen=True)
@@ -49,6 +62,20 @@ class Place:
     typical: Mapping[str, object]
     terms: Mapping[str, Term]
     results: tuple[str, ...] = ("force",)
+
+
+def _below(frequency: float) -> Term:
+    """Strut velocity through a low-pass of first order: what gives way in series with a damper, or creeps beside a spring."""
+    return Term("slow", "N s/m", states=(State("slow", f"{2 * pi * frequency:.4g} * (velocity - slow)", 0.1),))
+
+
+def _resonance(axle: str, frequency: float) -> Term:
+    """A part of the sprung mass above an axle that moves on a spring of its own, with a tenth of critical damping."""
+    turns = 2 * pi * frequency
+    body = f"motion.vertical_acceleration - motion.{axle} * motion.pitch_acceleration"
+    against = f"{turns**2:.4g} * lift + {0.2 * turns:.4g} * rate"
+    states = State("lift", "rate", 0.6 / turns**2), State("rate", f"-({body} + {against})", 0.6 / turns)
+    return Term(f"{body} + {against}", "kg", "force_z", WHOLE, states, f"motion.{axle}")
 
 
 PLACES: Mapping[str, Place] = {
@@ -74,6 +101,7 @@ PLACES: Mapping[str, Place] = {
             "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
             "side_force": Term(f"force_y * {SIDE}", "1"),
             "forward_force": Term("force_x", "1"),
+            **{f"velocity_below_{frequency}_Hz": _below(frequency) for frequency in (3, 10, 30)},
         },
     ),
     "tyre": Place(
@@ -103,7 +131,7 @@ PLACES: Mapping[str, Place] = {
         {
             "motion": SimpleNamespace(
                 speed=20.0, side_speed=0.1, vertical_speed=0.04, roll=0.01, pitch=0.008, roll_rate=0.03, pitch_rate=0.02,
-                yaw_rate=0.05, vertical_acceleration=0.6, roll_acceleration=0.4, pitch_acceleration=0.3,
+                yaw_rate=0.05, vertical_acceleration=0.6, roll_acceleration=0.4, pitch_acceleration=0.3, front=1.2, rear=-1.5,
             )
         },
         {
@@ -121,6 +149,11 @@ PLACES: Mapping[str, Place] = {
             "pitch_inertia": Term("motion.pitch_acceleration", "kg m2", "moment_y", WHOLE),
             "pitch_of_speed": Term("motion.speed**2", "kg", "moment_y", WHOLE),
             "yaw_damping": Term("motion.yaw_rate", "N m s", "moment_z", WHOLE),
+            **{
+                f"resonance_{axle}_{frequency}_Hz": _resonance(axle, frequency)
+                for axle in AXLES
+                for frequency in (7, 11, 17)
+            },
         },
         ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
     ),
@@ -140,6 +173,7 @@ def scale(place: str, term: str) -> float:
     """Size of a term with a factor of one at typical motion, in N or N m."""
     known = {**PLACES[place].typical, "wheel": 0, "tanh": np.tanh, "abs": abs, "max": max, "min": min, "cos": np.cos}
     known["sin"] = np.cos
+    known |= {state.name: state.typical for state in PLACES[place].terms[term].states}
     expression = PLACES[place].terms[term].expression
     if "20_mm" in term or "rest" in expression:
         known |= {key: 2 * value for key, value in PLACES[place].typical.items() if key != "rest"}
@@ -154,7 +188,10 @@ def in_words(place: str, terms: Factors) -> str:
     for name, factors in terms.items():
         term = PLACES[place].terms[name]
         size = " and ".join(f"{value:.4g} {term.unit} {part}".rstrip() for part, value in factors.items())
-        by_result.setdefault(term.result, []).append(f"({size}) {term.expression}")
+        slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
+        at = f" at {term.ahead}" if term.ahead else ""
+        expression = f"({term.expression})" if term.states and " " in term.expression else term.expression
+        by_result.setdefault(term.result, []).append(f"({size}) {expression}{at}{slopes}")
     return ", ".join(f"{result} = {' + '.join(parts)}" for result, parts in by_result.items())
 
 
@@ -172,7 +209,7 @@ def _factor(key: str, term: Term) -> str:
 def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
     """Text of an effect file (``effects.contract``) with these terms and their factors as typical values."""
     where = PLACES[place]
-    parameters, lines, arguments = [], [], []
+    parameters, lines, arguments, states, slopes = [], [], [], [], []
     for key, factors in terms.items():
         term = where.terms[key]
         reach = STRONGEST / scale(place, key)
@@ -184,15 +221,30 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
                 f'        Parameter("{parameter(key, part)}", "{term.unit}", 0.0, {typical:.6g}, ({-limit:g}, {limit:g}), "{meaning}"),'
             )
             arguments.append(parameter(key, part))
-        lines.append(f"    {term.result} += {_factor(key, term)} * ({term.expression})")
+        own = {state.name: f"{key}_{state.name}" for state in term.states}
+        value = f"{_factor(key, term)} * ({_renamed(term.expression, own)})"
+        lines.append(f"    {term.result} += {value}")
+        if term.ahead:
+            lines.append(f"    moment_y -= {term.ahead} * {value}")
+        states += own.values()
+        slopes += [_renamed(state.slope, own) for state in term.states]
     body = "\n".join([*(f"    {result} = 0.0" for result in where.results), *lines])
     used = sorted({function for function in ("tanh", "cos", "sin") if re.search(rf"\b{function}\(", body)})
     imports = f"from math import {', '.join(used)}\n\n" if used else ""
     listed = "\n".join(parameters)
+    named = ", ".join(f'"{state}"' for state in states) + ("," if len(states) == 1 else "")
+    remembered = f"    states=({named}),\n" if states else ""
     return (
         f'"""{sentence}"""\n\n{imports}from ridecomfort.effects.contract import Effect, Parameter\n\n'
         f'effect = Effect(\n    name="{name}",\n    sentence="{sentence}",\n'
         f'    source="estimated from measured drives by ridecomfort.discrepancy.discover",\n    port="{where.port}",\n'
-        f"    parameters=(\n{listed}\n    ),\n)\n\n\n"
-        f"def act({', '.join([*where.arguments, *arguments])}):\n{body}\n    return {', '.join(where.results)}\n"
+        f"    parameters=(\n{listed}\n    ),\n{remembered})\n\n\n"
+        f"def act({', '.join([*where.arguments, *states, *arguments])}):\n{body}\n    return {', '.join([*where.results, *slopes])}\n"
     )
+
+
+def _renamed(expression: str, names: Mapping[str, str]) -> str:
+    """An expression with other names for its states."""
+    for old, new in names.items():
+        expression = re.sub(rf"\b{old}\b", new, expression)
+    return expression
