@@ -30,13 +30,14 @@ def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp
         states = {state.name: 0.3 + 0.1 * k for k, state in enumerate(term.states)}
         worth = lambda expression: eval(expression, KNOWN, seen | states)
         value = factors[name][own] * worth(term.expression)
-        expected = {result: value if result == term.result else 0.0 for result in where.results}
+        before = {result: seen.get(result, 0.0) for result in where.results}
+        expected = {result: before[result] + (value if result == term.result else 0.0) for result in where.results}
         if term.ahead:
             expected["moment_y"] -= worth(term.ahead) * value
         slopes = [worth(state.slope) for state in term.states]
         arguments = {key: seen[key] for key in where.arguments} | dict(zip(entry.effect.states, states.values()))
         assert _tuple(entry.act(**arguments, **entry.effect.values())) == pytest.approx([*expected.values(), *slopes])
-        assert not any(_tuple(entry.act(**arguments, **entry.effect.neutral))[: len(expected)])
+        assert _tuple(entry.act(**arguments, **entry.effect.neutral))[: len(expected)] == tuple(before.values())
 
 
 def _tuple(found):

@@ -15,7 +15,7 @@ from .explain import REPEATS
 from .propose import SURE
 from .rank import ranked
 from .rung import begin
-from .verdict import CONFIRMED, Verdict
+from .verdict import CONFIRMED, DOUBTFUL, Verdict
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
@@ -23,10 +23,6 @@ BETTER = 1.2
 OF_ROAD = 0.2
 """Share of the explainable error below which what was found may be what a road that is otherwise looks like: forces of any form take up
 to 0.13 where nothing but noise of the road is wrong."""
-
-DOUBTFUL = 0.8
-"""Share of the explainable error below which what the library explains may be the work of something that is not in it."""
-
 
 def diagnose(
     measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0,

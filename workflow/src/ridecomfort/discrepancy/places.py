@@ -16,6 +16,9 @@ FORCE = 30.0
 STRONGEST = 1500.0
 """N (or N m) at typical motion beyond which a term is not plausible."""
 
+CORNERING = 8e4
+"""N that a slip of one would make at typical stiffness."""
+
 WIDTH = 3.0
 """Times its estimate that a factor which was found may plausibly be."""
 
@@ -125,6 +128,22 @@ PLACES: Mapping[str, Place] = {
             "twice_a_turn_sine": Term("sin(2.0 * rotation)", "N", parts=WHEELS),
         },
     ),
+    "contact": Place(
+        "tyre_planar",
+        ("wheel", "slip_x", "slip_y", "load", "speed", "slope", "force_x"),
+        {"slip_x": 0.003, "slip_y": 0.01, "load": 4000.0, "speed": 20.0, "slope": 0.01, "force_x": 300.0},
+        {
+            "pull_of_load": Term("load", "1", "pull"),
+            "pull_of_load_on_sides": Term(f"load * {SIDE}", "1", "pull"),
+            "pull_of_load_and_speed": Term("load * speed**2", "s2/m2", "pull"),
+            "pull_of_slope": Term("load * slope", "1", "pull"),
+            "side_slip_of_load": Term("slip_y * load", "1/N", "slip_y"),
+            "side_slip_cube": Term("slip_y**3", "1", "slip_y"),
+            "side_slip_of_sides": Term(SIDE, "1", "slip_y"),
+            "side_slip_late": Term("late - slip_y", "1", "slip_y", states=(State("late", "2.0 * speed * (slip_y - late)", 0.005),)),
+        },
+        ("slip_x", "slip_y", "pull"),
+    ),
     "body": Place(
         "body",
         ("motion",),
@@ -170,7 +189,7 @@ def parameter(term: str, part: str) -> str:
 
 
 def scale(place: str, term: str) -> float:
-    """Size of a term with a factor of one at typical motion, in N or N m."""
+    """Size of a term with a factor of one at typical motion, in N or N m; of a slip, the force that it makes."""
     known = {**PLACES[place].typical, "wheel": 0, "tanh": np.tanh, "abs": abs, "max": max, "min": min, "cos": np.cos}
     known["sin"] = np.cos
     known |= {state.name: state.typical for state in PLACES[place].terms[term].states}
@@ -179,7 +198,8 @@ def scale(place: str, term: str) -> float:
         known |= {key: 2 * value for key, value in PLACES[place].typical.items() if key != "rest"}
     if "rebound" in term:
         known |= {key: -known[key] for key in PLACES[place].typical}
-    return abs(float(eval(expression, {"__builtins__": {}}, known)))  # an expression of this file, not of a user
+    size = abs(float(eval(expression, {"__builtins__": {}}, known)))  # an expression of this file, not of a user
+    return size * (CORNERING if PLACES[place].terms[term].result in PLACES[place].arguments else 1.0)
 
 
 def in_words(place: str, terms: Factors) -> str:
@@ -192,7 +212,8 @@ def in_words(place: str, terms: Factors) -> str:
         at = f" at {term.ahead}" if term.ahead else ""
         expression = f"({term.expression})" if term.states and " " in term.expression else term.expression
         by_result.setdefault(term.result, []).append(f"({size}) {expression}{at}{slopes}")
-    return ", ".join(f"{result} = {' + '.join(parts)}" for result, parts in by_result.items())
+    sign = lambda result: "+=" if result in PLACES[place].arguments else "="
+    return ", ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
 
 
 def _factor(key: str, term: Term) -> str:
@@ -227,11 +248,12 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
         if term.ahead:
             lines.append(f"    moment_y -= {term.ahead} * {value}")
         states += own.values()
-        slopes += [_renamed(state.slope, own) for state in term.states]
-    body = "\n".join([*(f"    {result} = 0.0" for result in where.results), *lines])
+        slopes += [f"    {own[state.name]}_slope = {_renamed(state.slope, own)}" for state in term.states]
+    body = "\n".join([*(f"    {result} = 0.0" for result in where.results if result not in where.arguments), *slopes, *lines])
     used = sorted({function for function in ("tanh", "cos", "sin") if re.search(rf"\b{function}\(", body)})
     imports = f"from math import {', '.join(used)}\n\n" if used else ""
     listed = "\n".join(parameters)
+    returned = ", ".join([*where.results, *(f"{state}_slope" for state in states)])
     named = ", ".join(f'"{state}"' for state in states) + ("," if len(states) == 1 else "")
     remembered = f"    states=({named}),\n" if states else ""
     return (
@@ -239,7 +261,7 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
         f'effect = Effect(\n    name="{name}",\n    sentence="{sentence}",\n'
         f'    source="estimated from measured drives by ridecomfort.discrepancy.discover",\n    port="{where.port}",\n'
         f"    parameters=(\n{listed}\n    ),\n{remembered})\n\n\n"
-        f"def act({', '.join([*where.arguments, *states, *arguments])}):\n{body}\n    return {', '.join([*where.results, *slopes])}\n"
+        f"def act({', '.join([*where.arguments, *states, *arguments])}):\n{body}\n    return {returned}\n"
     )
 
 

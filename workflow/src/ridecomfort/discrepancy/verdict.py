@@ -15,6 +15,10 @@ from .selection import Selection, State
 ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
 
+DOUBTFUL = 0.8
+"""Share of the explainable error below which an error that repeats surely share beside it is that of something else, and below which what
+was named may be the work of something that is not in the library."""
+
 SHARED_Z = 3.0
 """z of the error that repeats still share above which something is left to explain."""
 
@@ -140,7 +144,7 @@ def _balance(selection: Selection, notes: Sequence[str], is_material: bool) -> _
     is_refuted = is_met and held_out < CONFIRMED
     is_shared = selection.shared_z > SHARED_Z or not selection.repeats
     may_be_left = selection.remaining.z > LEFT_Z or not selection.repeats
-    is_little = is_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < ENOUGH and is_left)
+    is_little = is_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < DOUBTFUL and is_left)
     return _Balance(share, held_out, explained, is_refuted, is_left, is_little)
 
 
