@@ -62,13 +62,20 @@ def test_a_truth_at_the_end_of_what_is_plausible_is_not_held_against_it():
     assert [e.name for e in found.effects] == ["effect_3"]
 
 
-def test_what_adds_little_at_the_same_port_may_be_another_shape_and_is_not_named():
-    model = Linear(2, {"effect_1.size": 0.6, "effect_4.size": 0.2})
-    assert [e.name for e in judged(model)[1].effects] == ["effect_1", "effect_4"]
-    model.candidates = tuple(replace(candidate, port="suspension") for candidate in model.candidates)
-    _, found = judged(model)
-    assert [e.name for e in found.effects] == ["effect_1"]
-    assert any("effect_4" in reason and "another shape of effect_1" in reason for reason in found.reasons)
+def test_what_adds_little_at_the_same_port_may_be_another_shape_of_what_it_is_like_and_is_not_named():
+    def found(port, like):
+        model = Linear(2, {"effect_1.size": 1.2, "effect_4.size": 0.4})
+        model.candidates = tuple(replace(candidate, port=port) for candidate in model.candidates)
+        for columns in {id(own): own for own in model.columns}.values():
+            columns["effect_4.size"] = like * columns["effect_1.size"] + np.sqrt(1 - like**2) * columns["effect_4.size"]
+        return judged(model)[1]
+
+    both = {"effect_1", "effect_4"}
+    assert {e.name for e in found("", 0.0).effects} == both
+    assert {e.name for e in found("suspension", 0.0).effects} == both
+    assert {e.name for e in found("", 0.7).effects} == both
+    alike = found("suspension", 0.7)
+    assert len(alike.effects) == 1 and any("another shape" in reason for reason in alike.reasons)
 
 
 def test_where_the_held_out_drive_is_too_weak_to_decide_any_fall_confirms_what_the_others_leave_no_doubt_of():

@@ -24,7 +24,10 @@ from .selection import Round, Selection, State, Trial
 from .shared import Shared, shared_error
 
 LEAST_SHARE = 0.02
-"""Share of the explainable error below which an effect is not worth naming."""
+"""Share of the explainable error below which an effect is not worth naming..."""
+
+MOST_OF_REST = 0.5
+"""...but for one that takes this share of what is left of it: beside a large effect another of the size of the noise may be some thousandths."""
 
 PROPOSED = 5
 """Candidates that are refitted in a round."""
@@ -277,7 +280,8 @@ class _Search:
             trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met,
             before=before, after=now,
         )  # fmt: skip
-        return replace(trial, objection=self._objection(trial, candidate, is_weak))
+        left = floor.explained_share(before.squares, rung.ground, first.squares, rung.ground)
+        return replace(trial, objection=self._objection(trial, candidate, is_weak, left))
 
     def _meets(self, candidate: Candidate, fit: Fit) -> bool:
         """Whether any drive held out has what the candidate acts on, a stop that is reached for example."""
@@ -295,7 +299,7 @@ class _Search:
         seconds = [len(record.place) / record.rate for record in records]
         return len(self.rung.experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
 
-    def _objection(self, trial: Trial, candidate: Candidate, is_weak: bool) -> str:
+    def _objection(self, trial: Trial, candidate: Candidate, is_weak: bool, left: float) -> str:
         outside = _implausible(candidate, trial.fit.values)
         if outside:
             return outside
@@ -305,7 +309,7 @@ class _Search:
             enough = trial.held_out_z > 0 and not trial.held_out_share <= 0 if is_weak else trial.held_out_z > HELD_OUT_Z
             if not (trial.held_out_gain > 0 and enough):
                 return "does not improve the drives held out"
-        if trial.share < LEAST_SHARE:
+        if trial.share < LEAST_SHARE and not trial.share > MOST_OF_REST * left:
             return f"removes {100 * trial.share:.1f} % of the explainable error"
         return ""
 

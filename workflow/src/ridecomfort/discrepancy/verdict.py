@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from . import floor
+from .cluster import SAME_PORT
 from .experiment import Candidate, Size
 from .propose import LEVEL, SURE
 from .selection import Selection, State
@@ -234,7 +235,7 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
     shared = not selection.repeats or selection.shared_z > SHARED_Z
     kept, reasons = [], []
     for effect in found:
-        same = _shaped_by(effect, found, by_name)
+        same = _shaped_by(selection, effect, found, by_name)
         if not any(size.key in selection.sure for size in by_name[effect.name].sizes):
             reasons.append(f"{effect.name} helps, but its size may as well be none")
         elif same:
@@ -250,12 +251,15 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
     return kept, reasons
 
 
-def _shaped_by(effect: Named, found: Sequence[Named], by_name) -> str:
-    """The name of an effect found before at the same port beside which it is small; empty where there is none."""
+def _shaped_by(selection: Selection, effect: Named, found: Sequence[Named], by_name) -> str:
+    """The name of an effect found before at the same port that it is like and beside which it is small; empty where there is none."""
     port = by_name[effect.name].port
-    before = found[: found.index(effect)] if port else ()
-    larger = (o.name for o in before if by_name[o.name].port == port and effect.share < ANOTHER_SHAPE * o.share)
-    return next(larger, "")
+    before = zip(selection.rounds, found[: found.index(effect)]) if port else ()
+    for turn, other in before:
+        is_small = by_name[other.name].port == port and effect.share < ANOTHER_SHAPE * other.share
+        if is_small and turn.correlation.get(effect.name, 0.0) > SAME_PORT:
+            return other.name
+    return ""
 
 
 def _named(selection: Selection, number: int, by_name) -> Named:
