@@ -24,6 +24,7 @@ OF_ROAD = 0.2
 """Share of the explainable error below which what was found may be what a road that is otherwise looks like: forces of any form take up
 to 0.13 where nothing but noise of the road is wrong."""
 
+
 def diagnose(
     measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0,
     workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,

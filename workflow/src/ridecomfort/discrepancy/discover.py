@@ -24,6 +24,7 @@ from .select import search
 from .selection import Selection
 from .verdict import plain, total_shares
 
+
 @dataclass(frozen=True)
 class Discovery:
     """A proposed effect: ``place``, its ``terms`` with factors by part of the car, ``form`` in words, shares removed, and
