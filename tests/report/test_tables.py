@@ -218,3 +218,8 @@ def test_heading_spans_neighbours_with_the_same_words():
     assert small.printed(1, 2) == "2.2"
     with pytest.raises(ValueError, match="2 cells under 3 columns"):
         Table("small", "", columns, (("row", 3),), ())
+
+
+def test_a_number_below_nil_is_printed_with_a_minus_and_one_that_rounds_to_nil_without():
+    small = Table("small", "", (Column("a", ("A",), ".1f"),), ((-1.25,), (-0.04,), (0.04,)), ())
+    assert [small.printed(row, 0) for row in range(3)] == ["−1.2", "0.0", "0.0"]

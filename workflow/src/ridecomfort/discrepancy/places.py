@@ -207,7 +207,8 @@ def in_words(place: str, terms: Factors) -> str:
     by_result: dict[str, list[str]] = {}
     for name, factors in terms.items():
         term = PLACES[place].terms[name]
-        size = " and ".join(f"{value:.4g} {term.unit} {part}".rstrip() for part, value in factors.items())
+        unit = "" if term.unit == "1" else f" {term.unit}"
+        size = " and ".join(f"{value:.4g}{unit} {part}".rstrip() for part, value in factors.items())
         slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
         at = f" at {term.ahead}" if term.ahead else ""
         expression = f"({term.expression})" if term.states and " " in term.expression else term.expression

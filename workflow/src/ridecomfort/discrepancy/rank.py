@@ -194,7 +194,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
 def _sizes_in_words(trial, experiment) -> str:
     candidate = next(c for c in experiment.candidates if c.name == trial.name)
     return ", ".join(
-        f"{size.key.partition('.')[2]} {trial.fit.values[size.key]:.4g} {size.unit}"
+        f"{size.key.partition('.')[2]} {trial.fit.values[size.key]:.4g} {size.unit}".removesuffix(" 1")
         for size in candidate.sizes
         if size.key in trial.fit.values
     )

@@ -89,7 +89,8 @@ class Table:
         if isinstance(value, str):
             return value
         text = _format(value, self.columns[column].format)
-        return text.replace("-", "−") if text.startswith("-") else text
+        is_nil = not text.strip("-0.")  # rounded to none, it has no sign
+        return text.replace("-", "" if is_nil else "−") if text.startswith("-") else text
 
     def heading_lines(self) -> list[list[tuple[str, int]]]:
         """The lines of the heading; each a list of text and the number of columns that it spans."""
