@@ -46,9 +46,12 @@ HELD_OUT_Z = 2.0
 
 WEAK = 16.0
 """Fall of the white loss of held-out drives below which not even the truth reaches HELD_OUT_Z half of the time: a change of that size
-falls by itself on average, with a standard deviation of twice its root. There any fall confirms what the fitted drives leave no doubt of.
-So it does for a first effect: beside drives without it a change makes the loss rise by as much on average, and from this size on a fall
-has a chance of 2 %. A later one may be what the shape of those before it leaves, on all drives, and has to do better."""
+falls by itself on average, with a standard deviation of twice its root. There a fall confirms what the fitted drives leave no doubt of that
+is more than chance without it, when the loss rises by as much on average. So it does for a first effect, however large; a later one may be
+what the shape of those before it leaves, on all drives, and has to do better."""
+
+ABSENT_Z = 1.645
+"""z of that chance: one in twenty."""
 
 MET = 0.01
 """White power of what an effect does to a drive held out, against that on a fitted one, below which the first cannot decide on it."""
@@ -265,9 +268,11 @@ class _Search:
         held_gain, held_z, is_weak = float("nan"), float("nan"), False
         if rung.check_frame is not None:
             held_gain = refit.information(rung.check_frame, held) - refit.information(rung.check_frame, rung.check)
-            held_z = refit.advantage(rung.check_frame, held, rung.check)[1]
+            fall, held_z = refit.advantage(rung.check_frame, held, rung.check)
             change = rung.check_frame.flat(held) - rung.check_frame.flat(rung.check)
-            is_weak = candidate.name in self.certain and (not self.accepted or float(change @ change) < WEAK)
+            size = float(change @ change)
+            is_there = fall > 2.0 * ABSENT_Z * np.sqrt(size) - size
+            is_weak = candidate.name in self.certain and is_there and (not self.accepted or size < WEAK)
         met = not self.held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
         if not met:
             held_gain, held_z = float("nan"), float("nan")
