@@ -25,7 +25,7 @@ def test_it_is_sure_too_where_held_out_drives_have_nothing_above_their_floor():
     assert reconsidered(NOTHING, replace(SURE, held_out_share=float("nan"))).verdict == "outside"
 
 
-@pytest.mark.parametrize("doubt", [{"p_value": 0.03}, {"held_out_share": 0.1}, {"place": ""}])
+@pytest.mark.parametrize("doubt", [{"p_value": 0.03}, {"share": 0.15}, {"held_out_share": 0.1}, {"place": ""}])
 def test_a_doubtful_one_changes_nothing(doubt):
     assert reconsidered(NOTHING, replace(SURE, **doubt)) is NOTHING
 

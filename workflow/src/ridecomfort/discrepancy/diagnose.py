@@ -20,9 +20,9 @@ from .verdict import CONFIRMED, DOUBTFUL, Verdict
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
-OF_ROAD = 0.2
-"""Share of the explainable error below which what was found may be what a road that is otherwise looks like: forces of any form take up
-to 0.13 where nothing but noise of the road is wrong."""
+LITTLE = 0.2
+"""Share of the explainable error below which what was found may be what a road that is otherwise looks like, or a driver: forces of any
+form take up to 0.13 where nothing but noise of the road is wrong."""
 
 
 def diagnose(
@@ -59,7 +59,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     """
     said = f"a force at the {proposal.place} that the library does not hold"
     # Beside noise of the road, which weighs more the weaker an effect is, any fall on drives held out will do.
-    is_more_than_noise = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > OF_ROAD and proposal.held_out_share > 0
+    is_more_than_noise = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > LITTLE and proposal.held_out_share > 0
     if verdict.verdict == "nothing" and is_sure(proposal) or verdict.verdict == "suspect" and is_more_than_noise:
         return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
@@ -68,7 +68,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
         return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_road_open and not more:
-        if not verdict.share >= OF_ROAD:
+        if not verdict.share >= LITTLE:
             return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
         return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
     return verdict
@@ -79,7 +79,7 @@ def _said(verdict: Verdict, kind: str, reason: str) -> Verdict:
 
 
 def is_sure(proposal: Discovery) -> bool:
-    """Whether a proposed form is more than chance, by its p-value and by what it does on drives held out, if any."""
-    if not proposal.place or proposal.p_value > SURE:
+    """Whether a proposed form is more than chance, by its p-value, its share, and what it does on drives held out, if any."""
+    if not proposal.place or proposal.p_value > SURE or not proposal.share > LITTLE:
         return False
     return not np.isfinite(proposal.held_out_share) or proposal.held_out_share > CONFIRMED
