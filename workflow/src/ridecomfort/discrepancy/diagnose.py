@@ -52,7 +52,8 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. What is named becomes "outside" where
-    such a force explains more of the fitted drives, and no less of those held out. Where the road may be another than that of its file, by
+    such a force explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error beside
+    what is named, more of the first and not much less of the others will do. Where the road may be another than that of its file, by
     noise of its points or by what lies between them (``is_road_open``), which repeats share as well, "outside" becomes what the library
     has unless such a force explains more ("suspect" where that is little), and "suspect" for that becomes "outside" if such a force
     explains more than noise could.
@@ -64,7 +65,11 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
         return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     more = is_sure(proposal) and proposal.share > BETTER * verdict.share
-    if verdict.verdict in ("named", "cluster") and more and not proposal.held_out_share < held_out:
+    if verdict.is_left:  # which the force may be, where it is as good
+        is_better = is_sure(proposal) and proposal.share > verdict.share and not BETTER * proposal.held_out_share < held_out
+    else:
+        is_better = more and not proposal.held_out_share < held_out
+    if verdict.verdict in ("named", "cluster") and is_better:
         return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_road_open and not more:

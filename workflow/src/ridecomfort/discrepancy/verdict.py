@@ -17,8 +17,7 @@ ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
 
 DOUBTFUL = 0.8
-"""Share of the explainable error below which an error that repeats surely share beside it is that of something else, and below which what
-was named may be the work of something that is not in the library."""
+"""Share of the explainable error below which what was named may be the work of something that is not in the library."""
 
 SHARED_Z = 3.0
 """z of the error that repeats still share above which something is left to explain."""
@@ -68,13 +67,15 @@ class Named:
 
 @dataclass(frozen=True)
 class Verdict:
-    """``verdict`` is one of KINDS; ``effects`` in the order in which they were found; ``reasons`` in words."""
+    """``verdict`` is one of KINDS; ``effects`` in the order in which they were found; ``reasons`` in words; ``is_left``: whether repeats
+    surely share an error still that is worth explaining."""
 
     verdict: str
     effects: tuple[Named, ...]
     reasons: tuple[str, ...]
     share: float
     held_out_share: float
+    is_left: bool = False
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
@@ -145,7 +146,7 @@ def _balance(selection: Selection, notes: Sequence[str], is_material: bool) -> _
     is_refuted = is_met and held_out < CONFIRMED
     is_shared = selection.shared_z > SHARED_Z or not selection.repeats
     may_be_left = selection.remaining.z > LEFT_Z or not selection.repeats
-    is_little = is_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < DOUBTFUL and is_left)
+    is_little = is_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < ENOUGH and is_left)
     return _Balance(share, held_out, explained, is_refuted, is_left, is_little)
 
 
@@ -187,7 +188,7 @@ def judge(
         kind = "nothing"
         if something_left(selection):
             reasons.append(f"repeats share an error, too small to matter: {selection.remaining}")
-    return Verdict(kind, tuple(effects), (*reasons, _floor(selection)), balance.share, balance.held_out)
+    return Verdict(kind, tuple(effects), (*reasons, _floor(selection)), balance.share, balance.held_out, balance.is_left)
 
 
 def _removed(balance: _Balance) -> list[str]:
