@@ -232,9 +232,10 @@ class Car:
     def taking(self, other: Car, indices: Collection[int]) -> Car:
         """The same with these records as ``other`` has them."""
         mixed = lambda mine, its: [its[i] if i in indices else one for i, one in enumerate(mine)]
-        own = {index: other.driven[index] for index in indices if index in other.driven}
+        driven = {i: known for i, known in self.driven.items() if i not in indices}
+        driven |= {i: known for i, known in other.driven.items() if i in indices}
         return replace(
-            self, replays=mixed(self.replays, other.replays), records=mixed(self.records, other.records), driven={**self.driven, **own}
+            self, replays=mixed(self.replays, other.replays), records=mixed(self.records, other.records), driven=driven
         )
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
