@@ -58,7 +58,8 @@ def error_ladder(study: Difference) -> Table:
         f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
-        "much as there was to explain of its own error.",
+        "much as there was to explain of its own error. The floor is the least that any rung shown reaches: beside fewer rungs it lies "
+        "higher, and the same model leaves less above it.",
         "; ".join(floors) + ".",
     )
     return _table(study, "error_ladder", columns, rows, sources, notes, breaks[1:], frozenset(bold))
