@@ -107,6 +107,12 @@ def test_axes_are_labelled_with_units_and_nothing_is_cut_off(name, drawn):
     assert box.x0 > -0.02 and box.y0 > -0.02 and box.x1 < width + 0.02 and box.y1 < height + 0.02
 
 
+@pytest.mark.parametrize("name", list(catalogue.difference_figures(["ts1"])))
+def test_rates_are_said_in_words(name, drawn):
+    said = " ".join(text.get_text() for text in drawn[name].findobj(Text))
+    assert "pitch rate" in said and "-rate" not in said
+
+
 def test_stand_in_is_said(tables, study):
     assert all(any(note.startswith("Stand-in data") for note in made.notes) for made in tables.values())
     own = Difference(tuple(Compared(s.name, s.measured, s.comparison) for s in study.sites), study.ladder)

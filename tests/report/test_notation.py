@@ -24,5 +24,6 @@ def test_forms(text, plain, html, latex):
 def test_symbols_and_units_of_the_vocabulary():
     assert notation.symbol("a_z") == "$a_z$"
     assert notation.symbol("suspension_friction.front") == "suspension friction: front"
+    assert notation.signal("a_z") == "$a_z$" and notation.signal("pitch_rate") == "pitch rate"
     assert notation.unit("m/s2") == "m/s²"
     assert notation.unit("m/km") == "m/km"

@@ -80,6 +80,11 @@ def symbol(name: str) -> str:
     return SYMBOLS.get(name, words(name))
 
 
+def signal(name: str) -> str:
+    """A signal where model and measurement are compared: accelerations by symbol, rates in words."""
+    return words(name) if name.endswith("_rate") else symbol(name)
+
+
 def words(name: str) -> str:
     """A name of the files in words: ``suspension friction: front`` for ``suspension_friction.front``."""
     return name.replace("_", " ").replace(".", ": ")

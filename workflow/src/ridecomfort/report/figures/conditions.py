@@ -7,8 +7,7 @@ from matplotlib.figure import Figure
 
 from ...discrepancy.response import INPUT
 from ...vocabulary import SIGNALS
-from .. import style
-from ..notation import symbol
+from .. import notation, style
 from ..study import Difference
 from ..units import printed
 
@@ -46,7 +45,7 @@ def conditions(study: Difference, site: str) -> Figure:
             share = np.maximum(100 * above / np.maximum(own["condition_measured"].sum("band").values, 1e-30), SMALLEST)
             shown += share.tolist()
             colour, marker = style.SIGNAL_LINES[signal]
-            axes.plot(middle, share, color=colour, marker=marker, markersize=3.5, label=symbol(signal))
+            axes.plot(middle, share, color=colour, marker=marker, markersize=3.5, label=notation.signal(signal))
         axes.set_yscale("log")
         axes.set_xlabel(label)
         axes.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
@@ -78,8 +77,8 @@ def responses(study: Difference, site: str) -> Figure:
                 values = one["road_coherence"].sel(source=source).values[kept]
                 coherent.plot(frequency, values, color=colour, linewidth=0.7, linestyle=(0, (2, 1)), label=f"{source} and road")
             road.set_yscale("log")
-        road.set_ylabel(f"{symbol(signal)}\n[{unit} per m/s]")
-        road.set_title(f"road {INPUTS[INPUT[signal]]} → {symbol(signal)}")
+        road.set_ylabel(f"{notation.signal(signal)}\n[{unit} per m/s]")
+        road.set_title(f"road {INPUTS[INPUT[signal]]} → {notation.signal(signal)}")
         gain.axhline(1.0, color=style.FAINT, linewidth=0.7)
         gain.plot(frequency, one["model_gain"].values[kept], color=style.ERROR)
         gain.set_ylim(0.0, 2.0)

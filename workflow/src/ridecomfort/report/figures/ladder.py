@@ -9,8 +9,7 @@ from matplotlib.lines import Line2D
 
 from ...discrepancy import ladder as rungs
 from ...vocabulary import SIGNALS
-from .. import catalogue, style
-from ..notation import symbol
+from .. import catalogue, notation, style
 from ..study import Difference
 from ..tables.ladder import METHODS, rung_title
 
@@ -56,7 +55,7 @@ def error_ladder(study: Difference) -> Figure:
     panels[-1, 0].set_ylabel("sections unlike measured [%]")
     panels[-1, 0].set_ylim(bottom=0.0)
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
-    lines = [key(look, symbol(signal)) for signal, look in style.SIGNAL_LINES.items()]
+    lines = [key(look, notation.signal(signal)) for signal, look in style.SIGNAL_LINES.items()]
     lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals (numbers)"))
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor (repeats)"))
     lines += [key(look, METHODS[name]) for name, look in COLOURS.items()]

@@ -11,8 +11,7 @@ from matplotlib.patches import Rectangle
 from ...discrepancy import findings
 from ...discrepancy.locate import BANDS
 from ...vocabulary import SIGNALS
-from .. import style
-from ..notation import symbol
+from .. import notation, style
 from ..study import Difference
 from ..tables.difference import floor_note
 from ..units import printed
@@ -43,7 +42,7 @@ def located(study: Difference, site: str) -> Figure:
         left.set_ylim(BANDS[0][0], BANDS[-1][1])
         left.set_yticks([1, 2, 5, 10, 20, 40], ["1", "2", "5", "10", "20", "40"])
         left.minorticks_off()
-        left.set_ylabel(f"{symbol(signal)}\nfrequency [Hz]")
+        left.set_ylabel(f"{notation.signal(signal)}\nfrequency [Hz]")
         _boxes(left, errors, signal, place)
         _spectra(right, found.sel(signal=signal), signal)
         right.set_yscale("log")
@@ -56,7 +55,7 @@ def located(study: Difference, site: str) -> Figure:
     bar.set_label("error above the floor [% of the signal's power per octave]")
     top[0].xaxis.set_ticks_position("top")
     top[0].xaxis.set_label_position("top")
-    lines = [f"{k}  {symbol(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
+    lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
     lines = lines or ["Nothing above the floor is worth a sentence."]
     words = [*lines, f"{chosen.label}, model {study.model}, {found.attrs['located_state']}; {floor_note(chosen)}"]
     below = panels[-1][0]

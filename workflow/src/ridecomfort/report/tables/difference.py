@@ -7,8 +7,7 @@ import numpy as np
 from ...discrepancy import findings as located
 from ...discrepancy import judged, ladder
 from ...vocabulary import SIGNALS
-from .. import catalogue
-from ..notation import symbol
+from .. import catalogue, notation
 from ..study import Compared, Difference
 from ..table import Column, Source, Table
 from ..units import printed
@@ -64,7 +63,7 @@ def findings(study: Difference) -> Table:
         for number, each in enumerate(located.findings(site.comparison), start=1):
             shares = 100 * each.power_share, 100 * each.explainable_share
             band = f"{each.lower:g}–{each.upper:g}"
-            rows.append((site.label, number, symbol(each.signal), band, each.where, each.when or "any time", *shares))
+            rows.append((site.label, number, notation.signal(each.signal), band, each.where, each.when or "any time", *shares))
         if len(rows) == breaks[-1]:
             rows.append((site.label, None, "none", "", "", "", None, None))
         rule = "largest shares over bands, attribute words has them as sentences"
@@ -100,7 +99,7 @@ def explainable(study: Difference) -> Table:
                 errors = [factor * mean("rmse", 0), factor * mean("rmse", -1), mean("nrmse", 0), mean("nrmse", -1)]
                 share = 100 * left / (left + floor**2) if left + floor**2 > 0 else None
                 rows.append(
-                    (site.label, group, symbol(signal), unit, *errors, factor * floor, factor * np.sqrt(left), share,
+                    (site.label, group, notation.signal(signal), unit, *errors, factor * floor, factor * np.sqrt(left), share,
                      100 * left / first if first > 0 else None)
                 )  # fmt: skip
         names = "rmse, nrmse, floor_rmse, explainable_rmse"

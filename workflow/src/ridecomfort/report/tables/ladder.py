@@ -8,8 +8,7 @@ import xarray as xr
 from ...discrepancy import judged
 from ...discrepancy import ladder as rungs
 from ...vocabulary import SIGNALS
-from .. import catalogue
-from ..notation import symbol, words
+from .. import catalogue, notation
 from ..study import Difference
 from ..table import Column, Source, Table
 from ..units import printed
@@ -20,14 +19,14 @@ FLOOR = "floor"
 
 def rung_title(name: str) -> str:
     """A rung in print: names of effects in words."""
-    return words(name) if name.startswith("+") else name
+    return notation.words(name) if name.startswith("+") else name
 
 
 def error_ladder(study: Difference) -> Table:
     """Error and share of the explainable error left, by site, group of drives, rung and signal; the floor last."""
     columns = [Column("site", ("", "Site")), Column("drives", ("", "Drives")), Column("model", ("", "Model"))]
     for signal in SIGNALS:
-        title = f"{symbol(signal)} [{printed(signal)[1]}]"
+        title = f"{notation.signal(signal)} [{printed(signal)[1]}]"
         unit = printed(signal)[1].replace("/", "_per_").replace("²", "2")
         columns.append(Column(f"{signal}_rmse_{unit}", (title, "RMSE"), ".4f"))
         columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
