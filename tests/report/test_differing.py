@@ -9,6 +9,7 @@ from matplotlib.text import Text
 
 from ridecomfort.discrepancy import findings
 from ridecomfort.report import catalogue, differing, style, table
+from ridecomfort.report.figures import located
 from ridecomfort.report.study import Compared, Difference
 from tests.report import differing as made_up
 
@@ -94,6 +95,22 @@ def test_findings_are_numbered_alike_in_table_and_figure(tables, drawn, study):
         row = next(row for row in rows(tables["findings"]) if row["site"] == "Ts1" and row["number"] == number)
         assert row["power_pct"] == pytest.approx(100 * each.power_share)
         assert str(number) in words and any(each.words().removeprefix(each.signal) in text for text in words)
+
+
+def test_maps_of_two_models_compare_by_their_colours(study):
+    site = study.sites[0]
+    better = Compared(site.name, site.measured, made_up.comparison((0.5, 0.1)))
+    perfect = Compared(site.name, site.measured, made_up.comparison((0.5, 0.01)))
+    maps, said = [], []
+    for each in (site, better, perfect):
+        with style.styled():
+            made = located.located(Difference((each,), study.ladder), site.name)
+        maps.append(next(axes.collections[0] for axes in made.axes if axes.get_ylabel().startswith("$a_z$")))
+        said.append(" ".join(text.get_text() for text in made.findobj(Text)))
+    assert len({(image.norm.vmin, image.norm.vmax) for image in maps}) == 1
+    brightness = [np.nanmean(image.to_rgba(image.get_array())) for image in maps]
+    assert brightness[0] < brightness[1] < brightness[2]
+    assert "No error above the floor reaches 1 %" in said[2] and "No error above" not in said[0]
 
 
 @pytest.mark.parametrize("name", list(catalogue.difference_figures(["ts1", "ts2"])))

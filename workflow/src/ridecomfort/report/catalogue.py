@@ -167,8 +167,9 @@ def difference_figures(sites: Iterable[str]) -> dict[str, str]:
     found = {}
     for name in sites:
         found[f"located_{name}"] = (
-            f"{label(name)}: where simulated and measured drives differ. Left: error above the floor by place and frequency; "
-            "numbered boxes are the findings in words below. Right: spectra of signal, error and floor."
+            f"{label(name)}: where simulated and measured drives differ. Left: error above the floor by place and frequency, in colours "
+            "that mean the same for every model and site, and in all; numbered boxes are the findings in words below, at most five "
+            "errors of 1 % of the signal's power or more in a band. Right: spectra of signal, error and floor."
         )
         found[f"conditions_{name}"] = (
             f"{label(name)}: error above the floor, as a share of the measured power, by the conditions of the drive. "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from matplotlib.colors import PowerNorm
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -16,8 +16,15 @@ from ..study import Difference
 from ..tables.difference import floor_note
 from ..units import printed
 
-BRIGHTEST = 99.0
-"""Percentile of the map that the end of its colours stands for."""
+PALEST, DARKEST = 0.1, 30.0
+"""Ends of the colours in percent of the signal's power per octave: the same for every model and site, so that maps compare."""
+
+TICKS = (0.1, 0.3, 1, 3, 10, 30)
+
+PER_OCTAVE = 6
+"""Rows of the map in an octave: single lines of a short spectrum scatter so much that noise would look like error."""
+
+NOTHING = f"No error above the floor reaches {100 * findings.NAMED:g} % of its signal's power in any band; above the maps, all that is left."
 
 
 def located(study: Difference, site: str) -> Figure:
@@ -25,38 +32,39 @@ def located(study: Difference, site: str) -> Figure:
     chosen = next(each for each in study.sites if each.name == site)
     found = chosen.comparison
     errors = findings.findings(found)
-    maps = {signal: _above(found.sel(signal=signal)) for signal in SIGNALS}
-    brightest = np.nanpercentile(np.stack(list(maps.values())), BRIGHTEST)
     drawn = style.figure(style.DOUBLE, 9.2)
     panels = drawn.subplots(
         len(SIGNALS) + 2, 2, width_ratios=(3.2, 1.0), height_ratios=(0.08, *[1.0] * len(SIGNALS), 1.05), squeeze=False
     )
     top, panels = panels[0], panels[1:]
-    place, frequency = found["s_map"].values / 1000, found["frequency_map"].values
+    place = found["s_map"].values / 1000
     for (left, right), signal in zip(panels, SIGNALS):
-        image = left.pcolormesh(
-            place, frequency, maps[signal].T, cmap="YlOrBr", norm=PowerNorm(0.5, 0.0, max(brightest, 1e-9)), shading="nearest",
-            rasterized=True,
-        )  # fmt: skip
+        own = found.sel(signal=signal)
+        frequency, above = _above(own)
+        colours = {"cmap": "YlOrBr", "norm": LogNorm(PALEST, DARKEST)}
+        image = left.pcolormesh(place, frequency, np.maximum(above, PALEST).T, **colours, shading="nearest", rasterized=True)
+        left.set_title(f"in all {max(100 * float(own['power_share'].sum()), 0.0):.1f} % of the signal's power", loc="right", fontsize=7)
         left.set_yscale("log")
         left.set_ylim(BANDS[0][0], BANDS[-1][1])
         left.set_yticks([1, 2, 5, 10, 20, 40], ["1", "2", "5", "10", "20", "40"])
         left.minorticks_off()
         left.set_ylabel(f"{notation.signal(signal)}\nfrequency [Hz]")
         _boxes(left, errors, signal, place)
-        _spectra(right, found.sel(signal=signal), signal)
+        _spectra(right, own, signal)
         right.set_yscale("log")
         right.set_ylim(left.get_ylim())
         right.set_yticks([1, 2, 5, 10, 20, 40], [""] * 6)
         right.minorticks_off()
         left.tick_params(labelbottom=signal == SIGNALS[-1])
     panels[len(SIGNALS) - 1][0].set_xlabel("distance along the road [km]")
-    bar = drawn.colorbar(image, cax=top[0], orientation="horizontal")
-    bar.set_label("error above the floor [% of the signal's power per octave]")
+    bar = drawn.colorbar(image, cax=top[0], orientation="horizontal", extend="both")
+    bar.set_ticks(TICKS, labels=[f"{tick:g}" for tick in TICKS])
+    bar.ax.minorticks_off()
+    bar.set_label("error above the floor, same colours for every model [% of the signal's power per octave]")
     top[0].xaxis.set_ticks_position("top")
     top[0].xaxis.set_label_position("top")
     lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
-    lines = lines or ["Nothing above the floor is worth a sentence."]
+    lines = lines or [NOTHING]
     words = [*lines, f"{chosen.label}, model {study.model}, {found.attrs['located_state']}; {floor_note(chosen)}"]
     below = panels[-1][0]
     for axes in (*panels[-1], top[1]):
@@ -70,11 +78,14 @@ def located(study: Difference, site: str) -> Figure:
     return drawn
 
 
-def _above(found: xr.Dataset) -> np.ndarray:
-    """Error above the floor, (place, frequency), in percent of the signal's measured power per octave."""
-    above = np.maximum(found["error_map"].values - found["floor_density"].values, 0.0)
-    power = float(found["measured_power"].sum())
-    return 100 * np.log(2) * found["frequency_map"].values * above / (power or np.inf)
+def _above(found: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (Hz), and error above the floor, (place, frequency), in percent of the signal's measured power per octave."""
+    lines = found["frequency_map"].values
+    rows = np.unique(np.round(PER_OCTAVE * np.log2(lines)), return_inverse=True)[1]
+    mean = lambda values: np.stack([values[..., rows == row].mean(axis=-1) for row in range(rows.max() + 1)], axis=-1)  # noqa: E731
+    frequency, power = mean(lines), float(found["measured_power"].sum())
+    above = mean(found["error_map"].values - found["floor_density"].values)
+    return frequency, 100 * np.log(2) * frequency * np.maximum(above, 0.0) / (power or np.inf)
 
 
 def _boxes(axes, errors, signal: str, place: np.ndarray) -> None:

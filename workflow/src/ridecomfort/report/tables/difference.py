@@ -57,7 +57,8 @@ def findings(study: Difference) -> Table:
         Column("power_pct", ("Error above the floor", "[% of the signal's power]"), ".1f"),
         Column("explainable_pct", ("Error above the floor", "[% of the explainable]"), ".0f"),
     )
-    rows, sources, breaks, notes = [], [], [], []
+    notes = [f"Found is what reaches {100 * located.NAMED:g} % of the signal's power in a band, at most five a site."]
+    rows, sources, breaks = [], [], []
     for site in study.sites:
         breaks.append(len(rows))
         for number, each in enumerate(located.findings(site.comparison), start=1):
