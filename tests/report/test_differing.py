@@ -9,7 +9,7 @@ from matplotlib.text import Text
 
 from ridecomfort.discrepancy import findings
 from ridecomfort.report import catalogue, differing, style, table
-from ridecomfort.report.figures import located
+from ridecomfort.report.figures import conditions, located
 from ridecomfort.report.study import Compared, Difference
 from tests.report import differing as made_up
 
@@ -122,6 +122,23 @@ def test_axes_are_labelled_with_units_and_nothing_is_cut_off(name, drawn):
         box = each.get_tightbbox(FigureCanvasAgg(each).get_renderer())
     width, height = each.get_size_inches()
     assert box.x0 > -0.02 and box.y0 > -0.02 and box.x1 < width + 0.02 and box.y1 < height + 0.02
+
+
+def test_conditions_have_the_same_axis_for_every_model_with_ticks_to_read_it_by(drawn, study):
+    better = Compared("ts1", study.sites[0].measured, made_up.comparison((0.5, 0.1)))
+    with style.styled():
+        other = conditions.conditions(Difference((better,), study.ladder), "ts1").axes[0]
+    axes = drawn["conditions_ts1"].axes[0]
+    assert axes.get_ylim() == other.get_ylim()
+    low, high = axes.get_ylim()
+    assert sum(low <= tick <= high for tick in axes.get_yticks()) > 6
+
+
+def test_responses_say_who_is_who_and_how_they_are_read(drawn):
+    legend = drawn["responses_ts1"].legends[0]
+    said = " ".join(text.get_text() for text in legend.get_texts())
+    assert "measured drives" in said and "model on the same paths" in said
+    assert "not linear" in legend.get_title().get_text()
 
 
 @pytest.mark.parametrize("name", list(catalogue.difference_figures(["ts1"])))

@@ -172,12 +172,14 @@ def difference_figures(sites: Iterable[str]) -> dict[str, str]:
             "errors of 1 % of the signal's power or more in a band. Right: spectra of signal, error and floor."
         )
         found[f"conditions_{name}"] = (
-            f"{label(name)}: error above the floor, as a share of the measured power, by the conditions of the drive. "
-            "Each point is a fifth of the driving time."
+            f"{label(name)}: error above the floor in percent of the signal's power under the same condition of the drive. "
+            "Each point is a fifth of the driving time; the axis is the same for every model."
         )
         found[f"responses_{name}"] = (
-            f"{label(name)}: transfer functions from the road to the signals, measured and simulated side by side; gain of "
-            "measured over simulated; coherence."
+            f"{label(name)}: how the signals answer to the road. Left: gain from the road, of the measured drives (dark) and of the model "
+            "on the same paths (blue). Middle: gain of drives over model, above 1 where the model moves too little. Right: coherence, of "
+            "each with the road (dashed) and of drives with model (orange); below 1 it shows noise, a wrong path or clock, other inputs, "
+            "or what is not linear, such as friction."
         )
     return found | DIFFERENCE_FIGURES
 

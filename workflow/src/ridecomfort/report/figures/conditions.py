@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator
 
 from ...discrepancy.response import INPUT
 from ...vocabulary import SIGNALS
@@ -20,21 +21,30 @@ AXES = {
 }
 """Axis label of each condition, and the factor from its SI unit."""
 
-SMALLEST = 0.1
-"""Percent below which an error is not drawn."""
+SMALLEST, LARGEST = 0.1, 100.0
+"""Percent that the axis reaches from and at least to, so that models compare; what is less, or below the floor, is drawn at its end."""
 
-TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200)
+TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)
 
 INPUTS = {"road_heave": "up and down", "road_tilt": "left against right"}
 
+SOURCES = {"measured": ("measured drives", style.MEASURED), "simulated": ("model on the same paths", style.CALIBRATED)}
+"""Label and colour of what answers to the road."""
+
+READ = (
+    "Gain of drives over model: above 1 the model moves too little, below 1 too much. Coherence: 1 where one follows from the other\n"
+    "by gain and phase alone; noise, a wrong path or clock and what is not linear (friction) lower it; with the road, other inputs, too."
+)
+"""How the figure is read."""
+
 
 def conditions(study: Difference, site: str) -> Figure:
-    """Error above the floor over the power under the same condition, a panel for each condition, a line for each signal."""
+    """Error above the floor in percent of the signal's power under the same condition, a panel each condition, a line each signal."""
     found = next(each for each in study.sites if each.name == site).comparison
     names = [name for name in AXES if name in found["condition"].values]
-    drawn = style.figure(style.DOUBLE, 5.0)
+    drawn = style.figure(style.DOUBLE, 5.6)
     panels = drawn.subplots(2, 3, sharey=True).ravel()
-    shown = []
+    highest = LARGEST
     for axes, name in zip(panels, names):
         label, factor = AXES[name]
         one = found.sel(condition=name)
@@ -43,26 +53,26 @@ def conditions(study: Difference, site: str) -> Figure:
             own = one.sel(signal=signal)
             above = (own["condition_error"] - own["band_floor"]).sum("band").values
             share = np.maximum(100 * above / np.maximum(own["condition_measured"].sum("band").values, 1e-30), SMALLEST)
-            shown += share.tolist()
+            highest = max(highest, share.max())
             colour, marker = style.SIGNAL_LINES[signal]
             axes.plot(middle, share, color=colour, marker=marker, markersize=3.5, label=notation.signal(signal))
         axes.set_yscale("log")
         axes.set_xlabel(label)
-        axes.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
+        axes.set_yticks(TICKS, [f"≤ {SMALLEST:g}", *(f"{tick:g}" for tick in TICKS[1:])])
         axes.minorticks_off()
         axes.yaxis.grid(True)
-    panels[0].set_ylim(0.8 * min(shown), 1.25 * max(shown))
+    panels[0].set_ylim(0.8 * SMALLEST, 1.25 * highest)
     for axes in panels[len(names) :]:
         axes.set_axis_off()
     for axes in (panels[0], panels[3]):
-        axes.set_ylabel("error above floor [% of power]")
+        axes.set_ylabel("error above the floor\n[% of the signal's power there]")
     handles, labels = panels[0].get_legend_handles_labels()
     panels[-1].legend(handles, labels, loc="center", ncols=2, title="signal")
     return drawn
 
 
 def responses(study: Difference, site: str) -> Figure:
-    """Columns: gain from the road, measured and simulated; gain of measured over simulated; coherences. A row for each signal."""
+    """Columns: gain from the road, of drives and model; gain of drives over model; coherences. A row for each signal."""
     found = next(each for each in study.sites if each.name == site).comparison
     drawn = style.figure(style.DOUBLE, 8.6)
     panels = drawn.subplots(len(SIGNALS), 3, sharex=True)
@@ -72,19 +82,23 @@ def responses(study: Difference, site: str) -> Figure:
     for (road, gain, coherent), signal in zip(panels, SIGNALS):
         one, (factor, unit) = found.sel(signal=signal), printed(signal)
         if "road_gain" in found:
-            for source, colour in (("measured", style.MEASURED), ("simulated", style.CALIBRATED)):
-                road.plot(frequency, factor * one["road_gain"].sel(source=source).values[kept], color=colour, label=source)
-                values = one["road_coherence"].sel(source=source).values[kept]
-                coherent.plot(frequency, values, color=colour, linewidth=0.7, linestyle=(0, (2, 1)), label=f"{source} and road")
+            for source, (label, colour) in SOURCES.items():
+                values = factor * one["road_gain"].sel(source=source).values[kept]
+                road.plot(frequency, values, color=colour, label=f"gain from the road, {label}")
+                look = {"color": colour, "linewidth": 0.7, "linestyle": (0, (2, 1)), "label": f"coherence with the road, {label}"}
+                coherent.plot(frequency, one["road_coherence"].sel(source=source).values[kept], **look)
             road.set_yscale("log")
+            road.yaxis.set_major_locator(LogLocator(subs=(1, 3)))
+            road.yaxis.set_major_formatter("{x:g}")
+            road.yaxis.set_minor_locator(NullLocator())
         road.set_ylabel(f"{notation.signal(signal)}\n[{unit} per m/s]")
         road.set_title(f"road {INPUTS[INPUT[signal]]} → {notation.signal(signal)}")
         gain.axhline(1.0, color=style.FAINT, linewidth=0.7)
-        gain.plot(frequency, one["model_gain"].values[kept], color=style.ERROR)
+        gain.plot(frequency, one["model_gain"].values[kept], color=style.ERROR, label="gain and coherence, drives against model")
         gain.set_ylim(0.0, 2.0)
         gain.set_ylabel("gain [-]")
-        gain.set_title("measured over simulated")
-        coherent.plot(frequency, one["model_coherence"].values[kept], color=style.ERROR, label="measured and simulated")
+        gain.set_title("drives over model")
+        coherent.plot(frequency, one["model_coherence"].values[kept], color=style.ERROR)
         coherent.set_ylim(0.0, 1.03)
         coherent.set_ylabel("coherence [-]")
         for axes in (road, gain, coherent):
@@ -94,9 +108,7 @@ def responses(study: Difference, site: str) -> Figure:
         axes.set_xticks([0.5, 1, 2, 5, 10, 20, 40], ["0.5", "1", "2", "5", "10", "20", "40"])
         axes.minorticks_off()
         axes.set_xlabel("frequency [Hz]")
-    handles, labels = panels[0][2].get_legend_handles_labels()
-    own = panels[0][0].get_legend_handles_labels()
-    labels = [*own[1], *(f"coherence of {label}" for label in labels)]
-    drawn.legend([*own[0], *handles], labels, loc="outside upper right", ncols=3)
+    handles = [line for axes in panels[0] for line in axes.get_legend_handles_labels()[0]]
+    drawn.legend(handles=handles, loc="outside upper left", ncols=2, title=READ, title_fontsize=7, alignment="left")
     drawn.align_ylabels(panels)
     return drawn
