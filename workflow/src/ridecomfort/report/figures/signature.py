@@ -24,8 +24,8 @@ AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
 
 
 def signature(found: Diagnosis) -> Figure:
-    """Estimated missing force with its 90 % interval at every place it could act, a column each axle, and what the named
-    effects would show together."""
+    """Estimated missing force with its 90 % interval at every place it could act, a column each axle, one scale for all panels of
+    the strut and one for those of the tyre, and what the named effects would show together."""
     ranking = found.ranking
     drawn = style.figure(style.DOUBLE, 5.8)
     if "missing_force" not in ranking:
@@ -34,11 +34,12 @@ def signature(found: Diagnosis) -> Figure:
         axes.text(0.5, 0.5, "The missing force was not estimated.", ha="center")
         return drawn
     places, axles = ranking["seen"].values, ranking["axle"].values
-    panels = drawn.subplots(len(places), len(axles), squeeze=False, sharey="row")
+    panels = drawn.subplots(len(places), len(axles), squeeze=False, sharex="row", sharey="row")
+    reaches = {kind: max(_reach(ranking.sel(seen=place)) for place in places if _kind(place) == kind) for kind in map(_kind, places)}
     for row, place in zip(panels, places):
         one = ranking.sel(seen=place)
         factor, unit = (1e3, "mm") if str(one["seen_unit"].item()) == "m" else (1.0, str(one["seen_unit"].item()))
-        reach, share = _reach(one), 100 * float(one["seen_share"])
+        reach, share = reaches[_kind(place)], 100 * float(one["seen_share"])
         for axes, axle in zip(row, axles):
             own = one.sel(axle=axle)
             force, error = own["missing_force"].values, BAND * own["missing_force_error"].values
@@ -66,6 +67,11 @@ def signature(found: Diagnosis) -> Figure:
     ]
     drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
+
+
+def _kind(place: str) -> str:
+    """What a force acts on, whose panels have one scale: the strut, the tyre."""
+    return str(place).split()[0]
 
 
 def _reach(one) -> float:
