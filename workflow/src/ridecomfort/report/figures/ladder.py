@@ -14,7 +14,13 @@ from ..study import Difference
 from ..tables.ladder import METHODS, rung_title
 
 TITLES = {rungs.FITTED: "fitted drives", rungs.HELD_OUT: "drives held out"}
-COLOURS = {"thresholds": ("#6A3D9A", "p"), "iso2631": ("#3A3A3A", "h")}
+LOOKS = {
+    "thresholds": {"color": "#6A3D9A", "marker": "p", "markersize": 4},
+    "iso2631": {"color": style.MEASURED, "marker": "h", "markersize": 4, "markerfacecolor": "white"},
+}
+DASHES = {"thresholds": (0, (4, 4)), "iso2631": (4, (4, 4))}
+"""Lines of the repeats by method, dashes of one in the gaps of the other where they coincide."""
+
 HIGHEST = 200.0
 """% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen."""
 
@@ -58,12 +64,12 @@ def error_ladder(study: Difference) -> Figure:
     lines = [key(look, notation.signal(signal)) for signal, look in style.SIGNAL_LINES.items()]
     lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals (numbers)"))
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor (repeats)"))
-    lines += [key(look, METHODS[name]) for name, look in COLOURS.items()]
-    lines.append(Line2D([], [], color=style.MEASURED, linestyle="--", linewidth=0.8, label="repeats among themselves"))
+    lines += [Line2D([], [], **look, label=f"{METHODS[name]}, model") for name, look in LOOKS.items()]
+    lines += [Line2D([], [], **_repeats(name), label=f"{title}, repeats") for name, title in METHODS.items()]
     if blank:
         blank[0].legend(handles=lines, loc="center left", ncols=2).set_in_layout(False)
     else:
-        drawn.legend(handles=lines, loc="outside upper center", ncols=6)
+        drawn.legend(handles=lines, loc="outside upper center", ncols=5)
     return drawn
 
 
@@ -88,15 +94,20 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
 def _sections(axes, chosen: xr.Dataset, groups, places: np.ndarray) -> None:
     """Lines of the share of sections that replays grade otherwise than measured; dashed, repeats among themselves."""
     part = chosen.sel(group=groups)
-    for method, (colour, marker) in COLOURS.items():
+    for method, look in LOOKS.items():
         own = part.sel({"method": method})
         compared = own["compared"].sum("group").values
         unlike = 100 * (compared - own["agreeing"].sum("group").values) / np.where(compared > 0, compared, np.nan)
-        axes.plot(*_known(places, unlike), color=colour, marker=marker, markersize=4)
+        axes.plot(*_known(places, unlike), **look)
         repeats = own["repeats_agreeing"].values
         if np.isfinite(repeats).any():
-            axes.axhline(100 * (1 - np.nanmean(repeats)), color=colour, linestyle="--", linewidth=0.8)
+            axes.axhline(100 * (1 - np.nanmean(repeats)), **_repeats(method))
     axes.yaxis.grid(True)
+
+
+def _repeats(method: str) -> dict:
+    """How the line is drawn of sections that repeats grade unlike one another."""
+    return {"color": LOOKS[method]["color"], "linestyle": DASHES[method], "linewidth": 0.8}
 
 
 def _known(places: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
