@@ -53,7 +53,7 @@ def test_every_form_can_be_written(tables):
 
 def test_the_ladder_begins_with_everything_and_ends_at_the_floor(tables, study):
     found = [row for row in rows(tables["error_ladder"]) if row["site"] == "Ts1" and row["drives"] == "fitted"]
-    assert [row["model"] for row in found] == ["uncalibrated", "calibrated", "+ suspension friction", "floor"]
+    assert [row["model"] for row in found] == ["uncalibrated", "calibrated", "+ suspension friction", "lowest floor"]
     assert found[1]["all_left_pct"] == pytest.approx(100.0) and found[1]["a_z_left_pct"] == pytest.approx(100.0)
     # The error falls from 0.4 to 0.1 of the signal, its square to a sixteenth.
     assert found[2]["all_left_pct"] == pytest.approx(100 / 16, abs=2.0)
@@ -132,6 +132,21 @@ def test_conditions_have_the_same_axis_for_every_model_with_ticks_to_read_it_by(
     assert axes.get_ylim() == other.get_ylim()
     low, high = axes.get_ylim()
     assert sum(low <= tick <= high for tick in axes.get_yticks()) > 6
+
+
+def test_every_line_of_the_ladder_has_a_key(drawn):
+    made = drawn["error_ladder"]
+    look = lambda line: (line.get_color(), line.get_marker(), line.get_linestyle() != "-")
+    legend = next(each for each in [*made.legends, *(axes.get_legend() for axes in made.axes)] if each)
+    assert {look(line) for axes in made.axes for line in axes.lines} <= {look(line) for line in legend.get_lines()}
+
+
+def test_the_floor_of_a_model_is_not_below_the_lowest_of_the_ladder(tables):
+    lowest = {(row["site"], row["drives"]): row for row in rows(tables["error_ladder"]) if row["model"] == "lowest floor"}
+    for row in rows(tables["explainable"]):
+        if row["signal"] == "$a_z$":
+            assert lowest[row["site"], row["drives"]]["a_z_rmse_m_per_s2"] <= row["floor_rmse"]
+    assert any("lowest of its models" in note for note in tables["explainable"].notes)
 
 
 def test_responses_say_who_is_who_and_how_they_are_read(drawn):

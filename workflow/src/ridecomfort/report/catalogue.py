@@ -81,15 +81,18 @@ SCORE_TABLES = {
 }
 
 DIFFERENCE_FIGURES = {
-    "error_ladder": "The error ladder: share of the explainable error that each model leaves, on fitted and on held-out drives, "
-    "and sections that the replays grade otherwise than the measured drives.",
+    "error_ladder": "The error ladder: share of the explainable error that each model, calibrated anew, leaves on fitted and on held-out "
+    "drives, and sections that the replays grade otherwise than the measured drives; dashed, repeats against one another.",
 }
 
 DIAGNOSIS_FIGURES = {
     "evidence": "Evidence for the effects of the library: fall of twice the negative log-likelihood in the score test, p-value "
-    "over the whole library, and the refits of the best on fitted and on held-out drives.",
+    "over the whole library, and the refits of the best on fitted and on held-out drives. What a refit removes is the search's first "
+    "estimate, above the floor as known in that round; the missing effects have it from the last fit of each round, the error ladder "
+    "from models calibrated anew.",
     "signature": "The force that the calibrated model lacks, estimated without a form in mind against what it could depend on. "
-    "What calibration could take up, a straight line, does not show; the named effects have passed through the same estimate.",
+    "What calibration could take up, a straight line, does not show; the named effects have passed through the same estimate. "
+    "All panels of the strut have one scale of force, and those of the tyre.",
 }
 
 ROAD_FIGURES = {

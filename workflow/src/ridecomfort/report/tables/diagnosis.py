@@ -82,8 +82,10 @@ def missing_effects(found: Diagnosis) -> Table:
         rows.append(("none", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
     sources = (Source("all", found.files.get("verdict", ""), "effects", "as in the file, shares in percent"),)
     notes = (
-        "Shares are of the explainable error of the calibrated model before any effect was added. Absorbed: share of the effect's response that "
-        "calibration can take up, and so hide.",
+        "Shares are of the explainable error of the calibrated model before any effect was added. Removed is what goes when an effect "
+        "joins those above it, all sizes fitted together and the drives aligned for them, above the floor that the last model shows: "
+        "the evidence has the refit that it was chosen by, above the floor of that round, and the error ladder what is left when the "
+        "study calibrates anew, site by site. Absorbed: share of the effect's response that calibration can take up, and so hide.",
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
 
@@ -132,7 +134,8 @@ def evidence(found: Diagnosis) -> Table:
     )
     notes = (
         "Gain: fall of twice the negative log-likelihood. The p-value is that of the largest gain over the whole library, by block "
-        "wild bootstrap. Every effect is tested; the best are refitted together with the calibrated parameters.",
+        "wild bootstrap. Every effect is tested; the best are refitted together with the calibrated parameters, and what that removes "
+        "is told above the floor as known in the round: for what an accepted effect removes in the end see the missing effects.",
     )
     return _table(found, "evidence", columns, rows, sources, notes, breaks[1:])
 

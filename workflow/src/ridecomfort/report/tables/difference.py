@@ -82,7 +82,7 @@ def explainable(study: Difference) -> Table:
         Column("unit", ("", "Unit")),
         *(Column(f"{key}_{state}", (title, word), ".4f") for key, title in (("rmse", "RMSE"), ("nrmse", "NRMSE [-]"))
           for state, word in (("uncalibrated", "uncalibrated"), ("model", "this model"))),
-        Column("floor_rmse", ("Floor", "RMSE"), ".4f"),
+        Column("floor_rmse", ("Floor, this model", "RMSE"), ".4f"),
         Column("explainable_rmse", ("Above the floor", "RMSE, this model"), ".4f"),
         Column("explainable_pct", ("Above the floor", "of the error [%]"), ".0f"),
         Column("left_pct", ("Above the floor", "of uncalibrated [%]"), ".0f"),
@@ -107,8 +107,10 @@ def explainable(study: Difference) -> Table:
         sources.append(Source(site.label, site.files.get("comparison", ""), names, "root of the mean square over the drives"))
         notes.append(f"{site.label}: {floor_note(site)}")
     notes.append(
-        "NRMSE: RMSE over the range of the measured signal. The floor is what no model of this road and car could explain; it and the "
-        f"error above it are from {judged.IN_WORDS}: slower errors are drifts of instruments and what the driver makes of the path."
+        "NRMSE: RMSE over the range of the measured signal. The floor is what no model of this road and car could explain, "
+        "as far as this model shows it: what it lacks differs between repeats, too, so a better one shows a lower floor, and the error "
+        f"ladder has the lowest of its models. Floor and error above it are from {judged.IN_WORDS}: slower errors are drifts of "
+        "instruments and what the driver makes of the path."
     )
     return _table(study, "explainable", columns, rows, sources, notes, breaks[1:])
 

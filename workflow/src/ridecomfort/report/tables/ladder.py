@@ -14,7 +14,7 @@ from ..table import Column, Source, Table
 from ..units import printed
 
 METHODS = {"thresholds": "Thresholds", "iso2631": "ISO 2631"}
-FLOOR = "floor"
+FLOOR = "lowest floor"
 
 
 def rung_title(name: str) -> str:
@@ -57,8 +57,9 @@ def error_ladder(study: Difference) -> Table:
         f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
-        "much as there was to explain of its own error. The floor is the least that any rung shown reaches: beside fewer rungs it lies "
-        "higher, and the same model leaves less above it.",
+        "much as there was to explain of its own error. The lowest floor is the least that any rung shown reaches, so it lies below that "
+        "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it. The diagnosis tells "
+        "other shares: it takes all sites together and aligns their drives for every model.",
         "; ".join(floors) + ".",
     )
     return _table(study, "error_ladder", columns, rows, sources, notes, breaks[1:], frozenset(bold))
