@@ -3,9 +3,11 @@
 import io
 import json
 import logging
+import re
 
 import pytest
 
+from ridecomfort.report import catalogue
 from ridecomfort.steps import progress
 
 
@@ -60,6 +62,22 @@ def test_a_run_ends_with_100_percent_and_the_page(watched, clock):
     log(watched, "job_info", jobid=2, rule_name="all", wildcards={}, benchmark=None)
     log(watched, "job_finished", job_id=2)
     assert watched.said()[-2:] == ["[ 50 %] report done in 4.0 s; 1 to go", "[100 %] all done in 4.0 s; the page: results/report.html"]
+
+
+def test_a_run_without_the_page_ends_with_what_there_is_to_look_at(watched, clock):
+    log(watched, "run_info", stats={"compared": 1, "diagnosed": 1, "total": 2})
+    for number, rule in enumerate(("compared", "diagnosed")):
+        start(watched, number, rule)
+        log(watched, "job_finished", job_id=number)
+    assert watched.said()[-3].startswith("[100 %] all done") and "results/report.html" not in watched.said()[-3]
+    assert watched.said()[-2].startswith("look at results/figures/located_*.png")
+    assert watched.said()[-1].startswith("look at results/tables/verdict.md")
+
+
+def test_what_there_is_to_look_at_is_made():
+    made = [*catalogue.DIFFERENCE_TABLES, *catalogue.difference_figures(["*"]), *catalogue.DIAGNOSIS_TABLES, *catalogue.DIAGNOSIS_FIGURES]
+    named = re.findall(r"([\w*]+)\.(?:md|png)", " ".join(progress.TO_LOOK_AT.values()))
+    assert len(named) > 6 and set(named) <= set(made)
 
 
 def test_jobs_that_a_checkpoint_adds_count(watched, clock):

@@ -23,6 +23,12 @@ CHATTER = ("Removing temporary output", "Would remove temporary output", "Select
 PAGE = "results/report.html"
 """What a run that makes the page ends with."""
 
+TO_LOOK_AT = {
+    "compared": "results/figures/located_*.png, error_ladder.png; results/tables/findings.md, explainable.md",
+    "diagnosed": "results/tables/verdict.md, missing_effects.md; results/figures/evidence.png",
+}
+"""What a run without the page ends with, by the rule that made it."""
+
 CHANGED_SETTINGS = re.compile(r"Params have changed since last execution: .*?before: '(\{.*\})' now: '(\{.*\})' ?")
 """How Snakemake says so, with the settings of the step before and now (JSON)."""
 
@@ -140,6 +146,9 @@ class Progress(logging.Handler):
         if not +self.todo:
             page = f"; the page: {PAGE}" if self.counts["report"] else ""
             self._print(f"all done in {_duration(time.monotonic() - self.begun)}{page}")
+            for rule, files in TO_LOOK_AT.items():
+                if self.counts[rule] and not page:
+                    self._write(f"look at {files}")
 
     def _tell(self, job: Job) -> None:
         took = time.monotonic() - job.start
