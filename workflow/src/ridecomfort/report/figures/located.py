@@ -24,7 +24,7 @@ TICKS = (0.1, 0.3, 1, 3, 10, 30)
 PER_OCTAVE = 6
 """Rows of the map in an octave: single lines of a short spectrum scatter so much that noise would look like error."""
 
-NOTHING = f"No error above the floor reaches {100 * findings.NAMED:g} % of its signal's power in any band; above the maps, all that is left."
+NOTHING = f"No error above the floor reaches {100 * findings.NAMED:g} % of its signal's power in any band; what is left: above the maps."
 
 
 def located(study: Difference, site: str) -> Figure:
