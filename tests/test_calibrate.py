@@ -272,7 +272,7 @@ def test_an_effect_is_calibrated_along_with_the_vehicle(nominal):
         nominal,
         bounds=bounds,
         units=units,
-        effects={"suspension_friction": {"front": 10.0, "rear": 10.0}},
+        effects={"suspension_friction": {"front": 10.0, "rear": 10.0, "presliding": 0.0}},
         restarts=0,
     )
     for side in ("front", "rear"):

@@ -22,8 +22,8 @@ from . import kinds, score, trials
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
-SHARES = {"clean": 8, "messy": 4, "another shape": 1, "two": 2, "three": 1, "outside": 2, "outside, messy": 1, "nothing": 2,
-          "path error": 1, "clock error, aligned": 1, "another interpolation": 1, "clock error, left": 1, "gain error": 1,
+SHARES = {"clean": 8, "messy": 4, "another shape": 1, "another setting": 2, "two": 2, "three": 1, "outside": 3, "outside, messy": 1,
+          "nothing": 2, "path error": 1, "clock error, aligned": 1, "another interpolation": 1, "clock error, left": 1, "gain error": 1,
           "scanner noise": 1}  # fmt: skip
 """Trials of each kind in a round."""
 
@@ -34,7 +34,7 @@ def one(job: tuple[str, int, int]) -> dict:
     car = parameters.read(REPOSITORY / "config" / "vehicles" / "midsize.yaml")
     draw = kinds.draw(kind, seed, number)
     known = library.find(trials.SHAPES)
-    hidden = {name: known[name].effect.values() for name in draw.hidden}
+    hidden = {name: known[name].effect.values(draw.settings.get(name)) for name in draw.hidden}
     trial = trials.make(100000 * seed + number + 1000 * list(kinds.KINDS).index(kind), car, hidden, draw.kappa, **draw.spoilt)
     among = [name for name in library.find() if name not in draw.missing]
     start = time.process_time()

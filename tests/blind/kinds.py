@@ -19,23 +19,27 @@ FAINT = ("aerodynamic_lift", "anti_dive", "anti_squat", "drivetrain_lag", "gear_
 """Effects whose plausible sizes come up to no kappa of 0.3 on such drives; they are drawn alone only."""
 
 MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_travel", "propeller_shaft", "spring_cubic",
-           "tyre_hysteresis", "tyre_oval")  # fmt: skip
+           "tyre_hysteresis", "tyre_oval", "damper_cavitation", "frequency_selective_damper", "joint_backlash", "orifice_damping",
+           "powertrain_roll", "propshaft_imbalance", "rolling_radius_by_load", "side_load_friction", "slab_curl",
+           "stroke_dependent_damper", "subframe_resonance", "tank_slosh", "toe_angle")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
-SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee"}
+SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
+          "breakaway_friction": "suspension_friction", "tyre_flat_spot": "tyre_runout"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
 
 
 @dataclass(frozen=True)
 class Draw:
     """What a trial is made of. ``right``: the names that a verdict may give; ``missing``: what the library is left without;
-    ``spoilt``: further arguments of ``trials.make``."""
+    ``spoilt``: further arguments of ``trials.make``; ``settings``: of what only shapes an effect, by its name."""
 
     hidden: tuple[str, ...]
     kappa: float
     right: frozenset[str]
     missing: tuple[str, ...] = ()
     spoilt: Mapping[str, object] = field(default_factory=dict)
+    settings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     @property
     def there(self) -> frozenset[str]:
@@ -71,6 +75,18 @@ def _shaped(rng, names, number) -> Draw:
     return Draw((name,), float(rng.choice(STRONG)), frozenset({SHAPED[name]}))
 
 
+def _set_otherwise(rng, names, number) -> Draw:
+    """An effect shaped otherwise than is typical: at another clearance, knee, frequency or place."""
+    known = {name: cars.candidate(library.find()[name].effect).shapes for name in _plain(names)}
+    known = {name: shapes for name, shapes in known.items() if len(shapes) > 1}
+    name = list(known)[number % len(known)]
+    settings = {}
+    for key in known[name][0]:
+        tried = [shape[key] for shape in known[name]]
+        settings[key.partition(".")[2]] = float(rng.uniform(min(tried), max(tried)))
+    return Draw((name,), float(rng.choice(STRONG)), frozenset({name}), settings={name: settings})
+
+
 def _several(count: int) -> Callable:
     def draw(rng, names, number) -> Draw:
         hidden = tuple(str(name) for name in rng.choice(_plain(names), count, replace=False))
@@ -82,13 +98,13 @@ def _several(count: int) -> Callable:
 def _outside(rng, names, number) -> Draw:
     """By turns a force that the library never had, and an effect taken out of it."""
     made_up = number % 2 == 0
-    name = MADE_UP[number // 2 % len(MADE_UP)] if made_up else str(rng.choice(_plain(names)))
+    name = str(rng.choice(MADE_UP if made_up else _plain(names)))
     return Draw((name,), float(rng.choice(STRONG)), frozenset(), missing=() if made_up else (name,))
 
 
 def _outside_messy(rng, names, number) -> Draw:
     spoilt = {"clock": float(rng.normal(0, 0.005)), "gain": float(rng.normal(0, 0.003)), "scanner": 0.0001, "aligned": True}
-    return Draw((MADE_UP[number % len(MADE_UP)],), float(rng.choice(STRONG)), frozenset(), spoilt=spoilt)
+    return Draw((str(rng.choice(MADE_UP)),), float(rng.choice(STRONG)), frozenset(), spoilt=spoilt)
 
 
 def _null(**spoilt) -> Callable:
@@ -110,6 +126,7 @@ KINDS: Mapping[str, Callable] = {
     "scanner noise": _null(scanner=0.001),
     "outside, messy": _outside_messy,
     "another interpolation": _null(interpolation="linear"),
+    "another setting": _set_otherwise,
 }
 
 SUSPECT = ("clock error, left", "gain error", "scanner noise")

@@ -83,9 +83,10 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     seen = [row for row in rows if reached.get(id(row))]
     strong = [row for row in seen if reached[id(row)] >= 0.3]
     single = lambda kind, chosen: [row for row in chosen if row["kind"] == kind]
-    for kind in ("clean", "messy", "another shape"):
+    alone = ("clean", "messy", "another shape", "another setting")
+    for kind in alone:
         line(f"first name right, {kind}, kappa >= 0.3", single(kind, strong), lambda row: row["first_right"])
-    one = [row for row in strong if row["kind"] in ("clean", "messy", "another shape")]
+    one = [row for row in strong if row["kind"] in alone]
     line("true effect named or in the named cluster, kappa >= 0.3", one, lambda row: row["in_cluster"])
     for kappa in KAPPAS:
         at = [row for row in single("clean", seen) if reached[id(row)] == kappa]

@@ -46,7 +46,8 @@ class Record:
 
 @dataclass(frozen=True)
 class Size:
-    """A number that may be fitted: its unit, where it starts or changes nothing, what is plausible, a step to probe with."""
+    """A number that may be fitted: its unit, where it starts or changes nothing, what is plausible, a step to probe with; ``shaping``:
+    whether it only shapes an effect, so that it means nothing where that is switched off."""
 
     key: str
     unit: str
@@ -54,6 +55,7 @@ class Size:
     lower: float
     upper: float
     probe: float
+    shaping: bool = False
 
     @property
     def sign(self) -> int:
@@ -63,11 +65,13 @@ class Size:
 
 @dataclass(frozen=True)
 class Candidate:
-    """An effect that may be missing: its sizes, and ``shapes``, the settings of what only shapes it to try it with."""
+    """An effect that may be missing: its sizes; ``shapes``, the settings of what only shapes it to try it with; and ``shaping``,
+    the same to be fitted where that is worth it."""
 
     name: str
     sizes: tuple[Size, ...]
     shapes: tuple[Mapping[str, float], ...] = ({},)
+    shaping: tuple[Size, ...] = ()
     sentence: str = ""
     instrument: bool = False
     """Whether it is an error of the measurement, not of the model."""

@@ -68,8 +68,12 @@ class Place:
 
 
 def _below(frequency: float) -> Term:
-    """Strut velocity through a low-pass of first order: what gives way in series with a damper, or creeps beside a spring."""
+    """Velocity through a low-pass of first order: what gives way in series with a damper, or creeps beside a spring."""
     return Term("slow", "N s/m", states=(State("slow", f"{2 * pi * frequency:.4g} * (velocity - slow)", 0.1),))
+
+
+STRAIN = State("strain", "1000.0 * (velocity - abs(velocity) * strain) / (1.0 + abs(velocity) / 0.3)", 1.0)
+"""The direction of motion, which it follows over a millimetre; no faster than the step of the kernel bears."""
 
 
 def _resonance(axle: str, frequency: float) -> Term:
@@ -79,6 +83,14 @@ def _resonance(axle: str, frequency: float) -> Term:
     against = f"{turns**2:.4g} * lift + {0.2 * turns:.4g} * rate"
     states = State("lift", "rate", 0.6 / turns**2), State("rate", f"-({body} + {against})", 0.6 / turns)
     return Term(f"{body} + {against}", "kg", "force_z", WHOLE, states, f"motion.{axle}")
+
+
+def _roll_resonance(frequency: float) -> Term:
+    """A part of the sprung mass that turns about the body's long axis on a spring of its own, with a tenth of critical damping."""
+    turns = 2 * pi * frequency
+    against = f"{turns**2:.4g} * angle + {0.2 * turns:.4g} * rate"
+    states = State("angle", "rate", 0.4 / turns**2), State("rate", f"-(motion.roll_acceleration + {against})", 0.4 / turns)
+    return Term(f"motion.roll_acceleration + {against}", "kg m2", "moment_x", WHOLE, states)
 
 
 PLACES: Mapping[str, Place] = {
@@ -104,6 +116,10 @@ PLACES: Mapping[str, Place] = {
             "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
             "side_force": Term(f"force_y * {SIDE}", "1"),
             "forward_force": Term("force_x", "1"),
+            "side_force_size_times_direction": Term("abs(force_y) * tanh(velocity / 0.005)", "1"),
+            "forward_force_size_times_direction": Term("abs(force_x) * tanh(velocity / 0.005)", "1"),
+            "direction_after_a_millimetre": Term("strain", "N", states=(STRAIN,)),
+            "damping_after_a_millimetre": Term("abs(velocity) * strain", "N s/m", states=(STRAIN,)),
             **{f"velocity_below_{frequency}_Hz": _below(frequency) for frequency in (3, 10, 30)},
         },
     ),
@@ -126,6 +142,8 @@ PLACES: Mapping[str, Place] = {
             "phase_sine_spin_square": Term("spin**2 * sin(rotation)", "kg m", parts=WHEELS),
             "twice_a_turn_cosine": Term("cos(2.0 * rotation)", "N", parts=WHEELS),
             "twice_a_turn_sine": Term("sin(2.0 * rotation)", "N", parts=WHEELS),
+            "direction_after_a_millimetre": Term("strain", "N", states=(STRAIN,)),
+            **{f"velocity_below_{frequency}_Hz": _below(frequency) for frequency in (3, 10, 30)},
         },
     ),
     "contact": Place(
@@ -137,6 +155,7 @@ PLACES: Mapping[str, Place] = {
             "pull_of_load_on_sides": Term(f"load * {SIDE}", "1", "pull"),
             "pull_of_load_and_speed": Term("load * speed**2", "s2/m2", "pull"),
             "pull_of_slope": Term("load * slope", "1", "pull"),
+            "slip_of_load": Term("load", "1/N", "slip_x"),
             "side_slip_of_load": Term("slip_y * load", "1/N", "slip_y"),
             "side_slip_cube": Term("slip_y**3", "1", "slip_y"),
             "side_slip_of_sides": Term(SIDE, "1", "slip_y"),
@@ -173,6 +192,7 @@ PLACES: Mapping[str, Place] = {
                 for axle in AXLES
                 for frequency in (7, 11, 17)
             },
+            **{f"roll_resonance_{frequency}_Hz": _roll_resonance(frequency) for frequency in (7, 11, 17)},
         },
         ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
     ),

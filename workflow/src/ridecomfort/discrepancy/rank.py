@@ -195,6 +195,6 @@ def _sizes_in_words(trial, experiment) -> str:
     candidate = next(c for c in experiment.candidates if c.name == trial.name)
     return ", ".join(
         f"{size.key.partition('.')[2]} {trial.fit.values[size.key]:.4g} {size.unit}".removesuffix(" 1")
-        for size in candidate.sizes
+        for size in (*candidate.sizes, *(size for size in candidate.shaping if size.key in trial.fit.keys))
         if size.key in trial.fit.values
     )

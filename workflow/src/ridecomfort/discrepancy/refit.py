@@ -45,8 +45,8 @@ class Fit:
 
 
 def limits(size: Size, beyond: float = 0.0) -> tuple[float, float]:
-    """Bounds of a fit: what is plausible, and ``beyond`` of its width more at ends that are not the neutral value."""
-    width = beyond * (size.upper - size.lower)
+    """Bounds of a fit: what is plausible, and ``beyond`` of its width more at ends that are not the neutral value of a size."""
+    width = 0.0 if size.shaping else beyond * (size.upper - size.lower)
     lower = size.lower if size.lower == size.neutral else size.lower - width
     upper = size.upper if size.upper == size.neutral else size.upper + width
     return lower, upper
@@ -182,7 +182,8 @@ def is_within(size: Size, values: Mapping[str, float]) -> bool:
 def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[float, float]]:
     keys = [size.key for size in sizes]
     free = {size.key for size in frame.experiment.free}
-    known = np.array([12.0 * (size.probe / (size.upper - size.lower)) ** 2 if size.key in free else 0.0 for size in sizes])
+    bounded = [size.key in free or size.shaping for size in sizes]
+    known = np.array([12.0 * (size.probe / (size.upper - size.lower)) ** 2 if is_bounded else 0.0 for size, is_bounded in zip(sizes, bounded)])
     place, drive = frame.blocks(), frame.drives()
     own, places = covariance(fit, frame, keys, place, len(keys), known)
     along, drives = covariance(fit, frame, keys, drive, 1, known)

@@ -63,7 +63,10 @@ HUGE = 0.2
 """The same, above which the columns of all parameters are made anew."""
 
 SETTLED = 3
-"""Refits that this is done for, the best of a round."""
+"""Refits that this is done for, and those whose shapes are fitted, the best of a round."""
+
+SCALES = 0.05
+"""Share of the power of a shape's column that sizes must leave: below it a shape is a size under another name."""
 
 CYCLES = 8
 """Most such repetitions."""
@@ -110,6 +113,8 @@ class _Search:
     together: Callable
     say: Callable
     accepted: list[str] = field(default_factory=list)
+    shaped: set[str] = field(default_factory=set)
+    """Keys of what shapes accepted effects and is fitted."""
 
     def __post_init__(self):
         self.fitted, self.held_out = roles(self.rung.experiment)
@@ -127,6 +132,7 @@ class _Search:
             if turn.winner is None:
                 break
             self.accepted.append(turn.winner.name)
+            self.shaped |= {size.key for size in self._own(turn.winner.name, turn.winner.fit.keys) if size.shaping}
             self.say(f"accepted {turn.winner.name}")
             first = self.by_name[self.accepted[0]]
             self.columns = {job: own for job, own in self.columns.items() if self.together(first, self.by_name[job[0]])}
@@ -137,16 +143,23 @@ class _Search:
         rung = self.rung
         final, frame = final_fit(rung, self._sizes())
         bounds = refit.intervals(final, frame, self._sizes())
-        strict = refit.intervals(final, frame, self._sizes(), held=True)
-        sure = frozenset(s.key for s in self._sizes() if not strict[s.key][0] <= s.neutral <= strict[s.key][1])
+        # What shapes an effect means nothing where that is not there: it is held where only this is asked.
+        sizes = [size for size in self._sizes() if not size.shaping]
+        strict = refit.intervals(final, frame, sizes, held=True)
+        sure = frozenset(s.key for s in sizes if not strict[s.key][0] <= s.neutral <= strict[s.key][1])
         return Selection(
             tuple(rounds), tuple(ladder), rung.ground, rung.held_out_ground, rung.repeats, rung.frame,
             tuple(self.accepted), bounds, sure, final, *self._remaining(ladder[0].fit, rung.fit),
         )  # fmt: skip
 
     def _sizes(self, extra: Sequence[str] = ()) -> list[exp.Size]:
-        names = [*self.accepted, *extra]
-        return [*self.rung.experiment.free, *(size for name in names for size in self.by_name[name].sizes)]
+        added = [*(size for name in self.accepted for size in self._own(name, self.shaped)), *(s for name in extra for s in self.by_name[name].sizes)]
+        return [*self.rung.experiment.free, *added]
+
+    def _own(self, name: str, fitted: Collection[str]) -> list[exp.Size]:
+        """The sizes of a candidate, and of what shapes it those that are ``fitted``."""
+        candidate = self.by_name[name]
+        return [*candidate.sizes, *(size for size in candidate.shaping if size.key in fitted)]
 
     def _state(self, name: str, fit: Fit, check) -> State:
         rung = self.rung
@@ -195,8 +208,7 @@ class _Search:
     def _followed_up(self, tried: Sequence[Trial]) -> list[Trial]:
         """Refits settled where they gain much, and judged, the best first; without those that cannot be simulated."""
         leading = sorted(tried, key=lambda trial: trial.bic, reverse=True)
-        large = {trial.name for trial in leading[:SETTLED] if trial.gain > LARGE * self._count()}
-        followed = self.each(_FollowUp(self, large), leading)
+        followed = self.each(_FollowUp(self, {trial.name for trial in leading[:SETTLED]}), leading)
         return [trial for trial in followed if trial is not None]
 
     def _try(self, job: tuple[str, int]) -> Trial | None:
@@ -219,27 +231,48 @@ class _Search:
         except (InputError, ValueError):
             return None
 
+    def _shape(self, trial: Trial) -> Trial:
+        """The refit repeated with what shapes the effect fitted, too, where that is worth its parameters."""
+        rung, candidate, fit = self.rung, self.by_name[trial.name], trial.fit
+        sizes = [size for size in self._sizes([trial.name]) if size.key in fit.keys]
+        own = [size.key for size in candidate.sizes if size.key in fit.keys]
+        try:
+            raw = probe.secants(rung.experiment, fit.values, fit.residuals, [s for s in candidate.sizes if s.key in own] + list(candidate.shaping))
+            columns = probe.white(rung.frame, {**rung.raw, **raw})
+            apart = [size for size in candidate.shaping if _left(columns[size.key], [columns[key] for key in own]) > SCALES]
+            if not apart:
+                return trial
+            fitted = refit.refit(
+                rung.experiment, rung.frame, fit.values, [*sizes, *apart], columns, renewed=[*own, *(s.key for s in apart)],
+                residuals=fit.residuals, beyond=0.0,
+            )  # fmt: skip
+            shaped = self._trial(candidate, {key: fitted.values[key] for key in trial.shape}, fitted, len(apart))
+        except (InputError, ValueError):
+            return trial
+        return shaped if shaped.bic > trial.bic else trial
+
     def _settle(self, trial: Trial) -> Trial:
         """The refit repeated in the frame of its own residuals while the error falls by much.
 
         A large error makes itself white: what is missing weighs least where it is largest.
         """
         rung, candidate, fit, gained = self.rung, self.by_name[trial.name], trial.fit, trial.gain
-        own = [size for size in candidate.sizes if size.key in fit.keys]
+        own = [size for size in self._own(trial.name, fit.keys) if size.key in fit.keys]
         beyond = refit.BEYOND if _implausible(candidate, fit.values) else 0.0
         try:
             for _ in range(CYCLES):
                 cleaned = rung.frame.all_cleaned(fit.residuals)
                 frame = exp.frame(rung.experiment, fit.residuals, rung.frame.nuisances, cleaned)
-                anew = own if gained < HUGE * self._count() else self._sizes([candidate.name])
+                every = [*self._sizes(), *own]
+                anew = own if gained < HUGE * self._count() else every
                 raw = {**rung.raw, **probe.secants(rung.experiment, fit.values, fit.residuals, anew)}
                 columns = probe.white(frame, raw)
-                sizes = [size for size in self._sizes([candidate.name]) if size.key in columns]
+                sizes = [size for size in every if size.key in columns]
                 fit = refit.refit(
                     rung.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own],
                     residuals=fit.residuals, beyond=beyond,
                 )  # fmt: skip
-                settled = self._trial(candidate, trial.shape, fit)
+                settled = self._trial(candidate, {key: fit.values[key] for key in trial.shape}, fit, len(own) - len(candidate.sizes))
                 gained = settled.gain - trial.gain
                 trial = settled if gained > 0 else trial
                 if gained < LARGE * self._count():
@@ -248,11 +281,11 @@ class _Search:
             pass
         return trial
 
-    def _trial(self, candidate: Candidate, shape, fit: Fit) -> Trial:
-        """What a refit gains on the drives that it was fitted to; the others have not been asked."""
+    def _trial(self, candidate: Candidate, shape, fit: Fit, more: int = 0) -> Trial:
+        """What a refit gains on the drives that it was fitted to, ``more`` parameters than sizes fitted; the others have not been asked."""
         frame = self.rung.frame
         gain = refit.information(frame, fit.residuals) - refit.information(frame, self.rung.fit.residuals)
-        bic = gain - len(candidate.sizes) * np.log(len(np.unique(frame.blocks())))
+        bic = gain - (len(candidate.sizes) + more) * np.log(len(np.unique(frame.blocks())))
         unknown = (float("nan"),) * 4
         return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
 
@@ -324,6 +357,16 @@ class _Search:
         return left, 1.0 - left.power / before.power if before.power > 0 else float("nan"), before.z
 
 
+def _left(column: np.ndarray, others: Sequence[np.ndarray]) -> float:
+    """Share of the power of a white column that is no sum of others; 0 for one without any."""
+    power = float(column @ column)
+    if not power > 0:
+        return 0.0
+    found = np.linalg.lstsq(np.stack(others, axis=1), column, rcond=None)[0]
+    rest = column - found @ np.stack(others)
+    return float(rest @ rest) / power
+
+
 def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
     """The first size that lies outside its plausible range, in words; empty where all lie within."""
     for size in candidate.sizes:
@@ -351,8 +394,11 @@ class _Try:
 @dataclass(frozen=True)
 class _FollowUp:
     search: _Search
-    large: Collection[str]
-    """Names of those whose refits gain so much that they are repeated first."""
+    leading: Collection[str]
+    """Names of those whose shape is fitted, and whose refits are repeated where they gain much."""
 
     def __call__(self, trial: Trial) -> Trial | None:
-        return self.search._judge(self.search._settle(trial) if trial.name in self.large else trial)
+        search = self.search
+        if trial.name in self.leading and search.by_name[trial.name].shaping:
+            trial = search._shape(trial)
+        return search._judge(search._settle(trial) if trial.gain > LARGE * search._count() and trial.name in self.leading else trial)

@@ -43,6 +43,9 @@ SEEN: Mapping[str, Seen] = {
     "tyre deflection": Seen("tyre_vertical", "deflection - rest", "m", (-0.015, -0.008, -0.004, 0.0, 0.004, 0.008, 0.015)),
 }
 
+STEP, STEADY = 1e-3, 1000
+"""s, and the number of such steps, over which the states of an effect settle at steady motion."""
+
 ARGUMENTS = {place.port: ", ".join(place.arguments) for place in PLACES.values()}
 
 
@@ -129,8 +132,8 @@ def _without_line(knots: np.ndarray, spread: np.ndarray) -> np.ndarray:
 
 
 def _shapes(entry: library.Entry, sizes: Mapping[str, float]) -> dict[str, np.ndarray]:
-    """Force of an effect at the knots of what it may depend on, (axle, knot), by what that is."""
-    sizes, act = entry.effect.values(sizes), getattr(entry.act, "py_func", entry.act)
+    """Force of an effect at the knots of what it may depend on, (axle, knot), by what that is; of one with states, in steady motion."""
+    sizes = entry.effect.values(sizes)
     found = {}
     for label, seen in SEEN.items():
         if seen.port != entry.effect.port:
@@ -142,9 +145,20 @@ def _shapes(entry: library.Entry, sizes: Mapping[str, float]) -> dict[str, np.nd
                 known |= {"force_x": 0.0, "force_y": 0.0, "rest": 0.015, "rotation": 0.0, "spin": 70.0}
                 known |= {"stiffness": 300000.0, "deflection": 0.015} if seen.port == "tyre_vertical" else {}
                 known[seen.expression.partition(" ")[0]] += knot
-                force[a, k] = act(*(known[name] for name in ARGUMENTS[seen.port].split(", ")), **sizes)
+                force[a, k] = _steady(entry, [known[name] for name in ARGUMENTS[seen.port].split(", ")], sizes)
         found[label] = force
     return found
+
+
+def _steady(entry: library.Entry, seen: Sequence[float], sizes: Mapping[str, float]) -> float:
+    """Force of an effect that has seen the same for long."""
+    act, states = getattr(entry.act, "py_func", entry.act), np.zeros(len(entry.effect.states))
+    if not states.size:
+        return act(*seen, **sizes)
+    for _ in range(STEADY):
+        force, *slopes = act(*seen, *states, *sizes.values())
+        states = states + STEP * np.array(slopes)
+    return force
 
 
 def _dataset(curves: Sequence[_Curve], names: Sequence[str], shapes: Sequence[Mapping[str, np.ndarray]]) -> xr.Dataset:

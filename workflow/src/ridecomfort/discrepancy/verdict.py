@@ -268,7 +268,7 @@ def _named(selection: Selection, number: int, by_name) -> Named:
     winner = turn.winner
     place = turn.names.index(winner.name)
     sizes = []
-    for size in by_name[winner.name].sizes:
+    for size in (*by_name[winner.name].sizes, *by_name[winner.name].shaping):
         if size.key in selection.intervals:
             sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
     before, after = selection.ladder[number : number + 2]
