@@ -404,7 +404,7 @@ def candidate(effect: Effect) -> Candidate:
 
 def _is_varied(parameter: Parameter) -> bool:
     lower, upper = parameter.plausible
-    return parameter.unit in VARIED_UNITS or parameter.name.startswith("clearance") or lower <= 0.0 <= upper
+    return parameter.unit in VARIED_UNITS or parameter.name.startswith("clearance") or lower < 0.0 < upper or not parameter.typical
 
 
 def _towards(parameter: Parameter, end: int) -> float:

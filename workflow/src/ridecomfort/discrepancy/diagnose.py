@@ -15,14 +15,10 @@ from .explain import REPEATS
 from .propose import SURE
 from .rank import ranked
 from .rung import begin
-from .verdict import CONFIRMED, DOUBTFUL, Verdict
+from .verdict import CONFIRMED, DOUBTFUL, LITTLE, Verdict
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
-
-LITTLE = 0.2
-"""Share of the explainable error below which what was found may be what a road that is otherwise looks like, or a driver: forces of any
-form take up to 0.13 where nothing but noise of the road is wrong."""
 
 
 def diagnose(

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import cluster, floor, probe, realign, refit
+from . import cluster, evidence, floor, probe, realign, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment
 from .propose import propose
@@ -63,10 +63,16 @@ HUGE = 0.2
 """The same, above which the columns of all parameters are made anew."""
 
 SETTLED = 3
-"""Refits that this is done for, and those whose shapes are fitted, the best of a round."""
+"""Refits that this is done for, the best of a round."""
+
+SHAPED = 0.25
+"""Share of the largest gain of a round from which on shapes are fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
 
 SCALES = 0.05
 """Share of the power of a shape's column that sizes must leave: below it a shape is a size under another name."""
+
+LEAST_MOVED = 0.1
+"""Probes that a shape must move by to be another."""
 
 CYCLES = 8
 """Most such repetitions."""
@@ -115,6 +121,7 @@ class _Search:
     accepted: list[str] = field(default_factory=list)
     shaped: set[str] = field(default_factory=set)
     """Keys of what shapes accepted effects and is fitted."""
+    rounds: list[Round] = field(default_factory=list)
 
     def __post_init__(self):
         self.fitted, self.held_out = roles(self.rung.experiment)
@@ -125,7 +132,7 @@ class _Search:
         self.base_squares = ladder[0]
         self.say("probing every candidate")
         self.columns = self._probe(self.rung.fit)
-        rounds = []
+        rounds = self.rounds
         while len(self.accepted) < self.most:
             turn = self._round(len(rounds))
             rounds.append(turn)
@@ -142,14 +149,18 @@ class _Search:
             ladder.append(self._state(turn.winner.name, self.rung.fit, self.rung.check))
         rung = self.rung
         final, frame = final_fit(rung, self._sizes())
-        bounds = refit.intervals(final, frame, self._sizes())
+        typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
+        bounds = {key: found for key, found in refit.intervals(final, frame, self._sizes()).items() if key not in typical}
         # What shapes an effect means nothing where that is not there: it is held where only this is asked.
         sizes = [size for size in self._sizes() if not size.shaping]
         strict = refit.intervals(final, frame, sizes, held=True)
-        sure = frozenset(s.key for s in sizes if not strict[s.key][0] <= s.neutral <= strict[s.key][1])
+        sure = {size.key for size in sizes if not strict[size.key][0] <= size.neutral <= strict[size.key][1]}
+        for turn in rounds:  # what gains that much is there, even where parameters that may be wrong leave its size open
+            if turn.winner is not None and turn.winner.gain > LARGE * self._count():
+                sure |= {size.key for size in self.by_name[turn.winner.name].sizes}
         return Selection(
             tuple(rounds), tuple(ladder), rung.ground, rung.held_out_ground, rung.repeats, rung.frame,
-            tuple(self.accepted), bounds, sure, final, *self._remaining(ladder[0].fit, rung.fit),
+            tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(ladder[0].fit, rung.fit),
         )  # fmt: skip
 
     def _sizes(self, extra: Sequence[str] = ()) -> list[exp.Size]:
@@ -208,7 +219,11 @@ class _Search:
     def _followed_up(self, tried: Sequence[Trial]) -> list[Trial]:
         """Refits settled where they gain much, and judged, the best first; without those that cannot be simulated."""
         leading = sorted(tried, key=lambda trial: trial.bic, reverse=True)
-        followed = self.each(_FollowUp(self, {trial.name for trial in leading[:SETTLED]}), leading)
+        best = leading[:SETTLED]
+        least = SHAPED * max([trial.gain for trial in best], default=0.0)
+        least = max([least, *(LEAST_SHARE * turn.winner.gain for turn in self.rounds[:1])])
+        shaped = {trial.name for trial in best if trial.gain >= least and self.by_name[trial.name].shaping}
+        followed = self.each(_FollowUp(self, {trial.name for trial in best}, shaped), leading)
         return [trial for trial in followed if trial is not None]
 
     def _try(self, job: tuple[str, int]) -> Trial | None:
@@ -237,19 +252,33 @@ class _Search:
         sizes = [size for size in self._sizes([trial.name]) if size.key in fit.keys]
         own = [size.key for size in candidate.sizes if size.key in fit.keys]
         try:
-            raw = probe.secants(rung.experiment, fit.values, fit.residuals, [s for s in candidate.sizes if s.key in own] + list(candidate.shaping))
-            columns = probe.white(rung.frame, {**rung.raw, **raw})
-            apart = [size for size in candidate.shaping if _left(columns[size.key], [columns[key] for key in own]) > SCALES]
-            if not apart:
+            anew = [*(size for size in candidate.sizes if size.key in own), *candidate.shaping]
+            columns = probe.white(rung.frame, {**rung.raw, **probe.secants(rung.experiment, fit.values, fit.residuals, anew)})
+            apart = _apart(candidate.shaping, columns, own)
+            if not self._is_promising(fit, columns, [size.key for size in sizes], [size.key for size in apart]):
                 return trial
             fitted = refit.refit(
                 rung.experiment, rung.frame, fit.values, [*sizes, *apart], columns, renewed=[*own, *(s.key for s in apart)],
                 residuals=fit.residuals, beyond=0.0,
             )  # fmt: skip
+            if max(abs(fitted.values[size.key] - fit.values[size.key]) / size.probe for size in apart) < LEAST_MOVED:
+                return trial
             shaped = self._trial(candidate, {key: fitted.values[key] for key in trial.shape}, fitted, len(apart))
         except (InputError, ValueError):
             return trial
         return shaped if shaped.bic > trial.bic else trial
+
+    def _is_promising(self, fit: Fit, columns: Mapping[str, np.ndarray], fitted: Sequence[str], more: Sequence[str]) -> bool:
+        """Whether ``more`` columns than those ``fitted`` would be worth their parameters, were all linear."""
+        if not more:
+            return False
+        free = evidence.basis(np.stack([columns[key] for key in fitted]))
+        extra = evidence.basis(evidence.without(np.stack([columns[key] for key in more]), free))
+        return bool(np.sum((extra @ self.rung.frame.flat(fit.residuals)) ** 2) > len(more) * self._price())
+
+    def _price(self) -> float:
+        """Gain that one parameter must make up for (BIC)."""
+        return float(np.log(len(np.unique(self.rung.frame.blocks()))))
 
     def _settle(self, trial: Trial) -> Trial:
         """The refit repeated in the frame of its own residuals while the error falls by much.
@@ -257,6 +286,8 @@ class _Search:
         A large error makes itself white: what is missing weighs least where it is largest.
         """
         rung, candidate, fit, gained = self.rung, self.by_name[trial.name], trial.fit, trial.gain
+        if not gained > LARGE * self._count():
+            return trial
         own = [size for size in self._own(trial.name, fit.keys) if size.key in fit.keys]
         beyond = refit.BEYOND if _implausible(candidate, fit.values) else 0.0
         try:
@@ -285,7 +316,7 @@ class _Search:
         """What a refit gains on the drives that it was fitted to, ``more`` parameters than sizes fitted; the others have not been asked."""
         frame = self.rung.frame
         gain = refit.information(frame, fit.residuals) - refit.information(frame, self.rung.fit.residuals)
-        bic = gain - (len(candidate.sizes) + more) * np.log(len(np.unique(frame.blocks())))
+        bic = gain - (len(candidate.sizes) + more) * self._price()
         unknown = (float("nan"),) * 4
         return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
 
@@ -357,14 +388,11 @@ class _Search:
         return left, 1.0 - left.power / before.power if before.power > 0 else float("nan"), before.z
 
 
-def _left(column: np.ndarray, others: Sequence[np.ndarray]) -> float:
-    """Share of the power of a white column that is no sum of others; 0 for one without any."""
-    power = float(column @ column)
-    if not power > 0:
-        return 0.0
-    found = np.linalg.lstsq(np.stack(others, axis=1), column, rcond=None)[0]
-    rest = column - found @ np.stack(others)
-    return float(rest @ rest) / power
+def _apart(shaping: Sequence[exp.Size], columns: Mapping[str, np.ndarray], own: Sequence[str]) -> list[exp.Size]:
+    """Those of what shapes an effect whose columns are no sum of those of its ``own`` sizes."""
+    span = evidence.basis(np.stack([columns[key] for key in own]))
+    left = lambda row: float(np.sum(evidence.without(row, span) ** 2))
+    return [size for size in shaping if left(columns[size.key]) > SCALES * float(np.sum(columns[size.key] ** 2))]
 
 
 def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
@@ -395,10 +423,16 @@ class _Try:
 class _FollowUp:
     search: _Search
     leading: Collection[str]
-    """Names of those whose shape is fitted, and whose refits are repeated where they gain much."""
+    """Names of those whose refits are repeated where they gain much."""
+    shaped: Collection[str]
+    """Names of those whose shapes are fitted."""
 
     def __call__(self, trial: Trial) -> Trial | None:
         search = self.search
-        if trial.name in self.leading and search.by_name[trial.name].shaping:
-            trial = search._shape(trial)
-        return search._judge(search._settle(trial) if trial.gain > LARGE * search._count() and trial.name in self.leading else trial)
+        if trial.name in self.leading:
+            trial = search._settle(trial)
+        if trial.name in self.shaped:
+            shaped = search._shape(trial)
+            if shaped is not trial:
+                trial = max(trial, search._settle(shaped), key=lambda one: one.bic)
+        return search._judge(trial)

@@ -23,7 +23,11 @@ SHARED_Z = 3.0
 """z of the error that repeats still share above which something is left to explain."""
 
 LEFT_Z = 2.33
-"""z of what repeats share beside effects that explain less than half above which something else is missing, too: at a level of 1 %."""
+"""z above which more than half of what repeats shared is left, so that something else is missing, too: at a level of 1 %."""
+
+LITTLE = 0.2
+"""Share of the explainable error below which what was found may be what a road that is otherwise looks like, or a driver: forces of any
+form take up to 0.13 where nothing but noise of the road is wrong."""
 
 SHARED = 0.05
 """Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
@@ -145,7 +149,9 @@ def _balance(selection: Selection, notes: Sequence[str], is_material: bool) -> _
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     is_refuted = is_met and held_out < CONFIRMED
     is_shared = selection.shared_z > SHARED_Z or not selection.repeats
-    may_be_left = selection.remaining.z > LEFT_Z or not selection.repeats
+    # Both z hold the same noise, of which that of the difference to a half has half.
+    left_z = (selection.remaining.z - ENOUGH * selection.shared_z) / ENOUGH
+    may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.repeats
     is_little = is_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < ENOUGH and is_left)
     return _Balance(share, held_out, explained, is_refuted, is_left, is_little)
 
