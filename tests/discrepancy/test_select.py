@@ -61,6 +61,16 @@ def test_what_shapes_an_effect_mostly_stays_as_is_typical_where_the_drives_say_n
     assert sum(fitted) <= 3
 
 
+def test_a_setting_that_was_tried_and_not_fitted_is_said():
+    model = Shaped(7, 0.5)
+    model.candidates = tuple(
+        replace(one, shapes=({"effect_2.setting": 0.0}, {"effect_2.setting": 0.5})) if one.name == "effect_2" else one
+        for one in model.candidates
+    )
+    _, found = judged(model)
+    assert "effect_2 was found at setting 0.5, one of a few that were tried" in found.reasons
+
+
 def test_two_missing_effects_are_both_found():
     _, found = judged(Linear(2, {"effect_1.size": 0.4, "effect_4.size": 0.2}))
     assert {e.name for e in found.effects} == {"effect_1", "effect_4"}

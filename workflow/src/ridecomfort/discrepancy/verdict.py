@@ -253,9 +253,21 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
             reasons.append(f"{effect.name} may be chance: no drive held out meets it")
         else:
             kept.append(effect)
+            reasons += _set(selection, by_name[effect.name])
             if effect.name in unmet:
                 reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
     return kept, reasons
+
+
+def _set(selection: Selection, candidate: Candidate) -> list[str]:
+    """At which settings an effect was found that are not typical, nor fitted, in words."""
+    values = {size: selection.final.values.get(size.key, size.neutral) for size in candidate.shaping if size.key not in selection.intervals}
+    told = [
+        f"{size.key.partition('.')[2]} {value:.3g} {size.unit}".removesuffix(" 1")
+        for size, value in values.items()
+        if abs(value - size.neutral) > size.probe
+    ]
+    return [f"{candidate.name} was found at {', '.join(told)}, one of a few that were tried"] if told else []
 
 
 def _shaped_by(selection: Selection, effect: Named, found: Sequence[Named], by_name) -> str:
