@@ -17,6 +17,11 @@ def test_the_score_tells_found_from_missed_and_whether_intervals_hold():
     assert by_size["damper_asymmetry", "front"]["found"] == "missed"
 
 
+def test_what_shapes_an_effect_is_scored_only_where_it_is_not_as_usual():
+    scored = lambda way: [row["parameter"] for row in score(made_up.VERDICT, {"suspension_friction": {"front": 75.0, "presliding": way}})["rows"]]
+    assert "presliding" not in scored(0.0) and "presliding" in scored(0.0005)
+
+
 def test_the_score_knows_clusters_wrong_names_and_what_the_model_had():
     effect = made_up.VERDICT["effects"][0]
     cluster = {**made_up.VERDICT, "effects": [{**effect, "like": ["damper_asymmetry"]}]}

@@ -13,7 +13,7 @@ def score(verdict: Mapping, hidden: Mapping[str, Mapping[str, float]], known: Se
     """What a verdict (the content of verdict.json) says of every hidden effect ({name: {parameter: size}}, SI units).
 
     ``known`` are effects that the diagnosed model had already. Returns plain data: ``verdict`` and ``rows``, one for each size of
-    every effect that was hidden or named: effect, hidden, found (in words), parameter, unit, true_size, size, interval, covered; None
+    every effect that was hidden or named (and for what shapes it otherwise than is typical): effect, hidden, found (in words), parameter, unit, true_size, size, interval, covered; None
     where there is no such thing.
     """
     named = {effect["name"]: effect for effect in verdict["effects"]}
@@ -23,9 +23,13 @@ def score(verdict: Mapping, hidden: Mapping[str, Mapping[str, float]], known: Se
         found = KNOWN if name in known else FOUND if name in named else CLUSTERED if name in alike else MISSED
         found = found if name in hidden else WRONG
         sizes = {size["parameter"]: size for size in named.get(name, {}).get("sizes", ())}
-        units = {parameter.name: parameter.unit for parameter in entries[name].effect.parameters} if name in entries else {}
+        parameters = entries[name].effect.parameters if name in entries else ()
+        units = {parameter.name: parameter.unit for parameter in parameters}
+        usual = {parameter.name: parameter.typical for parameter in parameters if parameter.neutral == parameter.typical}
         for parameter in dict.fromkeys([*hidden.get(name, {}), *sizes]):
             size, true = sizes.get(parameter), hidden.get(name, {}).get(parameter)
+            if size is None and true == usual.get(parameter, float("nan")):
+                continue
             interval = size["interval"] if size else None
             rows.append(
                 {
