@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from ridecomfort import simulate
 from ridecomfort.drive import leftover, record, replay

@@ -15,7 +15,7 @@ from .comfort import bands
 from .drive import readers, units
 from .effects import library
 from .errors import InputError
-from .schema import defaults, read_yaml, validate
+from .schema import read_yaml, validate
 from .vehicle import parameters
 from .vocabulary import CALIBRATED
 

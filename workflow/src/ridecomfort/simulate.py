@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -18,7 +17,6 @@ from .vehicle.constants import constants, wheel_table
 from .vehicle.ground import Surface
 from .vehicle.motion import COLUMNS, SENSED
 from .vehicle.parameters import Vehicle
-from .vehicle.parameters import read as read_vehicle
 from .vocabulary import describe
 
 STEP = 0.001

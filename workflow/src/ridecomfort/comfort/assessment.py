@@ -85,7 +85,6 @@ def _widths(sites: list[SiteResults], seed: int) -> xr.Dataset:
             answer["wilson"][i, at] = each["wilson"].values
             answer["designs"][i, at] = each["designs"].values
             answer["open_sections"][i] = each.attrs["windows"]
-    one = {"units": "1"}
     meanings = {
         "width": "width of the 95 % interval of a probability, counted over smaller designs",
         "wilson": "width of the Wilson interval of a probability",

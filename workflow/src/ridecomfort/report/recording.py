@@ -60,7 +60,6 @@ def _roughness(result: Result):
     figure = style.figure(style.DOUBLE, HEIGHT)
     axes = figure.subplots()
     for (color, _), name in zip(style.LINES, result.signals.data_vars):
-        label = f"IRI {name}" if name in ("MRI", "HRI") else name
         axes.stairs(
             result.table[f"{name} [m/km]"], [*result.table["from [m]"], result.table["to [m]"].iloc[-1]],
             color=color, baseline=None, label=name,
