@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import cluster, evidence, floor, probe, realign, refit
+from . import cluster, floor, probe, realign, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment
 from .propose import propose
@@ -22,6 +22,7 @@ from .refit import Fit
 from .rung import Rung, begin, climb, final_fit, roles
 from .selection import Round, Selection, State, Trial
 from .shared import Shared, shared_error
+from .tries import LEAST_MOVED, Tries, implausible, own_sizes
 
 LEAST_SHARE = 0.02
 """Share of the explainable error below which an effect is not worth naming..."""
@@ -34,12 +35,6 @@ PROPOSED = 5
 
 MINOR = 0.05
 """Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
-
-CONTENT = 0.98
-"""Share of the gain of a size that is not plausible at which a plausible one does as well."""
-
-CHANCE = 3.84
-"""Fall of the white loss that one free size reaches by chance in one of twenty fits: so little is no sign of an implausible one."""
 
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that an effect must reach."""
@@ -56,26 +51,11 @@ ABSENT_Z = 1.645
 MET = 0.01
 """White power of what an effect does to a drive held out, against that on a fitted one, below which the first cannot decide on it."""
 
-LARGE = 0.02
-"""Gain per independent value of the records above which a refit is repeated with the spectrum of its own residuals."""
-
-HUGE = 0.2
-"""The same, above which the columns of all parameters are made anew."""
-
 SETTLED = 3
-"""Refits that this is done for, the best of a round."""
+"""Refits that are settled, the best of a round."""
 
 SHAPED = 0.25
 """Share of the largest gain of a round from which on shapes are fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
-
-SCALES = 0.05
-"""Share of the power of a shape's column that sizes must leave: below it a shape is a size under another name."""
-
-LEAST_MOVED = 0.1
-"""Probes that a shape must move by to be another."""
-
-CYCLES = 8
-"""Most such repetitions."""
 
 ALIAS, LEAST_OWN = 0.05, 0.01
 """Share of the power that nuisances must leave of an error of an instrument or of what a tyre feels of the road, below which it is one
@@ -139,7 +119,7 @@ class _Search:
             if turn.winner is None:
                 break
             self.accepted.append(turn.winner.name)
-            self.shaped |= {size.key for size in self._own(turn.winner.name, turn.winner.fit.keys) if size.shaping}
+            self.shaped |= {size.key for size in self.by_name[turn.winner.name].shaping if size.key in turn.winner.fit.keys}
             self.say(f"accepted {turn.winner.name}")
             first = self.by_name[self.accepted[0]]
             self.columns = {job: own for job, own in self.columns.items() if self.together(first, self.by_name[job[0]])}
@@ -156,21 +136,16 @@ class _Search:
         strict = refit.intervals(final, frame, sizes, held=True)
         sure = {size.key for size in sizes if not strict[size.key][0] <= size.neutral <= strict[size.key][1]}
         for turn in rounds:  # what gains that much is there, even where parameters that may be wrong leave its size open
-            if turn.winner is not None and turn.winner.gain > LARGE * self._count():
+            if turn.winner is not None and turn.is_large:
                 sure |= {size.key for size in self.by_name[turn.winner.name].sizes}
         return Selection(
             tuple(rounds), tuple(ladder), rung.ground, rung.held_out_ground, rung.repeats, rung.frame,
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(ladder[0].fit, rung.fit),
         )  # fmt: skip
 
-    def _sizes(self, extra: Sequence[str] = ()) -> list[exp.Size]:
-        added = [*(size for name in self.accepted for size in self._own(name, self.shaped)), *(s for name in extra for s in self.by_name[name].sizes)]
-        return [*self.rung.experiment.free, *added]
-
-    def _own(self, name: str, fitted: Collection[str]) -> list[exp.Size]:
-        """The sizes of a candidate, and of what shapes it those that are ``fitted``."""
-        candidate = self.by_name[name]
-        return [*candidate.sizes, *(size for size in candidate.shaping if size.key in fitted)]
+    def _sizes(self) -> list[exp.Size]:
+        """All that is fitted: what is free, and of the accepted effects sizes and shapes."""
+        return [*self.rung.experiment.free, *(size for name in self.accepted for size in own_sizes(self.by_name[name], self.shaped))]
 
     def _state(self, name: str, fit: Fit, check) -> State:
         rung = self.rung
@@ -198,7 +173,8 @@ class _Search:
         self.rare, self.certain = found.rare, found.certain()
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
-        tried = [trial for trial in self.each(_Try(self), [found.best[name] for name in order]) if trial is not None]
+        self.tries = Tries(rung, self.by_name, self._sizes(), self.columns)
+        tried = [trial for trial in self.each(_Try(self.tries), [found.best[name] for name in order]) if trial is not None]
         least = MINOR * max((trial.gain for trial in tried), default=0.0)
         trials, winner = [], None
         for stage in ([t for t in tried if t.gain >= least], [t for t in tried if t.gain < least]):
@@ -213,7 +189,7 @@ class _Search:
             )
         return Round(
             found.names, found.p_value, found.gain, found.size, found.size_error, found.absorbed, tuple(trials), winner,
-            like, correlation, apart, found.decoy_p_value, found.decoy_ranks,
+            like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
         )  # fmt: skip
 
     def _followed_up(self, tried: Sequence[Trial]) -> list[Trial]:
@@ -225,100 +201,6 @@ class _Search:
         shaped = {trial.name for trial in best if trial.gain >= least and self.by_name[trial.name].shaping}
         followed = self.each(_FollowUp(self, {trial.name for trial in best}, shaped), leading)
         return [trial for trial in followed if trial is not None]
-
-    def _try(self, job: tuple[str, int]) -> Trial | None:
-        """The refit of a candidate in one shape; None where it cannot be simulated."""
-        rung, base = self.rung, self.rung.fit
-        candidate, raw = self.by_name[job[0]], {**rung.raw, **self.columns[job]}
-        shape = candidate.shapes[job[1]]
-        sizes = [size for size in self._sizes([candidate.name]) if size.key in raw]
-        columns = probe.white(rung.frame, {size.key: raw[size.key] for size in sizes})
-        start, own = {**base.values, **candidate.at({}), **shape}, list(self.columns[job])
-        settings = {"renewed": own, "residuals": base.residuals}
-        try:
-            fit = refit.refit(rung.experiment, rung.frame, start, sizes, columns, **settings)
-            if _implausible(candidate, fit.values):
-                inside = refit.refit(rung.experiment, rung.frame, start, sizes, columns, **settings, beyond=0.0)
-                before = float(np.sum(rung.frame.flat(base.residuals) ** 2))
-                does = inside.loss - fit.loss < CHANCE or before - inside.loss > CONTENT * (before - fit.loss)
-                fit = inside if does else fit
-            return self._trial(candidate, shape, fit)
-        except (InputError, ValueError):
-            return None
-
-    def _shape(self, trial: Trial) -> Trial:
-        """The refit repeated with what shapes the effect fitted, too, where that is worth its parameters."""
-        rung, candidate, fit = self.rung, self.by_name[trial.name], trial.fit
-        sizes = [size for size in self._sizes([trial.name]) if size.key in fit.keys]
-        own = [size.key for size in candidate.sizes if size.key in fit.keys]
-        try:
-            anew = [*(size for size in candidate.sizes if size.key in own), *candidate.shaping]
-            columns = probe.white(rung.frame, {**rung.raw, **probe.secants(rung.experiment, fit.values, fit.residuals, anew)})
-            apart = _apart(candidate.shaping, columns, own)
-            if not self._is_promising(fit, columns, [size.key for size in sizes], [size.key for size in apart]):
-                return trial
-            fitted = refit.refit(
-                rung.experiment, rung.frame, fit.values, [*sizes, *apart], columns, renewed=[*own, *(s.key for s in apart)],
-                residuals=fit.residuals, beyond=0.0,
-            )  # fmt: skip
-            if max(abs(fitted.values[size.key] - fit.values[size.key]) / size.probe for size in apart) < LEAST_MOVED:
-                return trial
-            shaped = self._trial(candidate, {key: fitted.values[key] for key in trial.shape}, fitted, len(apart))
-        except (InputError, ValueError):
-            return trial
-        return shaped if shaped.bic > trial.bic else trial
-
-    def _is_promising(self, fit: Fit, columns: Mapping[str, np.ndarray], fitted: Sequence[str], more: Sequence[str]) -> bool:
-        """Whether ``more`` columns than those ``fitted`` would be worth their parameters, were all linear."""
-        if not more:
-            return False
-        free = evidence.basis(np.stack([columns[key] for key in fitted]))
-        extra = evidence.basis(evidence.without(np.stack([columns[key] for key in more]), free))
-        return bool(np.sum((extra @ self.rung.frame.flat(fit.residuals)) ** 2) > len(more) * self._price())
-
-    def _price(self) -> float:
-        """Gain that one parameter must make up for (BIC)."""
-        return float(np.log(len(np.unique(self.rung.frame.blocks()))))
-
-    def _settle(self, trial: Trial) -> Trial:
-        """The refit repeated in the frame of its own residuals while the error falls by much.
-
-        A large error makes itself white: what is missing weighs least where it is largest.
-        """
-        rung, candidate, fit, gained = self.rung, self.by_name[trial.name], trial.fit, trial.gain
-        if not gained > LARGE * self._count():
-            return trial
-        own = [size for size in self._own(trial.name, fit.keys) if size.key in fit.keys]
-        beyond = refit.BEYOND if _implausible(candidate, fit.values) else 0.0
-        try:
-            for _ in range(CYCLES):
-                cleaned = rung.frame.all_cleaned(fit.residuals)
-                frame = exp.frame(rung.experiment, fit.residuals, rung.frame.nuisances, cleaned)
-                every = [*self._sizes(), *own]
-                anew = own if gained < HUGE * self._count() else every
-                raw = {**rung.raw, **probe.secants(rung.experiment, fit.values, fit.residuals, anew)}
-                columns = probe.white(frame, raw)
-                sizes = [size for size in every if size.key in columns]
-                fit = refit.refit(
-                    rung.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own],
-                    residuals=fit.residuals, beyond=beyond,
-                )  # fmt: skip
-                settled = self._trial(candidate, {key: fit.values[key] for key in trial.shape}, fit, len(own) - len(candidate.sizes))
-                gained = settled.gain - trial.gain
-                trial = settled if gained > 0 else trial
-                if gained < LARGE * self._count():
-                    break
-        except (InputError, ValueError):
-            pass
-        return trial
-
-    def _trial(self, candidate: Candidate, shape, fit: Fit, more: int = 0) -> Trial:
-        """What a refit gains on the drives that it was fitted to, ``more`` parameters than sizes fitted; the others have not been asked."""
-        frame = self.rung.frame
-        gain = refit.information(frame, fit.residuals) - refit.information(frame, self.rung.fit.residuals)
-        bic = gain - (len(candidate.sizes) + more) * self._price()
-        unknown = (float("nan"),) * 4
-        return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
 
     def _judge(self, trial: Trial) -> Trial | None:
         """A trial with what it does to the drives held out; None where these cannot be simulated."""
@@ -362,14 +244,8 @@ class _Search:
             powers.append(np.sum(frame.flat({i: with_it[i] - without[i] for i in indices}) ** 2) / len(indices))
         return powers[1] > MET * powers[0]
 
-    def _count(self) -> float:
-        """Independent values in the band of the fitted records and channels."""
-        records = [self.rung.experiment.records[i] for i in self.fitted]
-        seconds = [len(record.place) / record.rate for record in records]
-        return len(self.rung.experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
-
     def _objection(self, trial: Trial, candidate: Candidate, is_weak: bool, left: float) -> str:
-        outside = _implausible(candidate, trial.fit.values)
+        outside = implausible(candidate, trial.fit.values)
         if outside:
             return outside
         if trial.bic <= 0:
@@ -388,23 +264,6 @@ class _Search:
         return left, 1.0 - left.power / before.power if before.power > 0 else float("nan"), before.z
 
 
-def _apart(shaping: Sequence[exp.Size], columns: Mapping[str, np.ndarray], own: Sequence[str]) -> list[exp.Size]:
-    """Those of what shapes an effect whose columns are no sum of those of its ``own`` sizes."""
-    span = evidence.basis(np.stack([columns[key] for key in own]))
-    left = lambda row: float(np.sum(evidence.without(row, span) ** 2))
-    return [size for size in shaping if left(columns[size.key]) > SCALES * float(np.sum(columns[size.key] ** 2))]
-
-
-def _implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
-    """The first size that lies outside its plausible range, in words; empty where all lie within."""
-    for size in candidate.sizes:
-        value = values.get(size.key, size.neutral)
-        room = 1e-3 * (size.upper - size.lower)
-        if not size.lower - room <= value <= size.upper + room:
-            return f"{size.key} = {value:.3g} {size.unit} lies outside what is plausible ({size.lower:g} to {size.upper:g})"
-    return ""
-
-
 def _merit(trial: Trial) -> tuple[bool, float]:
     """What the drives held out confirm goes before what they do not refute."""
     unasked = not np.isfinite(trial.held_out_gain)
@@ -413,10 +272,10 @@ def _merit(trial: Trial) -> tuple[bool, float]:
 
 @dataclass(frozen=True)
 class _Try:
-    search: _Search
+    tries: Tries
 
     def __call__(self, job: tuple[str, int]) -> Trial | None:
-        return self.search._try(job)
+        return self.tries.first(job)
 
 
 @dataclass(frozen=True)
@@ -428,11 +287,7 @@ class _FollowUp:
     """Names of those whose shapes are fitted."""
 
     def __call__(self, trial: Trial) -> Trial | None:
-        search = self.search
-        if trial.name in self.leading:
-            trial = search._settle(trial)
-        if trial.name in self.shaped:
-            shaped = search._shape(trial)
-            if shaped is not trial:
-                trial = max(trial, search._settle(shaped), key=lambda one: one.bic)
-        return search._judge(trial)
+        tries = self.search.tries
+        trial = tries.settled(trial) if trial.name in self.leading else trial
+        trial = tries.shaped(trial) if trial.name in self.shaped else trial
+        return self.search._judge(trial)

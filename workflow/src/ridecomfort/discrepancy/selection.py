@@ -53,12 +53,14 @@ class Round:
     decoy_p_value: float
     decoy_ranks: bool
     """Whether a decoy is significant and gains more than any candidate."""
+    is_large: bool
+    """Whether the winner gains so much that the error changes its colour by it."""
 
     @classmethod
     def empty(cls) -> Round:
         """A round without any candidate that the data could see."""
         nothing = np.zeros(0)
-        return cls((), nothing, nothing, {}, {}, nothing, (), None, (), {}, {}, 1.0, False)
+        return cls((), nothing, nothing, {}, {}, nothing, (), None, (), {}, {}, 1.0, False, False)
 
 
 @dataclass(frozen=True)

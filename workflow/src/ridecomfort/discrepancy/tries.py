@@ -1,0 +1,179 @@
+"""A candidate tried: its sizes fitted together with all that is free, settled while the error falls by much, and its shape fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..errors import InputError
+from . import evidence, probe, refit
+from . import experiment as exp
+from .experiment import Candidate, Size
+from .refit import Fit
+from .rung import Raw, Rung, roles
+from .selection import Trial
+
+CONTENT = 0.98
+"""Share of the gain of a size that is not plausible at which a plausible one does as well."""
+
+CHANCE = 3.84
+"""Fall of the white loss that one free size reaches by chance in one of twenty fits: so little is no sign of an implausible one."""
+
+LARGE = 0.02
+"""Gain per independent value of the records above which a refit is repeated with the spectrum of its own residuals."""
+
+HUGE = 0.2
+"""The same, above which the columns of all parameters are made anew."""
+
+CYCLES = 8
+"""Most such repetitions."""
+
+SCALES = 0.05
+"""Share of the power of a shape's column that sizes must leave: below it a shape is a size under another name."""
+
+LEAST_MOVED = 0.1
+"""Probes that a shape must move by to be another."""
+
+Job = tuple[str, int]
+"""A candidate and the number of its shape."""
+
+
+@dataclass(frozen=True)
+class Tries:
+    """Refits of ``candidates`` (by name) from a ``rung``, together with the sizes of it that are ``fitted`` anyway; ``columns``: raw
+    change of the residuals per probe of every size, by job and key."""
+
+    rung: Rung
+    candidates: Mapping[str, Candidate]
+    fitted: Sequence[Size]
+    columns: Mapping[Job, Raw]
+
+    def first(self, job: Job) -> Trial | None:
+        """The refit of a candidate in one shape; None where it cannot be simulated."""
+        rung, base = self.rung, self.rung.fit
+        candidate, raw = self.candidates[job[0]], {**rung.raw, **self.columns[job]}
+        shape = candidate.shapes[job[1]]
+        sizes = [size for size in (*self.fitted, *candidate.sizes) if size.key in raw]
+        columns = probe.white(rung.frame, {size.key: raw[size.key] for size in sizes})
+        start, own = {**base.values, **candidate.at({}), **shape}, list(self.columns[job])
+        settings = {"renewed": own, "residuals": base.residuals}
+        try:
+            fit = refit.refit(rung.experiment, rung.frame, start, sizes, columns, **settings)
+            if implausible(candidate, fit.values):
+                inside = refit.refit(rung.experiment, rung.frame, start, sizes, columns, **settings, beyond=0.0)
+                before = float(np.sum(rung.frame.flat(base.residuals) ** 2))
+                does = inside.loss - fit.loss < CHANCE or before - inside.loss > CONTENT * (before - fit.loss)
+                fit = inside if does else fit
+            return self._trial(candidate, shape, fit)
+        except (InputError, ValueError):
+            return None
+
+    def settled(self, trial: Trial) -> Trial:
+        """A refit that gains much repeated in the frame of its own residuals while the error falls by much.
+
+        A large error makes itself white: what is missing weighs least where it is largest.
+        """
+        rung, candidate, fit, gained = self.rung, self.candidates[trial.name], trial.fit, trial.gain
+        if not self.is_large(gained):
+            return trial
+        own = [size for size in own_sizes(candidate, fit.keys) if size.key in fit.keys]
+        every = [*self.fitted, *own]
+        beyond = refit.BEYOND if implausible(candidate, fit.values) else 0.0
+        try:
+            for _ in range(CYCLES):
+                cleaned = rung.frame.all_cleaned(fit.residuals)
+                frame = exp.frame(rung.experiment, fit.residuals, rung.frame.nuisances, cleaned)
+                anew = own if gained < HUGE * self._count() else every
+                raw = {**rung.raw, **probe.secants(rung.experiment, fit.values, fit.residuals, anew)}
+                columns = probe.white(frame, raw)
+                sizes = [size for size in every if size.key in columns]
+                fit = refit.refit(
+                    rung.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own],
+                    residuals=fit.residuals, beyond=beyond,
+                )  # fmt: skip
+                shape = {key: fit.values[key] for key in trial.shape}
+                found = self._trial(candidate, shape, fit, sum(size.shaping for size in own))
+                gained = found.gain - trial.gain
+                trial = found if gained > 0 else trial
+                if not self.is_large(gained):
+                    break
+        except (InputError, ValueError):
+            pass
+        return trial
+
+    def shaped(self, trial: Trial) -> Trial:
+        """The refit repeated with what shapes the effect fitted, too, where that is worth its parameters."""
+        rung, candidate, fit = self.rung, self.candidates[trial.name], trial.fit
+        sizes = [size for size in (*self.fitted, *candidate.sizes) if size.key in fit.keys]
+        own = [size for size in candidate.sizes if size.key in fit.keys]
+        try:
+            raw = probe.secants(rung.experiment, fit.values, fit.residuals, [*own, *candidate.shaping])
+            columns = probe.white(rung.frame, {**rung.raw, **raw})
+            apart = _apart(candidate.shaping, columns, own)
+            if not self._is_promising(fit, columns, sizes, apart):
+                return trial
+            fitted = refit.refit(
+                rung.experiment, rung.frame, fit.values, [*sizes, *apart], columns, renewed=[size.key for size in (*own, *apart)],
+                residuals=fit.residuals, beyond=0.0,
+            )  # fmt: skip
+            if all(abs(fitted.values[size.key] - fit.values[size.key]) < LEAST_MOVED * size.probe for size in apart):
+                return trial
+            found = self._trial(candidate, {key: fitted.values[key] for key in trial.shape}, fitted, len(apart))
+        except (InputError, ValueError):
+            return trial
+        return self.settled(found) if found.bic > trial.bic else trial
+
+    def is_large(self, gain: float) -> bool:
+        """Whether a gain is so large that the error changes its colour by it."""
+        return gain > LARGE * self._count()
+
+    def _is_promising(self, fit: Fit, columns: Mapping[str, np.ndarray], fitted: Sequence[Size], more: Sequence[Size]) -> bool:
+        """Whether ``more`` than what is ``fitted`` would be worth its parameters, were all linear."""
+        if not more:
+            return False
+        free = evidence.basis(np.stack([columns[size.key] for size in fitted]))
+        extra = evidence.basis(evidence.without(np.stack([columns[size.key] for size in more]), free))
+        return bool(np.sum((extra @ self.rung.frame.flat(fit.residuals)) ** 2) > len(more) * self._price())
+
+    def _trial(self, candidate: Candidate, shape: Mapping[str, float], fit: Fit, more: int = 0) -> Trial:
+        """What a refit gains on the drives that it was fitted to, ``more`` parameters than sizes fitted; the others have not been asked."""
+        frame = self.rung.frame
+        gain = refit.information(frame, fit.residuals) - refit.information(frame, self.rung.fit.residuals)
+        bic = gain - (len(candidate.sizes) + more) * self._price()
+        unknown = (float("nan"),) * 4
+        return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
+
+    def _price(self) -> float:
+        """Gain that one parameter must make up for (BIC)."""
+        return float(np.log(len(np.unique(self.rung.frame.blocks()))))
+
+    def _count(self) -> float:
+        """Independent values in the band of the fitted records and channels."""
+        experiment = self.rung.experiment
+        records = [experiment.records[index] for index in roles(experiment)[0]]
+        seconds = [len(record.place) / record.rate for record in records]
+        return len(experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
+
+
+def own_sizes(candidate: Candidate, fitted: Collection[str]) -> list[Size]:
+    """The sizes of a candidate, and of what shapes it those that are ``fitted``."""
+    return [*candidate.sizes, *(size for size in candidate.shaping if size.key in fitted)]
+
+
+def implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
+    """The first size that lies outside its plausible range, in words; empty where all lie within."""
+    for size in candidate.sizes:
+        value = values.get(size.key, size.neutral)
+        room = 1e-3 * (size.upper - size.lower)
+        if not size.lower - room <= value <= size.upper + room:
+            return f"{size.key} = {value:.3g} {size.unit} lies outside what is plausible ({size.lower:g} to {size.upper:g})"
+    return ""
+
+
+def _apart(shaping: Sequence[Size], columns: Mapping[str, np.ndarray], own: Sequence[Size]) -> list[Size]:
+    """Those of what shapes an effect whose columns are no sum of those of its ``own`` sizes."""
+    span = evidence.basis(np.stack([columns[size.key] for size in own]))
+    left = lambda row: float(np.sum(evidence.without(row, span) ** 2))
+    return [size for size in shaping if left(columns[size.key]) > SCALES * float(np.sum(columns[size.key] ** 2))]
