@@ -99,7 +99,6 @@ PLACES: Mapping[str, Place] = {
         ("wheel", "deflection", "velocity", "stiffness", "damping", "force_x", "force_y"),
         {"deflection": 0.012, "velocity": 0.12, "stiffness": 28000.0, "damping": 2100.0, "force_x": 300.0, "force_y": 600.0},
         {
-            "velocity": Term("velocity", "N s/m"),
             "velocity_direction": Term("tanh(velocity / 0.005)", "N"),
             "velocity_saturating": Term("velocity / (1.0 + abs(velocity) / 0.1)", "N s/m"),
             "velocity_size": Term("abs(velocity)", "N s/m"),
