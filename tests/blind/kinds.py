@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy.candidates import candidate
 from ridecomfort.effects import library
 
 KAPPAS = (0.05, 0.1, 0.3, 1.0, 3.0)
@@ -49,7 +49,7 @@ class Draw:
 
 def of_the_vehicle() -> list[str]:
     """Effects of the library that are none of an instrument or of the road's file."""
-    return [name for name, entry in library.find().items() if not cars.candidate(entry.effect).instrument]
+    return [name for name, entry in library.find().items() if not candidate(entry.effect).instrument]
 
 
 def _plain(names: Sequence[str]) -> list[str]:
@@ -77,7 +77,7 @@ def _shaped(rng, names, number) -> Draw:
 
 def _set_otherwise(rng, names, number) -> Draw:
     """An effect shaped otherwise than is typical: at another clearance, knee, frequency or place."""
-    known = {name: cars.candidate(library.find()[name].effect).shapes for name in _plain(names)}
+    known = {name: candidate(library.find()[name].effect).shapes for name in _plain(names)}
     known = {name: shapes for name, shapes in known.items() if len(shapes) > 1}
     name = list(known)[number % len(known)]
     settings = {}

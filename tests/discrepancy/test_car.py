@@ -10,7 +10,6 @@ import pytest
 from ridecomfort import simulate
 from ridecomfort.calibrated import with_values
 from ridecomfort.discrepancy import car as cars
-from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
 
@@ -76,14 +75,3 @@ def test_the_step_of_another_simulator_is_its_own(made):
     other = replace(made, replays=[replace(again, simulate=lambda *a, **k: simulate.run(*a, **k)) for again in made.replays])
     values = cars.start_values(other)
     np.testing.assert_array_equal(other.retuned(values, [0], exactly=True)[0].residual(values, 0), other.residual(values, 0))
-
-
-def test_an_effect_is_tried_at_the_settings_that_may_turn_it_round():
-    known = library.find()
-    knees = [shape["damper_knee.knee"] for shape in cars.candidate(known["damper_knee"].effect).shapes]
-    assert knees == pytest.approx([0.1, np.sqrt(0.1 * 0.03), np.sqrt(0.1 * 0.5)])
-    friction = cars.candidate(known["suspension_friction"].effect)
-    assert [shape["suspension_friction.presliding"] for shape in friction.shapes] == [0.0, 0.001]
-    assert [size.key for size in friction.shaping] == ["suspension_friction.presliding"] and friction.shaping[0].shaping
-    ahead = {shape["payload.ahead"] for shape in cars.candidate(known["payload"].effect).shapes}
-    assert min(ahead) < -0.8 < 0.0 < max(ahead)

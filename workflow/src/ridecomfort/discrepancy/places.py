@@ -76,21 +76,24 @@ STRAIN = State("strain", "1000.0 * (velocity - abs(velocity) * strain) / (1.0 + 
 """The direction of motion, which it follows over a millimetre; no faster than the step of the kernel bears."""
 
 
-def _resonance(axle: str, frequency: float) -> Term:
-    """A part of the sprung mass above an axle that moves on a spring of its own, with a tenth of critical damping."""
+def _on_spring(base: str, typical: float, frequency: float, unit: str, result: str, ahead: str = "") -> Term:
+    """A part of the sprung mass that moves on a spring of its own where the body has the acceleration ``base`` (typically ``typical``),
+    with a tenth of critical damping."""
     turns = 2 * pi * frequency
+    against = f"{turns**2:.4g} * way + {0.2 * turns:.4g} * rate"
+    states = State("way", "rate", typical / turns**2), State("rate", f"-({base} + {against})", typical / turns)
+    return Term(f"{base} + {against}", unit, result, WHOLE, states, ahead)
+
+
+def _resonance(axle: str, frequency: float) -> Term:
+    """A part of the sprung mass above an axle."""
     body = f"motion.vertical_acceleration - motion.{axle} * motion.pitch_acceleration"
-    against = f"{turns**2:.4g} * lift + {0.2 * turns:.4g} * rate"
-    states = State("lift", "rate", 0.6 / turns**2), State("rate", f"-({body} + {against})", 0.6 / turns)
-    return Term(f"{body} + {against}", "kg", "force_z", WHOLE, states, f"motion.{axle}")
+    return _on_spring(body, 0.6, frequency, "kg", "force_z", f"motion.{axle}")
 
 
 def _roll_resonance(frequency: float) -> Term:
-    """A part of the sprung mass that turns about the body's long axis on a spring of its own, with a tenth of critical damping."""
-    turns = 2 * pi * frequency
-    against = f"{turns**2:.4g} * angle + {0.2 * turns:.4g} * rate"
-    states = State("angle", "rate", 0.4 / turns**2), State("rate", f"-(motion.roll_acceleration + {against})", 0.4 / turns)
-    return Term(f"motion.roll_acceleration + {against}", "kg m2", "moment_x", WHOLE, states)
+    """A part of the sprung mass that turns about the body's long axis."""
+    return _on_spring("motion.roll_acceleration", 0.4, frequency, "kg m2", "moment_x")
 
 
 PLACES: Mapping[str, Place] = {

@@ -1,0 +1,20 @@
+"""What is tried of an effect: its sizes, and settings that may turn it round."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort.discrepancy.candidates import candidate
+from ridecomfort.effects import library
+
+
+def test_an_effect_is_tried_at_the_settings_that_may_turn_it_round():
+    known = library.find()
+    knees = [shape["damper_knee.knee"] for shape in candidate(known["damper_knee"].effect).shapes]
+    assert knees == pytest.approx([0.1, np.sqrt(0.1 * 0.03), np.sqrt(0.1 * 0.5)])
+    friction = candidate(known["suspension_friction"].effect)
+    assert [shape["suspension_friction.presliding"] for shape in friction.shapes] == [0.0, 0.001]
+    assert [size.key for size in friction.shaping] == ["suspension_friction.presliding"] and friction.shaping[0].shaping
+    ahead = {shape["payload.ahead"] for shape in candidate(known["payload"].effect).shapes}
+    assert min(ahead) < -0.8 < 0.0 < max(ahead)

@@ -1,0 +1,75 @@
+"""An effect of the library as a candidate: its sizes, and what shapes it with the settings to try."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..effects.contract import Effect, Parameter
+from .experiment import Candidate, Size
+
+PROBE = 0.25
+"""Share of an effect's typical size that it is probed with: the smallest size of interest."""
+
+OF_THE_ROAD = ("road_bank", "road_grade")
+"""Effects that are errors of the road's file, not of the vehicle."""
+
+VARIED_UNITS = ("Hz", "m/s")
+"""Units of parameters that shape an effect so much that it is tried with several values; clearances do, too, and what may be of either
+sign or none."""
+
+SHAPING_PROBE = 0.02
+"""Share of its plausible range that what shapes an effect is probed with."""
+
+
+def candidate(effect: Effect) -> Candidate:
+    """An effect as a candidate: its sizes, and what only shapes it with the settings to try."""
+    sizes = [parameter for parameter in effect.parameters if _is_size(parameter, effect)]
+    shaping = [parameter for parameter in effect.parameters if parameter not in sizes]
+    typical = {f"{effect.name}.{p.name}": p.typical for p in shaping}
+    together: dict[str, list[Parameter]] = {}
+    for parameter in shaping:
+        if _is_varied(parameter):
+            together.setdefault(parameter.name.partition("_")[0], []).append(parameter)
+    shapes = [typical]
+    for varied in together.values():
+        moved = ({f"{effect.name}.{p.name}": _towards(p, end) for p in varied} for end in (0, 1))
+        shapes += [{**typical, **own} for own in moved if {**typical, **own} != typical]
+    instrument = effect.port in ("sensor", "path") or effect.name in OF_THE_ROAD
+    return Candidate(
+        effect.name, tuple(_size(p, effect) for p in sizes), tuple(shapes), tuple(_shaping(p, effect) for p in shaping),
+        effect.sentence, instrument, effect.port,
+    )  # fmt: skip
+
+
+def _is_varied(parameter: Parameter) -> bool:
+    lower, upper = parameter.plausible
+    return parameter.unit in VARIED_UNITS or parameter.name.startswith("clearance") or lower < 0.0 < upper or not parameter.typical
+
+
+def _towards(parameter: Parameter, end: int) -> float:
+    """Half of the way from what is typical to one end of what is plausible; in ratio, where neither may be nil."""
+    typical, limit = parameter.typical, parameter.plausible[end]
+    if parameter.plausible[0] > 0.0:
+        return float(np.sqrt(typical * limit))
+    return 0.5 * (typical + limit)
+
+
+def _shaping(parameter: Parameter, effect: Effect) -> Size:
+    lower, upper = map(float, parameter.plausible)
+    step = SHAPING_PROBE * (upper - lower)
+    return Size(f"{effect.name}.{parameter.name}", parameter.unit, parameter.typical, lower, upper, step, shaping=True)
+
+
+def _is_size(parameter: Parameter, effect: Effect) -> bool:
+    """Whether it switches the effect on; a size may be typically nil where one of its kind is not."""
+    if parameter.neutral != parameter.typical:
+        return True
+    return any(p.unit == parameter.unit and p.neutral == parameter.neutral != p.typical for p in effect.parameters)
+
+
+def _size(parameter: Parameter, effect: Effect) -> Size:
+    same = [p.typical - p.neutral for p in effect.parameters if p.unit == parameter.unit and p.typical != p.neutral]
+    step = parameter.typical - parameter.neutral or same[0]
+    return Size(
+        f"{effect.name}.{parameter.name}", parameter.unit, parameter.neutral, *map(float, parameter.plausible), PROBE * step
+    )
