@@ -12,7 +12,7 @@ from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 
-SURE = Discovery("tyre", {"phase_sine": {"front_left": 60.0}}, "force = ...", 0.9, 0.9, 0.0015, "", {}, None)
+SURE = Discovery("tyre", {"phase_sine": {"front_left": 60.0}}, {"phase_sine": {}}, "force = ...", 0.9, 0.9, 0.0015, "", {}, None)
 
 
 def test_a_sure_force_of_some_form_makes_outside_of_nothing():
@@ -52,6 +52,17 @@ def test_a_name_that_leaves_an_error_for_certain_gives_way_to_a_force_that_is_as
     assert reconsidered(replace(left, is_left=False), as_good).verdict == "named"
     for weaker in (replace(as_good, share=0.7), replace(as_good, held_out_share=0.5)):
         assert reconsidered(left, weaker) is left
+
+
+def test_a_name_that_leaves_little_but_that_for_certain_gives_way_to_a_force_that_leaves_half_of_it():
+    little = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.82, held_out_share=0.77, is_shared=True)
+    exact = replace(SURE, share=0.96, held_out_share=0.95)
+    assert reconsidered(little, exact).verdict == "outside"
+    for weaker in (replace(exact, share=0.88), replace(exact, held_out_share=0.8), replace(exact, p_value=0.03)):
+        assert reconsidered(little, weaker) is little
+    assert reconsidered(replace(little, is_shared=False), exact).verdict == "named"
+    hardly = replace(little, share=0.97, held_out_share=0.97)
+    assert reconsidered(hardly, replace(exact, share=0.995, held_out_share=0.995)) is hardly
 
 
 FOUND = Named("friction", (), "", 0.001, 0.3, 0.3, 0.0, (), {})

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from ridecomfort.discrepancy.places import AXLES, PLACES, WHEELS, WHOLE, effect_source, in_words, scale
+from ridecomfort.discrepancy.places import AXLES, PLACES, WHEELS, WHOLE, effect_source, in_words, scale, settings
 from ridecomfort.effects import library
 
 KNOWN = {"tanh": tanh, "cos": cos, "sin": sin, "abs": abs, "max": max, "min": min}
@@ -28,12 +28,14 @@ def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp
         entry = found[f"found_{name}"]
         own = {WHOLE: "", AXLES: AXLES[wheel // 2], WHEELS: WHEELS[wheel]}[term.parts]
         states = {state.name: 0.3 + 0.1 * k for k, state in enumerate(term.states)}
-        worth = lambda expression: eval(expression, KNOWN, seen | states)
+        shape = {setting.name: setting.typical for setting in settings(place, name)}
+        worth = lambda expression: eval(expression, KNOWN, seen | states | shape)
         value = factors[name][own] * worth(term.expression)
         before = {result: seen.get(result, 0.0) for result in where.results}
         expected = {result: before[result] + (value if result == term.result else 0.0) for result in where.results}
         if term.ahead:
-            expected["moment_y"] -= worth(term.ahead) * value
+            moment, sign = ("moment_z", 1.0) if term.result == "force_y" else ("moment_y", -1.0)
+            expected[moment] += sign * worth(term.ahead) * value
         slopes = [worth(state.slope) for state in term.states]
         arguments = {key: seen[key] for key in where.arguments} | dict(zip(entry.effect.states, states.values()))
         assert _tuple(entry.act(**arguments, **entry.effect.values())) == pytest.approx([*expected.values(), *slopes])
@@ -54,20 +56,35 @@ def test_a_form_is_said_with_its_sizes():
         "force = (57.3 N front and 48 N rear) tanh(velocity / 0.005)"
     )
     assert in_words("body", {"lift": {"": -0.5}}) == "force_z = (-0.5 N s2/m2) motion.speed**2"
-    assert in_words("strut", {"velocity_below_10_Hz": {"front": 57.3, "rear": 48.0}}) == (
-        "force = (57.3 N s/m front and 48 N s/m rear) slow, slow' = 62.83 * (velocity - slow)"
+    shaped = {"slow_velocity": {"frequency": 7.5, "linear": 0.0}}
+    assert in_words("strut", {"slow_velocity": {"front": 57.3, "rear": 48.0}}, shaped) == (
+        "force = (57.3 N s/m front and 48 N s/m rear) slow, slow' = 6.2832 * frequency * (velocity - slow), frequency = 7.5 Hz"
     )
+
+
+def test_a_force_may_have_a_linear_part_of_its_own(tmp_path):
+    """Dampers that are soft around rest: 500 N s/m less there, as stiff as before where they give 20 mm."""
+    terms = {"deflection_size_times_velocity": {"front": 25000.0, "rear": 25000.0}}
+    shaped = {"deflection_size_times_velocity": {"linear": -0.02 / 0.012}}
+    source = effect_source("found", "strut", terms, "Found.", shaped)
+    (tmp_path / "found.py").write_text(source)
+    entry = library.find(tmp_path)["found"]
+    force = lambda deflection: entry.act(0, deflection, 0.1, 0.0, 0.0, 0.0, 0.0, **entry.effect.values())
+    assert force(0.0) == pytest.approx(-50.0, rel=1e-3) and force(0.02) == pytest.approx(0.0, abs=0.05)
+    assert "linear = -1.667" in in_words("strut", terms, shaped)
+    plain = effect_source("found", "strut", terms, "Found.", {"deflection_size_times_velocity": {"linear": 0.0}})
+    assert "linear" not in plain
 
 
 def test_a_part_that_moves_on_a_spring_of_its_own_swings_at_its_frequency_and_is_rigid_below(tmp_path):
     """Free, it turns at 11 Hz; pushed along slowly, it weighs nothing beside the body that carries it already."""
-    source = effect_source("found", "body", {"resonance_front_11_Hz": {"": 100.0}}, "Found.")
+    source = effect_source("found", "body", {"resonance_front": {"": 100.0}}, "Found.")
     (tmp_path / "found.py").write_text(source)
     act = library.find(tmp_path)["found"].act
     still = {"vertical_acceleration": 0.0, "pitch_acceleration": 0.0, "front": 1.2, "rear": -1.5, "speed": 20.0}
     lift, rate, step, places = 1e-3, 0.0, 1e-4, []
     for _ in range(10000):
-        *_, rising, turning = act(SimpleNamespace(**still), lift, rate, 100.0)
+        *_, rising, turning = act(SimpleNamespace(**still), lift, rate, 100.0, 11.0, 0.1)
         rate += step * turning
         lift += step * rate
         places.append(lift)
@@ -75,4 +92,4 @@ def test_a_part_that_moves_on_a_spring_of_its_own_swings_at_its_frequency_and_is
     assert crossings == pytest.approx(11, abs=1)
     pushed = SimpleNamespace(**(still | {"vertical_acceleration": 1.0}))
     balance = -1.0 / (2 * pi * 11) ** 2
-    assert abs(act(pushed, balance, 0.0, 100.0)[2]) < 0.1
+    assert abs(act(pushed, balance, 0.0, 100.0, 11.0, 0.1)[2]) < 0.1

@@ -28,25 +28,26 @@ def candidate(effect: Effect) -> Candidate:
     typical = {f"{effect.name}.{p.name}": p.typical for p in shaping}
     together: dict[str, list[Parameter]] = {}
     for parameter in shaping:
-        if _is_varied(parameter):
+        if is_varied(parameter):
             together.setdefault(parameter.name.partition("_")[0], []).append(parameter)
     shapes = [typical]
     for varied in together.values():
-        moved = ({f"{effect.name}.{p.name}": _towards(p, end) for p in varied} for end in (0, 1))
+        moved = ({f"{effect.name}.{p.name}": towards(p, end) for p in varied} for end in (0, 1))
         shapes += [{**typical, **own} for own in moved if {**typical, **own} != typical]
     instrument = effect.port in ("sensor", "path") or effect.name in OF_THE_ROAD
     return Candidate(
-        effect.name, tuple(_size(p, effect) for p in sizes), tuple(shapes), tuple(_shaping(p, effect) for p in shaping),
+        effect.name, tuple(_size(p, effect) for p in sizes), tuple(shapes), tuple(shaping_size(p, f"{effect.name}.{p.name}") for p in shaping),
         effect.sentence, instrument, effect.port,
     )  # fmt: skip
 
 
-def _is_varied(parameter: Parameter) -> bool:
+def is_varied(parameter: Parameter) -> bool:
+    """Whether a parameter shapes an effect so much that it is tried with several values."""
     lower, upper = parameter.plausible
     return parameter.unit in VARIED_UNITS or parameter.name.startswith("clearance") or lower < 0.0 < upper or not parameter.typical
 
 
-def _towards(parameter: Parameter, end: int) -> float:
+def towards(parameter: Parameter, end: int) -> float:
     """Half of the way from what is typical to one end of what is plausible; in ratio, where neither may be nil."""
     typical, limit = parameter.typical, parameter.plausible[end]
     if parameter.plausible[0] > 0.0:
@@ -54,10 +55,11 @@ def _towards(parameter: Parameter, end: int) -> float:
     return 0.5 * (typical + limit)
 
 
-def _shaping(parameter: Parameter, effect: Effect) -> Size:
+def shaping_size(parameter: Parameter, key: str) -> Size:
+    """What shapes an effect as a number that may be fitted."""
     lower, upper = map(float, parameter.plausible)
     step = SHAPING_PROBE * (upper - lower)
-    return Size(f"{effect.name}.{parameter.name}", parameter.unit, parameter.typical, lower, upper, step, shaping=True)
+    return Size(key, parameter.unit, parameter.typical, lower, upper, step, shaping=True)
 
 
 def _is_size(parameter: Parameter, effect: Effect) -> bool:

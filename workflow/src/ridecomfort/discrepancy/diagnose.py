@@ -20,6 +20,10 @@ from .verdict import CONFIRMED, DOUBTFUL, LITTLE, Verdict
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
+HALF, WORTH = 0.5, 0.05
+"""Share of what the library leaves, where that is little, which a force of any form may leave at most to do so, and share of the
+explainable error by which it must be better then."""
+
 
 def diagnose(
     measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0,
@@ -35,7 +39,8 @@ def diagnose(
     rung = begin(experiment, cars.start_values(experiment), common["each"])
     table, verdict = ranked(experiment, rung, signatures=signatures, **common)
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
-    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL
+    most = 1.0 - WORTH / (1.0 - HALF) if verdict.is_shared else DOUBTFUL
+    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < most
     if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
         return table, verdict, None
     proposal = discovered(rung, **common)
@@ -48,8 +53,8 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. What is named becomes "outside" where
-    such a force explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error beside
-    what is named, more of the first and not much less of the others will do. Where the road may be another than that of its file, by
+    such a force explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error
+    beside what is named, more of the first and not much less of the others will do, or, where little is left, HALF of that. Where the road may be another than that of its file, by
     noise of its points or by what lies between them (``is_road_open``), which repeats share as well, "outside" becomes what the library
     has unless such a force explains more ("suspect" where that is little), and "suspect" for that becomes "outside" if such a force
     explains more than noise could.
@@ -61,10 +66,11 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
         return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     more = is_sure(proposal) and proposal.share > BETTER * verdict.share
-    if verdict.is_left:  # which the force may be, where it is as good
+    if verdict.is_left and verdict.share < DOUBTFUL:  # which the force may be, where it is as good
         is_better = is_sure(proposal) and proposal.share > verdict.share and not BETTER * proposal.held_out_share < held_out
     else:
         is_better = more and not proposal.held_out_share < held_out
+        is_better = is_better or verdict.is_shared and is_sure(proposal) and _leaves_less(verdict, proposal)
     if verdict.verdict in ("named", "cluster") and is_better:
         return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
@@ -73,6 +79,12 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
             return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
         return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
     return verdict
+
+
+def _leaves_less(verdict: Verdict, proposal: Discovery) -> bool:
+    """Whether a force leaves hardly half of what the library does, on fitted drives and on those held out, if any."""
+    better = proposal.share - verdict.share > WORTH and 1.0 - proposal.share < HALF * (1.0 - verdict.share)
+    return better and not 1.0 - proposal.held_out_share > HALF * (1.0 - verdict.held_out_share)
 
 
 def _said(verdict: Verdict, kind: str, reason: str) -> Verdict:

@@ -16,9 +16,10 @@ import xarray as xr
 
 from . import car as cars
 from . import pool
+from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .made import beside
-from .places import FORCE, PLACES, STRONGEST, effect_source, in_words, parameter, scale
+from .places import FORCE, LINEAR, PLACES, STRONGEST, effect_source, in_words, parameter, scale, settings
 from .rung import Rung, begin
 from .select import search
 from .selection import Selection
@@ -27,11 +28,12 @@ from .verdict import plain, total_shares
 
 @dataclass(frozen=True)
 class Discovery:
-    """A proposed effect: ``place``, its ``terms`` with factors by part of the car, ``form`` in words, shares removed, and
-    the ``source`` of an effect file; all empty where nothing was found."""
+    """A proposed effect: ``place``, its ``terms`` with factors by part of the car and the ``settings`` that shape them, ``form`` in
+    words, shares removed, and the ``source`` of an effect file; all empty where nothing was found."""
 
     place: str
     terms: dict[str, dict[str, float]]
+    settings: dict[str, dict[str, float]]
     form: str
     share: float
     held_out_share: float
@@ -43,7 +45,7 @@ class Discovery:
 
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
-        names = ("place", "form", "terms", "share", "held_out_share", "p_value", "by_place")
+        names = ("place", "form", "terms", "settings", "share", "held_out_share", "p_value", "by_place")
         return plain({name: getattr(self, name) for name in names})
 
 
@@ -98,19 +100,20 @@ def _discovery(selection: Selection, name: str) -> Discovery:
         place: max((gain for own, gain in zip(first.names, first.gain) if _place(own) == place), default=0.0) for place in PLACES
     }
     if not selection.accepted:
-        return Discovery("", {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
-    place, terms = _place(selection.accepted[0]), {}
+        return Discovery("", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
+    place, terms, shaped = _place(selection.accepted[0]), {}, {}
     for accepted in selection.accepted:
         term = accepted.partition(":")[2]
         keys = {part: _key(place, term, part) for part in PLACES[place].terms[term].parts}
         terms[term] = {part: selection.final.values[key] for part, key in keys.items() if key in selection.final.values}
-    form = in_words(place, terms)
+        own = {setting.name: setting.typical for setting in settings(place, term)}
+        shaped[term] = {name: selection.final.values.get(_key(place, term, name), typical) for name, typical in own.items()}
+    form = in_words(place, terms, shaped)
     share, held_out = total_shares(selection)
     p_value = float(first.p_value[first.names.index(first.winner.name)])
     sentence = f"Found on measured drives, not in the library: at the {place}, {form}."
-    return Discovery(
-        place, terms, form, share, held_out, p_value, effect_source(name, place, terms, sentence), by_place, selection
-    )
+    source = effect_source(name, place, terms, sentence, shaped)
+    return Discovery(place, terms, shaped, form, share, held_out, p_value, source, by_place, selection)
 
 
 def _place(name: str) -> str:
@@ -128,13 +131,19 @@ def _key(place: str, term: str, part: str) -> str:
 
 
 def _terms(place: str) -> tuple[Candidate, ...]:
-    """Every term of a place as a candidate: a factor for each part of the car, of either sign."""
+    """Every term of a place as a candidate: a factor for each part of the car, of either sign, and what shapes it."""
     candidates = []
     for name, term in PLACES[place].terms.items():
         one = scale(place, name)
+        own = {_key(place, name, setting.name): setting for setting in settings(place, name)}
+        typical = {key: setting.typical for key, setting in own.items()}
+        # A linear part alone is what calibration changes: it is no other shape to try.
+        varied = {key: setting for key, setting in own.items() if setting is not LINEAR and is_varied(setting)}
+        shapes = [typical, *({**typical, key: towards(setting, end)} for key, setting in varied.items() for end in (0, 1))]
+        shaping = tuple(shaping_size(setting, key) for key, setting in own.items())
         sizes = tuple(
             Size(_key(place, name, part), term.unit, 0.0, -STRONGEST / one, STRONGEST / one, FORCE / one)
             for part in term.parts
         )
-        candidates.append(Candidate(f"{place}:{name}", sizes))
+        candidates.append(Candidate(f"{place}:{name}", sizes, tuple(shapes), shaping))
     return tuple(candidates)

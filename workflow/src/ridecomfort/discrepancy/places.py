@@ -10,6 +10,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from ..effects.contract import Parameter
+
 FORCE = 30.0
 """N (or N m) that a term is probed with at typical motion."""
 
@@ -32,6 +34,14 @@ SIDE = "(1.0 - 2.0 * (wheel % 2))"
 """1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
 
 
+LINEAR = Parameter("linear", "1", 0.0, 0.0, (-3.0, 3.0), "linear part beside it, in shares of it at typical motion")
+"""What lets a force take the place of a spring or damper of a vehicle, of which calibration changes no more than is plausible."""
+
+
+def _setting(name: str, unit: str, typical: float, lower: float, upper: float, meaning: str) -> Parameter:
+    return Parameter(name, unit, typical, typical, (lower, upper), meaning)
+
+
 @dataclass(frozen=True)
 class State:
     """What a force remembers: its ``name``, its ``slope`` (an expression, per second), and a ``typical`` value."""
@@ -43,16 +53,19 @@ class State:
 
 @dataclass(frozen=True)
 class Term:
-    """A part of a force: its ``expression`` in what the place sees and in its own ``states``, the ``unit`` of its factor, the ``result``
-    it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force on the body
-    acts ``ahead`` (m, an expression) of the centre of gravity where that is given."""
+    """A part of a force: its ``expression`` in what the place sees, its own ``states`` and ``settings``, the ``unit`` of its factor, the
+    ``result`` it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force
+    on the body acts ``ahead`` (m, an expression) of the centre of gravity where that is given. ``beside``: what it may be linear in, too.
+    """
 
     expression: str
     unit: str
     result: str = "force"
     parts: tuple[str, ...] = AXLES
     states: tuple[State, ...] = ()
+    settings: tuple[Parameter, ...] = ()
     ahead: str = ""
+    beside: str = ""
 
 
 @dataclass(frozen=True)
@@ -67,34 +80,44 @@ class Place:
     results: tuple[str, ...] = ("force",)
 
 
-def _below(frequency: float) -> Term:
+def _below(beside: str) -> Term:
     """Velocity through a low-pass of first order: what gives way in series with a damper, or creeps beside a spring."""
-    return Term("slow", "N s/m", states=(State("slow", f"{2 * pi * frequency:.4g} * (velocity - slow)", 0.1),))
+    frequency = _setting("frequency", "Hz", 10.0, 1.0, 60.0, "frequency that it follows up to")
+    return Term(
+        "slow", "N s/m", states=(State("slow", f"{2 * pi:.4f} * frequency * (velocity - slow)", 0.1),), settings=(frequency,), beside=beside
+    )
 
 
-STRAIN = State("strain", "1000.0 * (velocity - abs(velocity) * strain) / (1.0 + abs(velocity) / 0.3)", 1.0)
-"""The direction of motion, which it follows over a millimetre; no faster than the step of the kernel bears."""
+def _sliding(expression: str, unit: str, beside: str) -> Term:
+    """The direction of motion, which ``strain`` follows over some millimetres; no faster than the step of the kernel bears."""
+    presliding = _setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")
+    strain = State("strain", "(velocity - abs(velocity) * strain) / (presliding + 0.003 * abs(velocity))", 1.0)
+    return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
 
 
-def _on_spring(base: str, typical: float, frequency: float, unit: str, result: str, ahead: str = "") -> Term:
-    """A part of the sprung mass that moves on a spring of its own where the body has the acceleration ``base`` (typically ``typical``),
-    with a tenth of critical damping."""
-    turns = 2 * pi * frequency
-    against = f"{turns**2:.4g} * way + {0.2 * turns:.4g} * rate"
-    states = State("way", "rate", typical / turns**2), State("rate", f"-({base} + {against})", typical / turns)
-    return Term(f"{base} + {against}", unit, result, WHOLE, states, ahead)
+def _beyond(expression: str, *clearances: float) -> Term:
+    """What acts from a deflection on: a typical clearance, the least and the largest."""
+    clearance = _setting("clearance", "m", *clearances, "deflection from which on it acts")
+    return Term(expression, "N/m", settings=(clearance,), beside="deflection")
 
 
-def _resonance(axle: str, frequency: float) -> Term:
-    """A part of the sprung mass above an axle."""
-    body = f"motion.vertical_acceleration - motion.{axle} * motion.pitch_acceleration"
-    return _on_spring(body, 0.6, frequency, "kg", "force_z", f"motion.{axle}")
+def _on_spring(
+    base: str, typical: float, unit: str, result: str, ahead: str = "", frequencies: tuple[float, float, float] = (11.0, 5.0, 25.0)
+) -> Term:
+    """A part of the sprung mass that moves on a spring of its own where the body has the acceleration ``base`` (typically ``typical``);
+    ``frequencies``: the typical one, the least and the largest (Hz)."""
+    frequency = _setting("frequency", "Hz", *frequencies, "frequency at which it swings")
+    damping = _setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
+    turns = f"{2 * pi:.4f} * frequency"
+    against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
+    usual = 2 * pi * frequency.typical
+    states = State("way", "rate", typical / usual**2), State("rate", f"-({base} + {against})", typical / usual)
+    return Term(f"{base} + {against}", unit, result, WHOLE, states, (frequency, damping), ahead)
 
 
-def _roll_resonance(frequency: float) -> Term:
-    """A part of the sprung mass that turns about the body's long axis."""
-    return _on_spring("motion.roll_acceleration", 0.4, frequency, "kg m2", "moment_x")
+KNEE = _setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
 
+ANGLE = _setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
 
 PLACES: Mapping[str, Place] = {
     "strut": Place(
@@ -102,28 +125,28 @@ PLACES: Mapping[str, Place] = {
         ("wheel", "deflection", "velocity", "stiffness", "damping", "force_x", "force_y"),
         {"deflection": 0.012, "velocity": 0.12, "stiffness": 28000.0, "damping": 2100.0, "force_x": 300.0, "force_y": 600.0},
         {
-            "velocity_direction": Term("tanh(velocity / 0.005)", "N"),
-            "velocity_saturating": Term("velocity / (1.0 + abs(velocity) / 0.1)", "N s/m"),
-            "velocity_size": Term("abs(velocity)", "N s/m"),
-            "velocity_signed_square": Term("velocity * abs(velocity)", "N s2/m2"),
-            "velocity_cube": Term("velocity**3", "N s3/m3"),
-            "deflection_square": Term("deflection**2", "N/m2"),
-            "deflection_cube": Term("deflection**3", "N/m3"),
-            "deflection_size_times_velocity": Term("abs(deflection) * velocity", "N s/m2"),
-            "deflection_times_velocity": Term("deflection * velocity", "N s/m2"),
-            "bump_beyond_20_mm": Term("max(deflection - 0.02, 0.0)", "N/m"),
-            "rebound_beyond_20_mm": Term("min(deflection + 0.02, 0.0)", "N/m"),
-            "deflection_direction": Term("tanh(deflection / 0.002)", "N"),
-            "deflection_size_times_direction": Term("abs(deflection) * tanh(velocity / 0.005)", "N/m"),
+            "velocity_direction": Term("tanh(velocity / 0.005)", "N", beside="velocity"),
+            "velocity_saturating": Term("velocity / (1.0 + abs(velocity) / knee)", "N s/m", settings=(KNEE,), beside="velocity"),
+            "velocity_size": Term("abs(velocity)", "N s/m", beside="velocity"),
+            "velocity_signed_square": Term("velocity * abs(velocity)", "N s2/m2", beside="velocity"),
+            "velocity_cube": Term("velocity**3", "N s3/m3", beside="velocity"),
+            "deflection_square": Term("deflection**2", "N/m2", beside="deflection"),
+            "deflection_cube": Term("deflection**3", "N/m3", beside="deflection"),
+            "deflection_size_times_velocity": Term("abs(deflection) * velocity", "N s/m2", beside="velocity"),
+            "deflection_times_velocity": Term("deflection * velocity", "N s/m2", beside="velocity"),
+            "bump_beyond": _beyond("max(deflection - clearance, 0.0)", 0.02, 0.005, 0.06),
+            "rebound_beyond": _beyond("min(deflection + clearance, 0.0)", 0.02, 0.005, 0.06),
+            "deflection_direction": Term("tanh(deflection / 0.002)", "N", beside="deflection"),
+            "deflection_size_times_direction": Term("abs(deflection) * tanh(velocity / 0.005)", "N/m", beside="velocity"),
             "deflection_of_sides": Term(f"deflection * {SIDE}", "N/m"),
             "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
             "side_force": Term(f"force_y * {SIDE}", "1"),
             "forward_force": Term("force_x", "1"),
-            "side_force_size_times_direction": Term("abs(force_y) * tanh(velocity / 0.005)", "1"),
-            "forward_force_size_times_direction": Term("abs(force_x) * tanh(velocity / 0.005)", "1"),
-            "direction_after_a_millimetre": Term("strain", "N", states=(STRAIN,)),
-            "damping_after_a_millimetre": Term("abs(velocity) * strain", "N s/m", states=(STRAIN,)),
-            **{f"velocity_below_{frequency}_Hz": _below(frequency) for frequency in (3, 10, 30)},
+            "side_force_size_times_direction": Term("abs(force_y) * tanh(velocity / 0.005)", "1", beside="velocity"),
+            "forward_force_size_times_direction": Term("abs(force_x) * tanh(velocity / 0.005)", "1", beside="velocity"),
+            "sliding_direction": _sliding("strain", "N", "velocity"),
+            "sliding_damping": _sliding("abs(velocity) * strain", "N s/m", "velocity"),
+            "slow_velocity": _below("velocity"),
         },
     ),
     "tyre": Place(
@@ -131,12 +154,13 @@ PLACES: Mapping[str, Place] = {
         ("wheel", "deflection", "velocity", "stiffness", "rest", "rotation", "spin"),
         {"deflection": 0.016, "velocity": 0.15, "stiffness": 280000.0, "rest": 0.015, "rotation": 0.0, "spin": 70.0},
         {
-            "deflection_square": Term("(deflection - rest)**2", "N/m2"),
-            "deflection_cube": Term("(deflection - rest)**3", "N/m3"),
-            "velocity_direction": Term("tanh(velocity / 0.02)", "N"),
-            "velocity_signed_square": Term("velocity * abs(velocity)", "N s2/m2"),
-            "deflection_times_velocity": Term("(deflection - rest) * velocity", "N s/m2"),
-            "velocity_per_spin": Term("velocity / (1.0 + abs(spin) / 30.0)", "N s/m"),
+            "deflection_square": Term("(deflection - rest)**2", "N/m2", beside="deflection"),
+            "deflection_cube": Term("(deflection - rest)**3", "N/m3", beside="deflection"),
+            "bump_beyond": _beyond("max(deflection - rest - clearance, 0.0)", 0.006, 0.001, 0.03),
+            "velocity_direction": Term("tanh(velocity / 0.02)", "N", beside="velocity"),
+            "velocity_signed_square": Term("velocity * abs(velocity)", "N s2/m2", beside="velocity"),
+            "deflection_times_velocity": Term("(deflection - rest) * velocity", "N s/m2", beside="velocity"),
+            "velocity_per_spin": Term("velocity / (1.0 + abs(spin) / 30.0)", "N s/m", beside="velocity"),
             "deflection_of_sides": Term(f"(deflection - rest) * {SIDE}", "N/m"),
             "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
             "phase_cosine": Term("cos(rotation)", "N", parts=WHEELS),
@@ -145,8 +169,8 @@ PLACES: Mapping[str, Place] = {
             "phase_sine_spin_square": Term("spin**2 * sin(rotation)", "kg m", parts=WHEELS),
             "twice_a_turn_cosine": Term("cos(2.0 * rotation)", "N", parts=WHEELS),
             "twice_a_turn_sine": Term("sin(2.0 * rotation)", "N", parts=WHEELS),
-            "direction_after_a_millimetre": Term("strain", "N", states=(STRAIN,)),
-            **{f"velocity_below_{frequency}_Hz": _below(frequency) for frequency in (3, 10, 30)},
+            "sliding_direction": _sliding("strain", "N", "velocity"),
+            "slow_velocity": _below("velocity"),
         },
     ),
     "contact": Place(
@@ -160,9 +184,14 @@ PLACES: Mapping[str, Place] = {
             "pull_of_slope": Term("load * slope", "1", "pull"),
             "slip_of_load": Term("load", "1/N", "slip_x"),
             "side_slip_of_load": Term("slip_y * load", "1/N", "slip_y"),
-            "side_slip_cube": Term("slip_y**3", "1", "slip_y"),
+            "side_slip_of_load_on_sides": Term(f"load * {SIDE}", "1/N", "slip_y", beside=SIDE),
+            "side_slip_of_speed": Term("slip_y * speed", "s/m", "slip_y"),
+            "side_slip_cube": Term("slip_y**3", "1", "slip_y", beside="slip_y"),
             "side_slip_of_sides": Term(SIDE, "1", "slip_y"),
-            "side_slip_late": Term("late - slip_y", "1", "slip_y", states=(State("late", "2.0 * speed * (slip_y - late)", 0.005),)),
+            "side_slip_late": Term(
+                "late - slip_y", "1", "slip_y", states=(State("late", "speed * (slip_y - late) / length", 0.005),),
+                settings=(_setting("length", "m", 0.5, 0.1, 3.0, "way over which the slip follows"),),
+            ),
         },
         ("slip_x", "slip_y", "pull"),
     ),
@@ -183,19 +212,25 @@ PLACES: Mapping[str, Place] = {
             "heave_mass": Term("motion.vertical_acceleration", "kg", "force_z", WHOLE),
             "roll_damping": Term("motion.roll_rate", "N m s", "moment_x", WHOLE),
             "roll_stiffness": Term("motion.roll", "N m", "moment_x", WHOLE),
+            "roll_saturating": Term("motion.roll / (1.0 + abs(motion.roll) / knee)", "N m", "moment_x", WHOLE, (), (ANGLE,), beside="motion.roll"),
+            "roll_rate_direction": Term("tanh(motion.roll_rate / 0.005)", "N m", "moment_x", WHOLE, beside="motion.roll_rate"),
             "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x", WHOLE),
             "roll_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_x", WHOLE),
+            "lift_of_turning": Term("motion.speed * motion.yaw_rate", "kg", "force_z", WHOLE),
+            "pitch_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_y", WHOLE),
             "pitch_damping": Term("motion.pitch_rate", "N m s", "moment_y", WHOLE),
             "pitch_stiffness": Term("motion.pitch", "N m", "moment_y", WHOLE),
             "pitch_inertia": Term("motion.pitch_acceleration", "kg m2", "moment_y", WHOLE),
             "pitch_of_speed": Term("motion.speed**2", "kg", "moment_y", WHOLE),
             "yaw_damping": Term("motion.yaw_rate", "N m s", "moment_z", WHOLE),
             **{
-                f"resonance_{axle}_{frequency}_Hz": _resonance(axle, frequency)
+                f"resonance_{axle}": _on_spring(
+                    f"motion.vertical_acceleration - motion.{axle} * motion.pitch_acceleration", 0.6, "kg", "force_z", f"motion.{axle}"
+                )
                 for axle in AXLES
-                for frequency in (7, 11, 17)
             },
-            **{f"roll_resonance_{frequency}_Hz": _roll_resonance(frequency) for frequency in (7, 11, 17)},
+            "sway_rear": _on_spring("motion.speed * motion.yaw_rate", 1.0, "kg", "force_y", "motion.rear", (1.2, 0.4, 6.0)),
+            "roll_resonance": _on_spring("motion.roll_acceleration", 0.4, "kg m2", "moment_x"),
         },
         ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
     ),
@@ -205,37 +240,60 @@ PLACES: Mapping[str, Place] = {
 Factors = Mapping[str, Mapping[str, float]]
 """Factor of each term for each part of the car."""
 
+Settings = Mapping[str, Mapping[str, float]]
+"""What shapes each term, by name."""
+
 
 def parameter(term: str, part: str) -> str:
-    """Name of the factor of a term for one part of the car."""
+    """Name of a term's factor for one part of the car, or of one of its settings."""
     return f"{term}_{part}" if part else term
+
+
+def settings(place: str, term: str) -> tuple[Parameter, ...]:
+    """What shapes a term."""
+    own = PLACES[place].terms[term]
+    return (*own.settings, LINEAR) if own.beside else own.settings
 
 
 def scale(place: str, term: str) -> float:
     """Size of a term with a factor of one at typical motion, in N or N m; of a slip, the force that it makes."""
-    known = {**PLACES[place].typical, "wheel": 0, "tanh": np.tanh, "abs": abs, "max": max, "min": min, "cos": np.cos}
-    known["sin"] = np.cos
-    known |= {state.name: state.typical for state in PLACES[place].terms[term].states}
-    expression = PLACES[place].terms[term].expression
-    if "20_mm" in term or "rest" in expression:
-        known |= {key: 2 * value for key, value in PLACES[place].typical.items() if key != "rest"}
-    if "rebound" in term:
-        known |= {key: -known[key] for key in PLACES[place].typical}
-    size = abs(float(eval(expression, {"__builtins__": {}}, known)))  # an expression of this file, not of a user
-    return size * (CORNERING if PLACES[place].terms[term].result in PLACES[place].arguments else 1.0)
+    own = PLACES[place].terms[term]
+    return _size(place, term, own.expression) * (CORNERING if own.result in PLACES[place].arguments else 1.0)
 
 
-def in_words(place: str, terms: Factors) -> str:
-    """The force as a formula with the sizes of its factors."""
+def _size(place: str, term: str, expression: str) -> float:
+    own, typical = PLACES[place].terms[term], PLACES[place].typical
+    known = {**typical, "wheel": 0, "tanh": np.tanh, "abs": abs, "max": max, "min": min, "cos": np.cos, "sin": np.cos}
+    known |= {state.name: state.typical for state in own.states} | {setting.name: setting.typical for setting in own.settings}
+    if "clearance" in known or "rest" in expression:
+        known |= {key: 2 * value for key, value in typical.items() if key != "rest"}
+    if "min(" in expression:
+        known |= {key: -known[key] for key in typical}
+    return abs(float(eval(expression, {"__builtins__": {}}, known)))  # an expression of this file, not of a user
+
+
+def _expression(place: str, term: str, linear: bool) -> str:
+    """The expression of a term, with its linear part where that is wanted."""
+    own = PLACES[place].terms[term]
+    if not (own.beside and linear):
+        return own.expression
+    return f"{own.expression} + linear * {_size(place, term, own.expression) / _size(place, term, own.beside):.4g} * {own.beside}"
+
+
+def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
+    """The force as a formula with the sizes of its factors, and what shapes it."""
     by_result: dict[str, list[str]] = {}
     for name, factors in terms.items():
-        term = PLACES[place].terms[name]
+        term, own = PLACES[place].terms[name], shaped.get(name, {})
         unit = "" if term.unit == "1" else f" {term.unit}"
         size = " and ".join(f"{value:.4g}{unit} {part}".rstrip() for part, value in factors.items())
         slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
         at = f" at {term.ahead}" if term.ahead else ""
-        expression = f"({term.expression})" if term.states and " " in term.expression else term.expression
-        by_result.setdefault(term.result, []).append(f"({size}) {expression}{at}{slopes}")
+        values = {setting: own.get(setting.name, setting.typical) for setting in settings(place, name)}
+        expression = _expression(place, name, bool(values.get(LINEAR)))
+        expression = f"({expression})" if " + " in expression or term.states and " " in expression else expression
+        said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
+        by_result.setdefault(term.result, []).append(f"({size}) {expression}{at}{slopes}{said}")
     sign = lambda result: "+=" if result in PLACES[place].arguments else "="
     return ", ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
 
@@ -251,12 +309,15 @@ def _factor(key: str, term: Term) -> str:
     return names[0]
 
 
-def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
-    """Text of an effect file (``effects.contract``) with these terms and their factors as typical values."""
+def effect_source(name: str, place: str, terms: Factors, sentence: str, shaped: Settings = {}) -> str:
+    """Text of an effect file (``effects.contract``) with these terms, their factors and what shapes them as typical values.
+
+    A term whose linear part is given as nil has none.
+    """
     where = PLACES[place]
     parameters, lines, arguments, states, slopes = [], [], [], [], []
     for key, factors in terms.items():
-        term = where.terms[key]
+        term, values = where.terms[key], shaped.get(key, {})
         reach = STRONGEST / scale(place, key)
         for part in term.parts:
             typical = float(factors.get(part, FORCE / scale(place, key)))
@@ -266,12 +327,22 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str) -> str:
                 f'        Parameter("{parameter(key, part)}", "{term.unit}", 0.0, {typical:.6g}, ({-limit:g}, {limit:g}), "{meaning}"),'
             )
             arguments.append(parameter(key, part))
-        own = {state.name: f"{key}_{state.name}" for state in term.states}
-        value = f"{_factor(key, term)} * ({_renamed(term.expression, own)})"
+        own = {state.name: parameter(key, state.name) for state in term.states}
+        is_linear = values.get(LINEAR.name) != 0.0
+        for setting in settings(place, key):
+            if setting is not LINEAR or is_linear:
+                own[setting.name] = parameter(key, setting.name)
+                value, (lower, upper) = values.get(setting.name, setting.typical), setting.plausible
+                parameters.append(
+                    f'        Parameter("{own[setting.name]}", "{setting.unit}", {value:.6g}, {value:.6g}, ({lower:g}, {upper:g}), '
+                    f'"{setting.meaning}"),'
+                )
+                arguments.append(own[setting.name])
+        value = f"{_factor(key, term)} * ({_renamed(_expression(place, key, is_linear), own)})"
         lines.append(f"    {term.result} += {value}")
         if term.ahead:
-            lines.append(f"    moment_y -= {term.ahead} * {value}")
-        states += own.values()
+            lines.append(f"    {'moment_z +=' if term.result == 'force_y' else 'moment_y -='} {term.ahead} * {value}")
+        states += [own[state.name] for state in term.states]
         slopes += [f"    {own[state.name]}_slope = {_renamed(state.slope, own)}" for state in term.states]
     body = "\n".join([*(f"    {result} = 0.0" for result in where.results if result not in where.arguments), *slopes, *lines])
     used = sorted({function for function in ("tanh", "cos", "sin") if re.search(rf"\b{function}\(", body)})

@@ -17,7 +17,8 @@ ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
 
 DOUBTFUL = 0.8
-"""Share of the explainable error below which what was named may be the work of something that is not in the library."""
+"""Share of the explainable error below which what was named may be the work of something that is not in the library, and is not named
+where repeats surely share an error still."""
 
 SHARED_Z = 3.0
 """z of the error that repeats still share above which something is left to explain."""
@@ -71,8 +72,8 @@ class Named:
 
 @dataclass(frozen=True)
 class Verdict:
-    """``verdict`` is one of KINDS; ``effects`` in the order in which they were found; ``reasons`` in words; ``is_left``: whether repeats
-    surely share an error still that is worth explaining."""
+    """``verdict`` is one of KINDS; ``effects`` in the order in which they were found; ``reasons`` in words; ``is_shared``: whether repeats
+    surely share an error still, ``is_left``: one that is worth explaining."""
 
     verdict: str
     effects: tuple[Named, ...]
@@ -80,6 +81,7 @@ class Verdict:
     share: float
     held_out_share: float
     is_left: bool = False
+    is_shared: bool = False
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
@@ -134,8 +136,10 @@ class _Balance:
     explained: float
     is_refuted: bool
     """Whether drives held out, which have what was named, are hardly better for it."""
+    is_shared: bool
+    """Whether repeats surely share an error still."""
     is_left: bool
-    """Whether repeats surely share an error still that is worth explaining."""
+    """Whether they share one that is worth explaining."""
     is_little: bool
     """Whether what was found is too little to be what is missing."""
 
@@ -144,16 +148,18 @@ def _balance(selection: Selection, notes: Sequence[str], is_material: bool) -> _
     share, held_out = total_shares(selection)
     band = selection.remaining.band
     in_band = band is not None and band.z > SHARED_BAND_Z and not notes  # a road that is another makes errors that repeats share
-    is_left = is_material and (something_left(selection) or in_band)
+    is_shared = something_left(selection) or in_band
+    is_left = is_material and is_shared
     explained = max(share, selection.shared_gone) if selection.repeats else share
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     is_refuted = is_met and held_out < CONFIRMED
-    is_shared = selection.shared_z > SHARED_Z or not selection.repeats
+    was_shared = selection.shared_z > SHARED_Z or not selection.repeats
     # Both z hold the same noise, of which that of the difference to a half has half.
     left_z = (selection.remaining.z - ENOUGH * selection.shared_z) / ENOUGH
     may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.repeats
-    is_little = is_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < ENOUGH and is_left)
-    return _Balance(share, held_out, explained, is_refuted, is_left, is_little)
+    enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
+    is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
+    return _Balance(share, held_out, explained, is_refuted, is_shared, is_left, is_little)
 
 
 def judge(
@@ -194,7 +200,8 @@ def judge(
         kind = "nothing"
         if something_left(selection):
             reasons.append(f"repeats share an error, too small to matter: {selection.remaining}")
-    return Verdict(kind, tuple(effects), (*reasons, _floor(selection)), balance.share, balance.held_out, balance.is_left)
+    said = (*reasons, _floor(selection))
+    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
 
 
 def _removed(balance: _Balance) -> list[str]:
