@@ -97,7 +97,7 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     for kind in ("outside", "outside, messy"):
         line(f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3', single(kind, strong), lambda row: row["verdict"] == "outside")
     placed = [row for kind in ("outside", "outside, messy") for row in single(kind, strong) if row["form_share"] != ""]
-    line("place of such an effect right (strut, tyre, contact, body)", placed, lambda row: row["place_right"])
+    line("place of such an effect right (strut, tyre, contact, body, steering, structure)", placed, lambda row: row["place_right"])
     line(f"its proposed form removes {100 * FORM:.0f} % of what the true one does, held out", placed, lambda row: row["form_share"] >= FORM)
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"])
     line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"])

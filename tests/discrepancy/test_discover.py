@@ -7,7 +7,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from ridecomfort.discrepancy.places import AXLES, PLACES, WHEELS, WHOLE, effect_source, in_words, scale, settings
+from ridecomfort.discrepancy.form import effect_source, in_words
+from ridecomfort.discrepancy.places import AXLES, PLACES, WHEELS, WHOLE, scale, settings
 from ridecomfort.effects import library
 
 KNOWN = {"tanh": tanh, "cos": cos, "sin": sin, "abs": abs, "max": max, "min": min}
@@ -23,7 +24,7 @@ def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp
     found = library.find(tmp_path)
     seen = {name: 0.7 for name in where.arguments} | {"wheel": wheel}
     if "motion" in seen:
-        seen = {"motion": SimpleNamespace(**{key: 0.1 + 0.2 * k for k, key in enumerate(vars(where.typical["motion"]))})}
+        seen |= {"motion": SimpleNamespace(**{key: 0.1 + 0.2 * k for k, key in enumerate(vars(where.typical["motion"]))})}
     for name, term in where.terms.items():
         entry = found[f"found_{name}"]
         own = {WHOLE: "", AXLES: AXLES[wheel // 2], WHEELS: WHEELS[wheel]}[term.parts]

@@ -1,10 +1,9 @@
-"""Where a force that is in no library may act, the terms it may be made of, and the effect file that holds them."""
+"""Where a force that is in no library may act, and the terms it may be made of."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
 from types import SimpleNamespace
 
@@ -18,11 +17,8 @@ FORCE = 30.0
 STRONGEST = 1500.0
 """N (or N m) at typical motion beyond which a term is not plausible."""
 
-CORNERING = 8e4
-"""N that a slip of one would make at typical stiffness."""
-
-WIDTH = 3.0
-"""Times its estimate that a factor which was found may plausibly be."""
+CORNERING, MASS = 8e4, 1500.0
+"""N that a slip (or an angle of the wheels) of one would make at typical stiffness, and that an acceleration of one stands for."""
 
 AXLES = ("front", "rear")
 
@@ -71,13 +67,14 @@ class Term:
 @dataclass(frozen=True)
 class Place:
     """Where a force may act: its port, what an effect file calls what it sees, typical values of what it sees to scale terms by,
-    the terms, and what the port returns."""
+    the terms, what the port returns, and how many N one of that stands for where it is none."""
 
     port: str
     arguments: tuple[str, ...]
     typical: Mapping[str, object]
     terms: Mapping[str, Term]
     results: tuple[str, ...] = ("force",)
+    worth: Mapping[str, float] = field(default_factory=dict)
 
 
 def _below(beside: str) -> Term:
@@ -118,6 +115,15 @@ def _on_spring(
 KNEE = _setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
 
 ANGLE = _setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
+
+OF_STRUCTURE = (18.0, 8.0, 40.0)
+"""Frequencies of a body that is not rigid, as for ``_on_spring``."""
+
+MOTION = SimpleNamespace(
+    speed=20.0, side_speed=0.1, vertical_speed=0.04, roll=0.01, pitch=0.008, roll_rate=0.03, pitch_rate=0.02, yaw_rate=0.05,
+    vertical_acceleration=0.6, roll_acceleration=0.4, pitch_acceleration=0.3, front=1.2, rear=-1.5,
+)  # fmt: skip
+"""Typical motion of the body (SI units)."""
 
 PLACES: Mapping[str, Place] = {
     "strut": Place(
@@ -182,10 +188,10 @@ PLACES: Mapping[str, Place] = {
             "pull_of_load_on_sides": Term(f"load * {SIDE}", "1", "pull"),
             "pull_of_load_and_speed": Term("load * speed**2", "s2/m2", "pull"),
             "pull_of_slope": Term("load * slope", "1", "pull"),
-            "slip_of_load": Term("load", "1/N", "slip_x"),
-            "side_slip_of_load": Term("slip_y * load", "1/N", "slip_y"),
+            "slip_of_load": Term("load", "1/N", "slip_x", beside="slip_x"),
+            "side_slip_of_load": Term("slip_y * load", "1/N", "slip_y", beside="slip_y"),
             "side_slip_of_load_on_sides": Term(f"load * {SIDE}", "1/N", "slip_y", beside=SIDE),
-            "side_slip_of_speed": Term("slip_y * speed", "s/m", "slip_y"),
+            "side_slip_of_speed": Term("slip_y * speed", "s/m", "slip_y", beside="slip_y"),
             "side_slip_cube": Term("slip_y**3", "1", "slip_y", beside="slip_y"),
             "side_slip_of_sides": Term(SIDE, "1", "slip_y"),
             "side_slip_late": Term(
@@ -194,16 +200,12 @@ PLACES: Mapping[str, Place] = {
             ),
         },
         ("slip_x", "slip_y", "pull"),
+        {"slip_x": CORNERING, "slip_y": CORNERING},
     ),
     "body": Place(
         "body",
         ("motion",),
-        {
-            "motion": SimpleNamespace(
-                speed=20.0, side_speed=0.1, vertical_speed=0.04, roll=0.01, pitch=0.008, roll_rate=0.03, pitch_rate=0.02,
-                yaw_rate=0.05, vertical_acceleration=0.6, roll_acceleration=0.4, pitch_acceleration=0.3, front=1.2, rear=-1.5,
-            )
-        },
+        {"motion": MOTION},
         {
             "drag": Term("motion.speed**2", "N s2/m2", "force_x", WHOLE),
             "side_slip": Term("motion.speed * motion.side_speed", "N s2/m2", "force_y", WHOLE),
@@ -234,14 +236,44 @@ PLACES: Mapping[str, Place] = {
         },
         ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
     ),
+    "steering": Place(
+        "steer",
+        ("angle", "speed", "force_y"),
+        {"angle": 0.01, "speed": 20.0, "force_y": 1000.0},
+        {
+            "angle_late": Term(
+                "late - angle", "1", "angle", WHOLE, (State("late", "(angle - late) / time", 0.008),),
+                (_setting("time", "s", 0.05, 0.01, 0.5, "time that it is late by"),),
+            ),
+            "angle_after_play": Term(
+                "held - angle", "1", "angle", WHOLE,
+                (State("held", "100.0 * (max(angle - held - play, 0.0) + min(angle - held + play, 0.0))", 0.008),),
+                (_setting("play", "rad", 0.001, 0.0001, 0.01, "angle to either side by which it does not follow"),),
+            ),
+            "angle_of_force": Term("force_y", "rad/N", "angle", WHOLE),
+            "angle_cube": Term("angle**3", "1/rad2", "angle", WHOLE, beside="angle"),
+        },
+        ("angle",),
+        {"angle": CORNERING},
+    ),
+    "structure": Place(
+        "flexing",
+        ("motion", "x", "y", "z"),
+        {"motion": MOTION, "x": 0.3, "y": 0.2, "z": 0.5},
+        {
+            "bending": _on_spring(
+                "motion.vertical_acceleration - x * motion.pitch_acceleration + y * motion.roll_acceleration", 0.6, "1", "a_z",
+                frequencies=OF_STRUCTURE,
+            ),
+            "racking_aside": _on_spring(
+                "motion.speed * motion.yaw_rate - z * motion.roll_acceleration", 0.5, "1", "a_y", frequencies=OF_STRUCTURE
+            ),
+            "racking_along": _on_spring("z * motion.pitch_acceleration", 0.2, "1", "a_x", frequencies=OF_STRUCTURE),
+        },
+        ("a_x", "a_y", "a_z"),
+        {"a_x": MASS, "a_y": MASS, "a_z": MASS},
+    ),
 }  # fmt: skip
-
-
-Factors = Mapping[str, Mapping[str, float]]
-"""Factor of each term for each part of the car."""
-
-Settings = Mapping[str, Mapping[str, float]]
-"""What shapes each term, by name."""
 
 
 def parameter(term: str, part: str) -> str:
@@ -258,7 +290,7 @@ def settings(place: str, term: str) -> tuple[Parameter, ...]:
 def scale(place: str, term: str) -> float:
     """Size of a term with a factor of one at typical motion, in N or N m; of a slip, the force that it makes."""
     own = PLACES[place].terms[term]
-    return _size(place, term, own.expression) * (CORNERING if own.result in PLACES[place].arguments else 1.0)
+    return _size(place, term, own.expression) * PLACES[place].worth.get(own.result, 1.0)
 
 
 def _size(place: str, term: str, expression: str) -> float:
@@ -272,96 +304,9 @@ def _size(place: str, term: str, expression: str) -> float:
     return abs(float(eval(expression, {"__builtins__": {}}, known)))  # an expression of this file, not of a user
 
 
-def _expression(place: str, term: str, linear: bool) -> str:
+def expression(place: str, term: str, linear: bool) -> str:
     """The expression of a term, with its linear part where that is wanted."""
     own = PLACES[place].terms[term]
     if not (own.beside and linear):
         return own.expression
     return f"{own.expression} + linear * {_size(place, term, own.expression) / _size(place, term, own.beside):.4g} * {own.beside}"
-
-
-def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
-    """The force as a formula with the sizes of its factors, and what shapes it."""
-    by_result: dict[str, list[str]] = {}
-    for name, factors in terms.items():
-        term, own = PLACES[place].terms[name], shaped.get(name, {})
-        unit = "" if term.unit == "1" else f" {term.unit}"
-        size = " and ".join(f"{value:.4g}{unit} {part}".rstrip() for part, value in factors.items())
-        slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
-        at = f" at {term.ahead}" if term.ahead else ""
-        values = {setting: own.get(setting.name, setting.typical) for setting in settings(place, name)}
-        expression = _expression(place, name, bool(values.get(LINEAR)))
-        expression = f"({expression})" if " + " in expression or term.states and " " in expression else expression
-        said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
-        by_result.setdefault(term.result, []).append(f"({size}) {expression}{at}{slopes}{said}")
-    sign = lambda result: "+=" if result in PLACES[place].arguments else "="
-    return ", ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
-
-
-def _factor(key: str, term: Term) -> str:
-    """The factor of a term at the wheel or axle in question, as source text."""
-    names = [parameter(key, part) for part in term.parts]
-    if term.parts == AXLES:
-        return f"({names[0]} if wheel < 2 else {names[1]})"
-    if term.parts == WHEELS:
-        front, rear = (f"({left} if wheel % 2 == 0 else {right})" for left, right in (names[:2], names[2:]))
-        return f"({front} if wheel < 2 else {rear})"
-    return names[0]
-
-
-def effect_source(name: str, place: str, terms: Factors, sentence: str, shaped: Settings = {}) -> str:
-    """Text of an effect file (``effects.contract``) with these terms, their factors and what shapes them as typical values.
-
-    A term whose linear part is given as nil has none.
-    """
-    where = PLACES[place]
-    parameters, lines, arguments, states, slopes = [], [], [], [], []
-    for key, factors in terms.items():
-        term, values = where.terms[key], shaped.get(key, {})
-        reach = STRONGEST / scale(place, key)
-        for part in term.parts:
-            typical = float(factors.get(part, FORCE / scale(place, key)))
-            limit = float(f"{WIDTH * abs(typical) if factors.get(part) else reach:.3g}")
-            meaning = f"factor of {term.expression}" + (f", {part}" if part else "")
-            parameters.append(
-                f'        Parameter("{parameter(key, part)}", "{term.unit}", 0.0, {typical:.6g}, ({-limit:g}, {limit:g}), "{meaning}"),'
-            )
-            arguments.append(parameter(key, part))
-        own = {state.name: parameter(key, state.name) for state in term.states}
-        is_linear = values.get(LINEAR.name) != 0.0
-        for setting in settings(place, key):
-            if setting is not LINEAR or is_linear:
-                own[setting.name] = parameter(key, setting.name)
-                value, (lower, upper) = values.get(setting.name, setting.typical), setting.plausible
-                parameters.append(
-                    f'        Parameter("{own[setting.name]}", "{setting.unit}", {value:.6g}, {value:.6g}, ({lower:g}, {upper:g}), '
-                    f'"{setting.meaning}"),'
-                )
-                arguments.append(own[setting.name])
-        value = f"{_factor(key, term)} * ({_renamed(_expression(place, key, is_linear), own)})"
-        lines.append(f"    {term.result} += {value}")
-        if term.ahead:
-            lines.append(f"    {'moment_z +=' if term.result == 'force_y' else 'moment_y -='} {term.ahead} * {value}")
-        states += [own[state.name] for state in term.states]
-        slopes += [f"    {own[state.name]}_slope = {_renamed(state.slope, own)}" for state in term.states]
-    body = "\n".join([*(f"    {result} = 0.0" for result in where.results if result not in where.arguments), *slopes, *lines])
-    used = sorted({function for function in ("tanh", "cos", "sin") if re.search(rf"\b{function}\(", body)})
-    imports = f"from math import {', '.join(used)}\n\n" if used else ""
-    listed = "\n".join(parameters)
-    returned = ", ".join([*where.results, *(f"{state}_slope" for state in states)])
-    named = ", ".join(f'"{state}"' for state in states) + ("," if len(states) == 1 else "")
-    remembered = f"    states=({named}),\n" if states else ""
-    return (
-        f'"""{sentence}"""\n\n{imports}from ridecomfort.effects.contract import Effect, Parameter\n\n'
-        f'effect = Effect(\n    name="{name}",\n    sentence="{sentence}",\n'
-        f'    source="estimated from measured drives by ridecomfort.discrepancy.discover",\n    port="{where.port}",\n'
-        f"    parameters=(\n{listed}\n    ),\n{remembered})\n\n\n"
-        f"def act({', '.join([*where.arguments, *states, *arguments])}):\n{body}\n    return {returned}\n"
-    )
-
-
-def _renamed(expression: str, names: Mapping[str, str]) -> str:
-    """An expression with other names for its states."""
-    for old, new in names.items():
-        expression = re.sub(rf"\b{old}\b", new, expression)
-    return expression

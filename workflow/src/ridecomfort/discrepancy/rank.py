@@ -15,7 +15,7 @@ from .select import search
 from .signature import signature
 from .selection import Selection
 from .shared import is_material
-from .verdict import CONFIRMED, ENOUGH, Verdict, judge, shares, something_left, standing, total_shares
+from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, judge, shares, standing, total_shares
 
 SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
 """What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""
@@ -77,7 +77,7 @@ def ranked(
     matters = _is_material(selection)
     of_road = suspect.of_road(experiment, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
-    doubts = suspicions(experiment, selection, is_explained, something_left(selection) and matters)
+    doubts = suspicions(experiment, selection, is_explained, matters and selection.remaining.z > SHARED_Z)
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]

@@ -1,0 +1,104 @@
+"""A force made of terms: in words, and as the effect file that holds it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from .places import AXLES, FORCE, LINEAR, PLACES, STRONGEST, WHEELS, Term, expression, parameter, scale, settings
+
+WIDTH = 3.0
+"""Times its estimate that a factor which was found may plausibly be."""
+
+Factors = Mapping[str, Mapping[str, float]]
+"""Factor of each term for each part of the car."""
+
+Settings = Mapping[str, Mapping[str, float]]
+"""What shapes each term, by name."""
+
+
+def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
+    """The force as a formula with the sizes of its factors, and what shapes it."""
+    by_result: dict[str, list[str]] = {}
+    for name, factors in terms.items():
+        term, own = PLACES[place].terms[name], shaped.get(name, {})
+        unit = "" if term.unit == "1" else f" {term.unit}"
+        size = " and ".join(f"{value:.4g}{unit} {part}".rstrip() for part, value in factors.items())
+        slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
+        at = f" at {term.ahead}" if term.ahead else ""
+        values = {setting: own.get(setting.name, setting.typical) for setting in settings(place, name)}
+        written = expression(place, name, bool(values.get(LINEAR)))
+        written = f"({written})" if " + " in written or term.states and " " in written else written
+        said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
+        by_result.setdefault(term.result, []).append(f"({size}) {written}{at}{slopes}{said}")
+    sign = lambda result: "+=" if result in PLACES[place].arguments else "="
+    return ", ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
+
+
+def _factor(key: str, term: Term) -> str:
+    """The factor of a term at the wheel or axle in question, as source text."""
+    names = [parameter(key, part) for part in term.parts]
+    if term.parts == AXLES:
+        return f"({names[0]} if wheel < 2 else {names[1]})"
+    if term.parts == WHEELS:
+        front, rear = (f"({left} if wheel % 2 == 0 else {right})" for left, right in (names[:2], names[2:]))
+        return f"({front} if wheel < 2 else {rear})"
+    return names[0]
+
+
+def effect_source(name: str, place: str, terms: Factors, sentence: str, shaped: Settings = {}) -> str:
+    """Text of an effect file (``effects.contract``) with these terms, their factors and what shapes them as typical values.
+
+    A term whose linear part is given as nil has none.
+    """
+    where = PLACES[place]
+    parameters, lines, arguments, states, slopes = [], [], [], [], []
+    for key, factors in terms.items():
+        term, values = where.terms[key], shaped.get(key, {})
+        reach = STRONGEST / scale(place, key)
+        for part in term.parts:
+            typical = float(factors.get(part, FORCE / scale(place, key)))
+            limit = float(f"{WIDTH * abs(typical) if factors.get(part) else reach:.3g}")
+            meaning = f"factor of {term.expression}" + (f", {part}" if part else "")
+            parameters.append(
+                f'        Parameter("{parameter(key, part)}", "{term.unit}", 0.0, {typical:.6g}, ({-limit:g}, {limit:g}), "{meaning}"),'
+            )
+            arguments.append(parameter(key, part))
+        own = {state.name: parameter(key, state.name) for state in term.states}
+        is_linear = values.get(LINEAR.name) != 0.0
+        for setting in settings(place, key):
+            if setting is not LINEAR or is_linear:
+                own[setting.name] = parameter(key, setting.name)
+                value, (lower, upper) = values.get(setting.name, setting.typical), setting.plausible
+                parameters.append(
+                    f'        Parameter("{own[setting.name]}", "{setting.unit}", {value:.6g}, {value:.6g}, ({lower:g}, {upper:g}), '
+                    f'"{setting.meaning}"),'
+                )
+                arguments.append(own[setting.name])
+        value = f"{_factor(key, term)} * ({_renamed(expression(place, key, is_linear), own)})"
+        lines.append(f"    {term.result} += {value}")
+        if term.ahead:
+            lines.append(f"    {'moment_z +=' if term.result == 'force_y' else 'moment_y -='} {term.ahead} * {value}")
+        states += [own[state.name] for state in term.states]
+        slopes += [f"    {own[state.name]}_slope = {_renamed(state.slope, own)}" for state in term.states]
+    body = "\n".join([*(f"    {result} = 0.0" for result in where.results if result not in where.arguments), *slopes, *lines])
+    used = sorted({function for function in ("tanh", "cos", "sin") if re.search(rf"\b{function}\(", body)})
+    imports = f"from math import {', '.join(used)}\n\n" if used else ""
+    listed = "\n".join(parameters)
+    returned = ", ".join([*where.results, *(f"{state}_slope" for state in states)])
+    named = ", ".join(f'"{state}"' for state in states) + ("," if len(states) == 1 else "")
+    remembered = f"    states=({named}),\n" if states else ""
+    return (
+        f'"""{sentence}"""\n\n{imports}from ridecomfort.effects.contract import Effect, Parameter\n\n'
+        f'effect = Effect(\n    name="{name}",\n    sentence="{sentence}",\n'
+        f'    source="estimated from measured drives by ridecomfort.discrepancy.discover",\n    port="{where.port}",\n'
+        f"    parameters=(\n{listed}\n    ),\n{remembered})\n\n\n"
+        f"def act({', '.join([*where.arguments, *states, *arguments])}):\n{body}\n    return {returned}\n"
+    )
+
+
+def _renamed(text: str, names: Mapping[str, str]) -> str:
+    """An expression with other names for its states."""
+    for old, new in names.items():
+        text = re.sub(rf"\b{old}\b", new, text)
+    return text
