@@ -21,7 +21,10 @@ FAINT = ("aerodynamic_lift", "anti_dive", "anti_squat", "drivetrain_lag", "gear_
 MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_travel", "propeller_shaft", "spring_cubic",
            "tyre_hysteresis", "tyre_oval", "damper_cavitation", "frequency_selective_damper", "joint_backlash", "orifice_damping",
            "powertrain_roll", "propshaft_imbalance", "rolling_radius_by_load", "side_load_friction", "slab_curl",
-           "stroke_dependent_damper", "subframe_resonance", "tank_slosh", "toe_angle")  # fmt: skip
+           "stroke_dependent_damper", "subframe_resonance", "tank_slosh", "toe_angle",
+           "adaptive_damper", "air_spring_volume", "antiroll_bar_slack", "bump_steer", "damper_foaming", "link_inertance",
+           "loose_cargo", "panhard_jacking", "pulsing_brake_drag", "roll_centre_migration", "sidewall_bottoming", "steering_play",
+           "trailer_sway", "tyre_payne", "tyre_sealant", "upper_body_racking", "wet_film", "wheel_wobble")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
