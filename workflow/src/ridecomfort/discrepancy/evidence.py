@@ -55,7 +55,10 @@ def basis(columns: np.ndarray) -> np.ndarray:
 
 def without(rows: np.ndarray, free: np.ndarray) -> np.ndarray:
     """``rows`` (..., sample) less their projection on the orthonormal rows ``free``."""
-    return rows - (rows @ free.T) @ free if len(free) else rows
+    if not len(free):
+        return rows
+    along = (rows @ free.T) @ free
+    return np.subtract(rows, along, out=along)
 
 
 def score_test(
@@ -83,25 +86,27 @@ def score_test(
     group = np.arange(count) if group is None else np.asarray(group)
     sign = np.zeros(count) if sign is None else np.asarray(sign)
     directions = basis(free)
-    power = np.sum(columns**2, axis=1)
+    power = np.einsum("ij,ij->i", columns, columns)
     columns = without(columns, directions)
-    residual = without(residual, directions)
-    left = np.sum(columns**2, axis=1)
+    residual = without(residual, directions).astype(columns.dtype)
+    squares, products = columns**2, columns * residual
+    left = np.sum(squares, axis=1)
     seen = left > SEEN**2 * np.maximum(power, 1e-300)
     safe = np.where(seen, left, 1.0)
-    score = np.where(seen, -(columns @ residual), 0.0)
+    score = np.where(seen, -np.sum(products, axis=1), 0.0)
     size = score / safe
     size = np.where((sign > 0) & (size < 0), 0.0, size)
     statistics, p_value, p_alone = [], [], []
     numbers = [np.unique(block, return_inverse=True)[1] for block in blocks]
     for which, labels in enumerate(numbers):
-        sums = _block_sums(-columns * residual, labels)
+        sums = -_block_sums(products, labels)
         sums[~seen] = 0.0
         statistic, by_group, alone = _bootstrap(sums, group, sign, resamples, np.random.default_rng([seed, which]))
         statistics.append(statistic)
         p_value.append(by_group)
         p_alone.append(alone)
-    spread = np.sqrt(np.sum(_block_sums(columns * (residual + size[:, None] * columns), numbers[0]) ** 2, axis=1))
+    deviations = _block_sums(products, numbers[0]) + size[:, None] * _block_sums(squares, numbers[0])
+    spread = np.sqrt(np.sum(deviations**2, axis=1))
     number = group.max() + 1
     gains = np.array([_group_gain(columns, residual, np.flatnonzero((group == g) & seen), sign) for g in range(number)])
     return Evidence(
@@ -185,4 +190,4 @@ def phase_randomised(series: np.ndarray, rng: np.random.Generator) -> np.ndarray
     bins = np.fft.rfft(series, axis=-1)
     phase = rng.uniform(0, 2 * np.pi, bins.shape[-1])
     phase[0] = 0.0
-    return np.fft.irfft(bins * np.exp(1j * phase), series.shape[-1], axis=-1)
+    return np.fft.irfft(bins * np.exp(1j * phase), series.shape[-1], axis=-1).astype(series.dtype)

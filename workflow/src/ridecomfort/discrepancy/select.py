@@ -51,11 +51,9 @@ ABSENT_Z = 1.645
 MET = 0.01
 """White power of what an effect does to a drive held out, against that on a fitted one, below which the first cannot decide on it."""
 
-SETTLED = 3
-"""Refits that are settled, the best of a round."""
-
-SHAPED = 0.25
-"""Share of the largest gain of a round from which on shapes are fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
+SETTLED, FAR = 3, 0.25
+"""Refits of a round that are settled, the best, and share of the largest gain below which none catches up. From there on shapes are
+fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
 
 ALIAS, LEAST_OWN = 0.05, 0.01
 """Share of the power that nuisances must leave of an error of an instrument or of what a tyre feels of the road, below which it is one
@@ -195,11 +193,14 @@ class _Search:
     def _followed_up(self, tried: Sequence[Trial]) -> list[Trial]:
         """Refits settled where they gain much, and judged, the best first; without those that cannot be simulated."""
         leading = sorted(tried, key=lambda trial: trial.bic, reverse=True)
-        best = leading[:SETTLED]
-        least = SHAPED * max([trial.gain for trial in best], default=0.0)
+        least = FAR * max([trial.gain for trial in leading], default=0.0)
+        best = [trial for trial in leading[:SETTLED] if trial.gain >= least]
         least = max([least, *(LEAST_SHARE * turn.winner.gain for turn in self.rounds[:1])])
         shaped = {trial.name for trial in best if trial.gain >= least and self.by_name[trial.name].shaping}
-        followed = self.each(_FollowUp(self, {trial.name for trial in best}, shaped), leading)
+        follow = _FollowUp(self, {trial.name for trial in best}, shaped)
+        # The first that gains much takes as long as all others: it is worth all cores.
+        alone, others = (leading[:1], leading[1:]) if leading and self.tries.is_large(leading[0].gain) else ([], leading)
+        followed = [*map(replace(follow, each=self.each), alone), *self.each(follow, others)]
         return [trial for trial in followed if trial is not None]
 
     def _judge(self, trial: Trial) -> Trial | None:
@@ -285,9 +286,10 @@ class _FollowUp:
     """Names of those whose refits are repeated where they gain much."""
     shaped: Collection[str]
     """Names of those whose shapes are fitted."""
+    each: Callable = map
 
     def __call__(self, trial: Trial) -> Trial | None:
-        tries = self.search.tries
+        tries = replace(self.search.tries, each=self.each)
         trial = tries.settled(trial) if trial.name in self.leading else trial
         trial = tries.shaped(trial) if trial.name in self.shaped else trial
         return self.search._judge(trial)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -43,12 +43,13 @@ Job = tuple[str, int]
 @dataclass(frozen=True)
 class Tries:
     """Refits of ``candidates`` (by name) from a ``rung``, together with the sizes of it that are ``fitted`` anyway; ``columns``: raw
-    change of the residuals per probe of every size, by job and key."""
+    change of the residuals per probe of every size, by job and key; ``each``: a map over sizes that are probed."""
 
     rung: Rung
     candidates: Mapping[str, Candidate]
     fitted: Sequence[Size]
     columns: Mapping[Job, Raw]
+    each: Callable = map
 
     def first(self, job: Job) -> Trial | None:
         """The refit of a candidate in one shape; None where it cannot be simulated."""
@@ -70,12 +71,14 @@ class Tries:
         except (InputError, ValueError):
             return None
 
-    def settled(self, trial: Trial) -> Trial:
-        """A refit that gains much repeated in the frame of its own residuals while the error falls by much.
+    def settled(self, trial: Trial, gained: float | None = None) -> Trial:
+        """A refit that gains much repeated in the frame of its own residuals while the error falls by much; ``gained``: since its
+        columns were made, if that is less than all.
 
         A large error makes itself white: what is missing weighs least where it is largest.
         """
-        rung, candidate, fit, gained = self.rung, self.candidates[trial.name], trial.fit, trial.gain
+        rung, candidate, fit = self.rung, self.candidates[trial.name], trial.fit
+        gained = trial.gain if gained is None else gained
         if not self.is_large(gained):
             return trial
         own = [size for size in own_sizes(candidate, fit.keys) if size.key in fit.keys]
@@ -86,7 +89,7 @@ class Tries:
                 cleaned = rung.frame.all_cleaned(fit.residuals)
                 frame = exp.frame(rung.experiment, fit.residuals, rung.frame.nuisances, cleaned)
                 anew = own if gained < HUGE * self._count() else every
-                raw = {**rung.raw, **probe.secants(rung.experiment, fit.values, fit.residuals, anew)}
+                raw = {**rung.raw, **probe.secants(rung.experiment, fit.values, fit.residuals, anew, self.each)}
                 columns = probe.white(frame, raw)
                 sizes = [size for size in every if size.key in columns]
                 fit = refit.refit(
@@ -109,7 +112,7 @@ class Tries:
         sizes = [size for size in (*self.fitted, *candidate.sizes) if size.key in fit.keys]
         own = [size for size in candidate.sizes if size.key in fit.keys]
         try:
-            raw = probe.secants(rung.experiment, fit.values, fit.residuals, [*own, *candidate.shaping])
+            raw = probe.secants(rung.experiment, fit.values, fit.residuals, [*own, *candidate.shaping], self.each)
             columns = probe.white(rung.frame, {**rung.raw, **raw})
             apart = _apart(candidate.shaping, columns, own)
             if not self._is_promising(fit, columns, sizes, apart):
@@ -123,7 +126,7 @@ class Tries:
             found = self._trial(candidate, {key: fitted.values[key] for key in trial.shape}, fitted, len(apart))
         except (InputError, ValueError):
             return trial
-        return self.settled(found) if found.bic > trial.bic else trial
+        return self.settled(found, found.gain - trial.gain) if found.bic > trial.bic else trial
 
     def is_large(self, gain: float) -> bool:
         """Whether a gain is so large that the error changes its colour by it."""
