@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from ridecomfort.discrepancy.form import effect_source, in_words
-from ridecomfort.discrepancy.places import AXLES, PLACES, WHEELS, WHOLE, scale, settings
+from ridecomfort.discrepancy.places import AXLES, PLACES, TURNING, WHEELS, WHOLE, scale, settings
 from ridecomfort.effects import library
 
 KNOWN = {"tanh": tanh, "cos": cos, "sin": sin, "abs": abs, "max": max, "min": min}
@@ -27,11 +27,14 @@ def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp
         seen |= {"motion": SimpleNamespace(**{key: 0.1 + 0.2 * k for k, key in enumerate(vars(where.typical["motion"]))})}
     for name, term in where.terms.items():
         entry = found[f"found_{name}"]
-        own = {WHOLE: "", AXLES: AXLES[wheel // 2], WHEELS: WHEELS[wheel]}[term.parts]
+        own = {WHOLE: {"": 1.0}, AXLES: {AXLES[wheel // 2]: 1.0}}.get(term.parts)
+        if term.parts == TURNING:
+            angle = eval(term.turn, KNOWN, seen)
+            own = {f"{WHEELS[wheel]}_cosine": cos(angle), f"{WHEELS[wheel]}_sine": sin(angle)}
         states = {state.name: 0.3 + 0.1 * k for k, state in enumerate(term.states)}
         shape = {setting.name: setting.typical for setting in settings(place, name)}
         worth = lambda expression: eval(expression, KNOWN, seen | states | shape)
-        value = factors[name][own] * worth(term.expression)
+        value = sum(factors[name][part] * share for part, share in own.items()) * worth(term.expression)
         before = {result: seen.get(result, 0.0) for result in where.results}
         expected = {result: before[result] + (value if result == term.result else 0.0) for result in where.results}
         if term.ahead:
@@ -57,6 +60,9 @@ def test_a_form_is_said_with_its_sizes():
         "force = (57.3 N front and 48 N rear) tanh(velocity / 0.005)"
     )
     assert in_words("body", {"lift": {"": -0.5}}) == "force_z = (-0.5 N s2/m2) motion.speed**2"
+    assert in_words("tyre", {"twice_a_turn": {"front_left_cosine": 60.0, "front_left_sine": -20.0}}) == (
+        "force = (60 N front_left_cosine and -20 N front_left_sine) of 2.0 * rotation"
+    )
     shaped = {"slow_velocity": {"frequency": 7.5, "linear": 0.0}}
     assert in_words("strut", {"slow_velocity": {"front": 57.3, "rear": 48.0}}, shaped) == (
         "force = (57.3 N s/m front and 48 N s/m rear) slow, slow' = 6.2832 * frequency * (velocity - slow), frequency = 7.5 Hz"

@@ -28,6 +28,7 @@ def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
         at = f" at {term.ahead}" if term.ahead else ""
         values = {setting: own.get(setting.name, setting.typical) for setting in settings(place, name)}
         written = expression(place, name, bool(values.get(LINEAR)))
+        written = f"{written} of {term.turn}".removeprefix("1.0 ") if term.turn else written
         written = f"({written})" if " + " in written or term.states and " " in written else written
         said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
         by_result.setdefault(term.result, []).append(f"({size}) {written}{at}{slopes}{said}")
@@ -40,7 +41,9 @@ def _factor(key: str, term: Term) -> str:
     names = [parameter(key, part) for part in term.parts]
     if term.parts == AXLES:
         return f"({names[0]} if wheel < 2 else {names[1]})"
-    if term.parts == WHEELS:
+    if term.turn:
+        names = [f"{cosine} * cos({term.turn}) + {sine} * sin({term.turn})" for cosine, sine in zip(names[::2], names[1::2])]
+    if len(names) == len(WHEELS):
         front, rear = (f"({left} if wheel % 2 == 0 else {right})" for left, right in (names[:2], names[2:]))
         return f"({front} if wheel < 2 else {rear})"
     return names[0]
@@ -59,7 +62,8 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str, shaped: 
         for part in term.parts:
             typical = float(factors.get(part, FORCE / scale(place, key)))
             limit = float(f"{WIDTH * abs(typical) if factors.get(part) else reach:.3g}")
-            meaning = f"factor of {term.expression}" + (f", {part}" if part else "")
+            of_turn = f", cosine and sine of {term.turn}" if term.turn else ""
+            meaning = f"factor of {term.expression}{of_turn}" + (f", {part}" if part else "")
             parameters.append(
                 f'        Parameter("{parameter(key, part)}", "{term.unit}", 0.0, {typical:.6g}, ({-limit:g}, {limit:g}), "{meaning}"),'
             )

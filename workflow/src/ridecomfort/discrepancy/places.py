@@ -26,6 +26,9 @@ WHOLE = ("",)
 
 WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
 
+TURNING = tuple(f"{wheel}_{wave}" for wheel in WHEELS for wave in ("cosine", "sine"))
+"""Parts of what comes and goes as a wheel turns, from an angle of its own."""
+
 SIDE = "(1.0 - 2.0 * (wheel % 2))"
 """1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
 
@@ -51,8 +54,8 @@ class State:
 class Term:
     """A part of a force: its ``expression`` in what the place sees, its own ``states`` and ``settings``, the ``unit`` of its factor, the
     ``result`` it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force
-    on the body acts ``ahead`` (m, an expression) of the centre of gravity where that is given. ``beside``: what it may be linear in, too.
-    """
+    on the body acts ``ahead`` (m, an expression) of the centre of gravity where that is given. ``beside``: what it may be linear in, too;
+    ``turn``: the angle that the parts of TURNING are cosine and sine of."""
 
     expression: str
     unit: str
@@ -62,6 +65,7 @@ class Term:
     settings: tuple[Parameter, ...] = ()
     ahead: str = ""
     beside: str = ""
+    turn: str = ""
 
 
 @dataclass(frozen=True)
@@ -169,12 +173,9 @@ PLACES: Mapping[str, Place] = {
             "velocity_per_spin": Term("velocity / (1.0 + abs(spin) / 30.0)", "N s/m", beside="velocity"),
             "deflection_of_sides": Term(f"(deflection - rest) * {SIDE}", "N/m"),
             "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
-            "phase_cosine": Term("cos(rotation)", "N", parts=WHEELS),
-            "phase_sine": Term("sin(rotation)", "N", parts=WHEELS),
-            "phase_cosine_spin_square": Term("spin**2 * cos(rotation)", "kg m", parts=WHEELS),
-            "phase_sine_spin_square": Term("spin**2 * sin(rotation)", "kg m", parts=WHEELS),
-            "twice_a_turn_cosine": Term("cos(2.0 * rotation)", "N", parts=WHEELS),
-            "twice_a_turn_sine": Term("sin(2.0 * rotation)", "N", parts=WHEELS),
+            "once_a_turn": Term("1.0", "N", parts=TURNING, turn="rotation"),
+            "once_a_turn_by_spin": Term("spin**2", "kg m", parts=TURNING, turn="rotation"),
+            "twice_a_turn": Term("1.0", "N", parts=TURNING, turn="2.0 * rotation"),
             "sliding_direction": _sliding("strain", "N", "velocity"),
             "slow_velocity": _below("velocity"),
         },
