@@ -52,7 +52,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     """A verdict in the light of a force of any form.
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
-    (a wheel out of round, whose turns never begin alike) counts as noise until its form is known. What is named becomes "outside" where
+    (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. What is named becomes "outside" where
     such a force explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error
     beside what is named, more of the first and not much less of the others will do, or, where little is left, HALF of that. Where the road may be another than that of its file, by
     noise of its points or by what lies between them (``is_road_open``), which repeats share as well, "outside" becomes what the library
