@@ -39,13 +39,15 @@ def diagnose(
     rung = begin(experiment, cars.start_values(experiment), common["each"])
     table, verdict = ranked(experiment, rung, signatures=signatures, **common)
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
+    is_road_alone = table.attrs["suspected"] == "road"
     most = 1.0 - WORTH / (1.0 - HALF) if verdict.is_shared else DOUBTFUL
     is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < most
-    if not (is_doubtful or verdict.verdict in ("outside", "nothing") or table.attrs["suspected"] == "road"):
-        return table, verdict, None
-    proposal = discovered(rung, **common)
-    verdict = reconsidered(verdict, proposal, is_road_open)
-    return table, verdict, proposal if verdict.verdict == "outside" else None
+    proposal = None
+    if is_doubtful or verdict.verdict in ("outside", "nothing") or is_road_alone:
+        proposal = discovered(rung, **common)
+        verdict = reconsidered(verdict, proposal, is_road_open)
+        proposal = proposal if verdict.verdict == "outside" else None
+    return table, heard(verdict, table.attrs["turns"], is_road_alone), proposal
 
 
 def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = False) -> Verdict:
@@ -79,6 +81,16 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
             return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
         return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
     return verdict
+
+
+def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
+    """A verdict with what comes back with the way, in words, if anything: a reason more, and by itself enough for "outside" where nothing
+    was found, or noise of the road alone was suspected, which has no period."""
+    if not turns:
+        return verdict
+    is_silent = verdict.verdict == "nothing" or verdict.verdict == "suspect" and is_road_alone
+    why = "something turns with the wheels, or the road repeats itself"
+    return _said(verdict, "outside" if is_silent else verdict.verdict, f"{turns}: {why}")
 
 
 def _leaves_less(verdict: Verdict, proposal: Discovery) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from . import car as cars
-from . import pool, suspect
+from . import pool, suspect, turns
 from .explain import NIL, REPEATS
 from .rung import Rung, begin
 from .select import search
@@ -52,8 +52,8 @@ def rank(
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
     their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``); and what
-    ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, and ``suspected`` whether the
-    "data" are or the "road" alone. Raises InputError.
+    ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, ``suspected`` whether the
+    "data" are or the "road" alone, and ``turns`` what comes back with the way (``turns.line``). Raises InputError.
     """
     experiment = cars.opened(
         measured, vehicle, calibration=calibration, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
@@ -84,6 +84,8 @@ def ranked(
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = said_of_road
+    line = turns.line(selection.frame, selection.ladder[-1].fit.residuals, selection.check_frame, selection.check)
+    table.attrs["turns"] = "" if line is None else line.words(float(experiment.vehicle["tyre_radius"]))
     table.attrs["suspected"] = "" if not doubts else "road" if is_road_alone else "data"
     if signatures:
         say("drawing the missing force")

@@ -138,7 +138,8 @@ class _Search:
                 sure |= {size.key for size in self.by_name[turn.winner.name].sizes}
         return Selection(
             tuple(rounds), tuple(ladder), rung.ground, rung.held_out_ground, rung.repeats, rung.frame,
-            tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(ladder[0].fit, rung.fit),
+            tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(ladder[0].fit, rung.fit), rung.check,
+            rung.check_frame,
         )  # fmt: skip
 
     def _sizes(self) -> list[exp.Size]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -94,3 +94,7 @@ class Selection:
     """Share of what the repeats had in common before the first effect that is gone; nan without repeats."""
     shared_z: float
     """How surely repeats shared any error before the first effect, as a z; nan without repeats."""
+    check: Mapping[int, np.ndarray] = field(default_factory=dict)
+    """Residuals of the records held out with the last model..."""
+    check_frame: Frame | None = None
+    """...and their frame; none without such records."""

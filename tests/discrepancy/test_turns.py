@@ -1,0 +1,65 @@
+"""What comes back with the way is heard at any angle it begins at, and told from noise and from a road that is another."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from ridecomfort.discrepancy import turns
+from ridecomfort.discrepancy.diagnose import heard
+from ridecomfort.discrepancy.experiment import Record
+from ridecomfort.discrepancy.verdict import Verdict
+
+CHANNELS = ("a_x", "a_z")
+
+RADIUS = 0.31
+
+
+def frame(speeds, rng, line=0.0, period=0.8, common=0.0, hum=0.0):
+    """White residuals of drives at these speeds (m/s) over 600 m, with an error of a_z that comes back every ``period`` m, one that is
+    ``common`` to all drives at equal place, and one of 20 Hz."""
+    records, residuals = [], {}
+    road = rng.standard_normal((2, 6001))
+    for number, speed in enumerate(speeds):
+        place = np.arange(0.0, 600.0, speed / 100.0)
+        noise = rng.standard_normal((2, place.size))
+        noise[1] += line * np.sin(2 * np.pi * place / period + rng.uniform(0, 6)) + hum * np.sin(2 * np.pi * 20.0 * place / speed)
+        noise += common * np.stack([np.interp(place, np.arange(6001) * 0.1, row) for row in road])
+        records.append(Record(f"drive {number}", "fit", "site", f"{speed}", 100.0, (0.8, 42.0), place, speed))
+        residuals[number] = noise
+    experiment = SimpleNamespace(records=records, channels=CHANNELS)
+    flat_of = lambda index, residual: residual.ravel()
+    return SimpleNamespace(experiment=experiment, indices=list(range(len(speeds))), flat_of=flat_of), residuals
+
+
+def test_what_turns_is_heard_with_its_period_and_its_order():
+    rng = np.random.default_rng(1)
+    found = turns.line(*frame([22.0, 22.3, 21.8], rng, line=0.25), *frame([16.0], rng, line=0.25))
+    assert found.channel == "a_z" and found.period == pytest.approx(0.8, rel=0.002) and found.p_value < 1e-4
+    assert f"{2 * np.pi * RADIUS / 0.8:.2f} times a turn of the wheels" in found.words(RADIUS)
+
+
+@pytest.mark.parametrize("common", [0.0, 3.0])
+def test_noise_is_not_even_where_it_is_that_of_one_road(common):
+    for seed in range(30):
+        rng = np.random.default_rng(seed)
+        assert turns.line(*frame([22.0, 22.3, 21.8], rng, common=common), *frame([16.0], rng, common=common)) is None
+
+
+def test_what_turns_only_on_the_fitted_drives_is_not_it():
+    """A hum of 20 Hz comes back every 1.1 m at one speed, and every 0.8 m at another."""
+    rng = np.random.default_rng(2)
+    assert turns.line(*frame([22.0, 22.0, 22.0], rng, hum=0.5), *frame([16.0], rng, hum=0.5)) is None
+    assert turns.line(*frame([22.0, 22.0, 22.0], rng, hum=0.5), None, {}) is not None
+
+
+def test_a_line_makes_outside_of_nothing_and_of_a_road_alone_and_is_said_beside_a_name():
+    of = lambda kind: Verdict(kind, (), (), 0.0, 0.0)
+    assert heard(of("nothing"), "an error comes back", False).verdict == "outside"
+    assert heard(of("suspect"), "an error comes back", True).verdict == "outside"
+    assert heard(of("suspect"), "an error comes back", False).verdict == "suspect"
+    assert heard(of("named"), "an error comes back", False).verdict == "named"
+    assert "comes back" in heard(of("named"), "an error comes back", False).reasons[-1]
+    assert heard(of("nothing"), "", False) == of("nothing")
