@@ -56,10 +56,10 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. What is named becomes "outside" where
     such a force explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error
-    beside what is named, more of the first and not much less of the others will do, or, where little is left, HALF of that. Where the road may be another than that of its file, by
-    noise of its points or by what lies between them (``is_road_open``), which repeats share as well, "outside" becomes what the library
-    has unless such a force explains more ("suspect" where that is little), and "suspect" for that becomes "outside" if such a force
-    explains more than noise could.
+    beside what is named, more of the first and not much less of the others will do, or, where little is left, HALF of that. Where the
+    road may be another than that of its file, by noise of its points or by what lies between them (``is_road_open``), which repeats share
+    as well, "outside" becomes what the library has unless such a force explains more ("suspect" where that is little), and "suspect" for
+    that becomes "outside" if such a force explains more than noise could.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
     # Beside noise of the road, which weighs more the weaker an effect is, any fall on drives held out will do.

@@ -215,7 +215,9 @@ PLACES: Mapping[str, Place] = {
             "heave_mass": Term("motion.vertical_acceleration", "kg", "force_z", WHOLE),
             "roll_damping": Term("motion.roll_rate", "N m s", "moment_x", WHOLE),
             "roll_stiffness": Term("motion.roll", "N m", "moment_x", WHOLE),
-            "roll_saturating": Term("motion.roll / (1.0 + abs(motion.roll) / knee)", "N m", "moment_x", WHOLE, (), (ANGLE,), beside="motion.roll"),
+            "roll_saturating": Term(
+                "motion.roll / (1.0 + abs(motion.roll) / knee)", "N m", "moment_x", WHOLE, settings=(ANGLE,), beside="motion.roll"
+            ),
             "roll_rate_direction": Term("tanh(motion.roll_rate / 0.005)", "N m", "moment_x", WHOLE, beside="motion.roll_rate"),
             "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x", WHOLE),
             "roll_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_x", WHOLE),

@@ -25,8 +25,8 @@ AROUND = 101
 
 @dataclass(frozen=True)
 class Line:
-    """What comes back every ``period`` m in a ``channel``: how often its power is that of its neighbourhood on the fitted records, and on those held
-    out (nan without), and the probability that any line of noise is so strong."""
+    """What comes back every ``period`` m in a ``channel``: how often its power is that of its neighbourhood on the fitted records, and on
+    those held out (nan without), and the probability that any line of noise is so strong."""
 
     channel: str
     period: float
@@ -36,8 +36,8 @@ class Line:
 
     def words(self, radius: float) -> str:
         """The line in words; ``radius`` of the wheels in m."""
-        order = 2.0 * np.pi * radius / self.period
-        return f"an error of {self.channel} comes back every {self.period:.3g} m of way, {order:.2f} times a turn of the wheels (p = {self.p_value:.1g})"
+        order = f"{2.0 * np.pi * radius / self.period:.2f} times a turn of the wheels"
+        return f"an error of {self.channel} comes back every {self.period:.3g} m of way, {order} (p = {self.p_value:.1g})"
 
 
 def line(
