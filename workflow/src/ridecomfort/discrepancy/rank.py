@@ -15,7 +15,7 @@ from .select import search
 from .signature import signature
 from .selection import Selection
 from .shared import is_material
-from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, judge, shares, standing, total_shares
+from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, is_slow, judge, shares, standing, total_shares
 
 SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
 """What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""
@@ -52,8 +52,9 @@ def rank(
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
     their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``); and what
-    ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, ``suspected`` whether the
-    "data" are or the "road" alone, and ``turns`` what comes back with the way (``turns.line``). Raises InputError.
+    ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, if that may be all that
+    repeats share, ``suspected`` whether the "data" are or the "road" alone, and ``turns`` what comes back with the way
+    (``turns.line``). Raises InputError.
     """
     experiment = cars.opened(
         measured, vehicle, calibration=calibration, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
@@ -83,7 +84,7 @@ def ranked(
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
-    table.attrs["road"] = said_of_road
+    table.attrs["road"] = "" if is_slow(selection) else said_of_road
     line = turns.line(selection.frame, selection.ladder[-1].fit.residuals, selection.check_frame, selection.check)
     table.attrs["turns"] = "" if line is None else line.words(float(experiment.vehicle["tyre_radius"]))
     table.attrs["suspected"] = "" if not doubts else "road" if is_road_alone else "data"

@@ -34,6 +34,10 @@ SHARED = 0.05
 """Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
 nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 
+SLOW, SLOW_Z = 3.0, 7.0
+"""Hz up to which, in waves of several metres, noise of a road's points does not show beside the road itself, and z of an error that repeats
+share there from which on it is none: up to 5.7 where the road is noisy by 0.1 mm or interpolated otherwise."""
+
 SHARED_BAND_Z = 5.0
 """z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain; up to
 3.8 where nothing is missing and the road is as its file says, 6.5 where it is interpolated otherwise."""
@@ -118,6 +122,12 @@ def total_shares(selection: Selection) -> tuple[float, float]:
 def something_left(selection: Selection) -> bool:
     """Whether repeats share an error that the last model does not explain; False without repeats."""
     return bool(selection.remaining.z > SHARED_Z and selection.remaining.share > SHARED)
+
+
+def is_slow(selection: Selection) -> bool:
+    """Whether what repeats share most surely is too slow to be noise of the road's points or what lies between them."""
+    band = selection.remaining.band
+    return band is not None and band.upper <= SLOW and band.z > SLOW_Z
 
 
 def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[str]:
