@@ -113,6 +113,14 @@ def test_effects_name_the_model_in_whatever_order(project, own_effects):
     assert study.effect_files("headwind+pull") == ["mine/headwind.py", "mine/pull.py"]
 
 
+def test_a_model_without_effects_of_ones_own_does_not_depend_on_their_folder(project, own_effects):
+    """So that its results stay when the first one is added. A diagnosis looks among them all."""
+    study = config.load({**own_effects, "effects": ["headwind"]}, project)
+    folder = lambda step, model: json.loads(study.config(step, "own", model))["effects_folder"]
+    assert folder("compare", "base") is None and folder("simulate", "base") is None
+    assert folder("compare", "headwind") == "mine" and folder("diagnose", "base") == "mine"
+
+
 @pytest.mark.parametrize(
     ("effects", "said"),
     [

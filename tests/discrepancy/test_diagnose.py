@@ -12,7 +12,7 @@ from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 
-SURE = Discovery("tyre", {"once_a_turn": {"front_left_sine": 60.0}}, {"once_a_turn": {}}, "force = ...", 0.9, 0.9, 0.0015, "", {}, None)
+SURE = Discovery("discovered", "tyre", "tyre_vertical", {"once_a_turn": {"front_left_sine": 60.0}}, {"once_a_turn": {}}, "force = ...", 0.9, 0.9, 0.0015, "", {}, None)
 
 
 def test_a_sure_force_of_some_form_makes_outside_of_nothing():

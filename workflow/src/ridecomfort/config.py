@@ -92,6 +92,10 @@ class Study:
             return dict(sorted(configured.items()))
         return {} if model == BASE else {name: configured.get(name, {}) for name in model.split(JOIN)}
 
+    def has_own_effects(self, model: str | None = None) -> bool:
+        """Whether a model has effects that are not in the library."""
+        return not set(self.effects(model)) <= set(effect_files())
+
     def effect_files(self, model: str) -> list[str]:
         """The files of a model's effects."""
         known = effect_files(self.effects_folder)

@@ -25,6 +25,9 @@ STEP = 0.001
 RATE = 100.0
 """Hz of the records, as the paper's instrument."""
 
+FARTHEST = 1e7
+"""m or m/s beyond which a simulated drive has lost all measure."""
+
 OVERHANG = 2.0
 """m of road kept free beyond the axles at either end."""
 
@@ -200,7 +203,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
         compose.parameters(chosen), compiled.state_count, record, sensed,
     )  # fmt: skip
     record = record[:records]
-    if not np.isfinite(record[:, :3]).all() or not np.isfinite(sensed[:, :steps]).all():
+    if not (np.abs(record[:, :3]) < FARTHEST).all() or not np.isfinite(sensed[:, :steps]).all():
         raise InputError(
             "the simulated drive did not stay finite; is a parameter or an effect out of reason?",
             place=f"vehicle {vehicle.name}",

@@ -21,7 +21,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
     simulated = {
         **at,
         "effects": study.effects(model),
-        "effects_folder": chosen["effects_folder"],
+        "effects_folder": chosen["effects_folder"] if study.has_own_effects(model) else None,
         "simulation": simulation,
     }
     comfort = chosen["comfort"]
@@ -71,6 +71,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
         case "diagnose":
             return {
                 **simulated,
+                "effects_folder": chosen["effects_folder"],
                 "sites": study.diagnosed,
                 "fitted_on": study.diagnosed[:1],
                 "bounds": {name: chosen["calibration"]["bounds"][name] for name in CALIBRATED},

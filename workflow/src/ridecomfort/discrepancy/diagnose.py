@@ -26,12 +26,12 @@ explainable error by which it must be better then."""
 
 
 def diagnose(
-    measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0,
+    measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0, name: str = "discovered",
     workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,
 ) -> tuple[xr.Dataset, Verdict, Discovery | None]:  # fmt: skip
     """The evidence, the verdict and the form that is proposed where the library does not explain the drives, else None.
 
-    Arguments as for ``rank``.
+    Arguments as for ``rank``; ``name``: of the effect that is proposed.
     """
     experiment = cars.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
     common = {"effects_folder": effects_folder, "seed": seed, "say": say}
@@ -44,7 +44,7 @@ def diagnose(
     is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < most
     proposal = None
     if is_doubtful or verdict.verdict in ("outside", "nothing") or is_road_alone:
-        proposal = discovered(rung, **common)
+        proposal = discovered(rung, name=name, **common)
         verdict = reconsidered(verdict, proposal, is_road_open)
         proposal = proposal if verdict.verdict == "outside" else None
     return table, heard(verdict, table.attrs["turns"], is_road_alone), proposal

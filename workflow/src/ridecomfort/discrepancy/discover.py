@@ -29,10 +29,12 @@ from .verdict import plain, total_shares
 
 @dataclass(frozen=True)
 class Discovery:
-    """A proposed effect: ``place``, its ``terms`` with factors by part of the car and the ``settings`` that shape them, ``form`` in
+    """A proposed effect: its ``name``, the ``place`` where it acts and the ``port`` of that, its ``terms`` with factors by part of the car and the ``settings`` that shape them, ``form`` in
     words, shares removed, and the ``source`` of an effect file; all empty where nothing was found."""
 
+    name: str
     place: str
+    port: str
     terms: dict[str, dict[str, float]]
     settings: dict[str, dict[str, float]]
     form: str
@@ -46,7 +48,7 @@ class Discovery:
 
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
-        names = ("place", "form", "terms", "settings", "share", "held_out_share", "p_value", "by_place")
+        names = ("name", "place", "port", "form", "terms", "settings", "share", "held_out_share", "p_value", "by_place")
         return plain({name: getattr(self, name) for name in names})
 
 
@@ -101,7 +103,7 @@ def _discovery(selection: Selection, name: str) -> Discovery:
         place: max((gain for own, gain in zip(first.names, first.gain) if _place(own) == place), default=0.0) for place in PLACES
     }
     if not selection.accepted:
-        return Discovery("", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
+        return Discovery(name, "", "", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
     place, terms, shaped = _place(selection.accepted[0]), {}, {}
     for accepted in selection.accepted:
         term = accepted.partition(":")[2]
@@ -114,7 +116,7 @@ def _discovery(selection: Selection, name: str) -> Discovery:
     p_value = float(first.p_value[first.names.index(first.winner.name)])
     sentence = f"Found on measured drives, not in the library: at the {place}, {form}."
     source = effect_source(name, place, terms, sentence, shaped)
-    return Discovery(place, terms, shaped, form, share, held_out, p_value, source, by_place, selection)
+    return Discovery(name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection)
 
 
 def _place(name: str) -> str:

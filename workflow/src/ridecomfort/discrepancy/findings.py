@@ -22,9 +22,18 @@ EVERYWHERE = 0.35
 PREVAILING = 1.5
 """How many times its mean an error has in the class of a condition that is named for it."""
 
+STRAIGHT = 3000.0
+"""m of radius above which a road is called straight."""
+
+
+def _straighter(curvature: float) -> str:
+    radius = 1 / max(curvature, 1e-6)
+    return "straight stretches" if radius > STRAIGHT else f"radii above {radius:.0f} m"
+
+
 CONDITIONS: dict[str, tuple[Callable[[float], str], Callable[[float], str]]] = {
     "speed": (lambda v: f"speeds above {3.6 * v:.0f} km/h", lambda v: f"speeds below {3.6 * v:.0f} km/h"),
-    "curvature": (lambda c: f"radii below {1 / max(c, 1e-6):.0f} m", lambda c: f"radii above {1 / max(c, 1e-6):.0f} m"),
+    "curvature": (lambda c: f"radii below {1 / max(c, 1e-6):.0f} m", _straighter),
     "lateral_acceleration": (
         lambda a: f"lateral accelerations above {a:.1f} m/s²", lambda a: f"lateral accelerations below {a:.1f} m/s²",
     ),

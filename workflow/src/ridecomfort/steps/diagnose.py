@@ -1,16 +1,22 @@
 """Find the physical effects that the model lacks, from all measured drives; write the evidence and the verdict.
 
 Where something is missing that no effect of the library explains, the form that is proposed for it is written
-beside the verdict as an effect file, ``discovered.py``, to be read, kept and switched on.
+beside the verdict as an effect file, ``discovered.py`` (``discovered_2.py`` where there is an effect of that name), to be read,
+kept and switched on.
 """
 
+import itertools
 import json
 import sys
 from pathlib import Path
 
 from ridecomfort import discrepancy, store
+from ridecomfort.effects import library
 from ridecomfort.steps.command import Command
 from ridecomfort.vehicle import parameters
+
+DISCOVERED = "discovered"
+"""Name of the effect that is proposed."""
 
 
 def main(roads, measured, vehicle, calibration, config, ranking, verdict):
@@ -23,18 +29,25 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict):
     settings["options"] = {"step": config["simulation"]["step"]}
     settings["say"] = lambda words: print(words, file=sys.stderr, flush=True)
     car = parameters.read(vehicle)
-    told = {"among": config["among"], "noise_density": config["noise_density"], "signatures": True}
+    known = library.find(config["effects_folder"])
+    name = next(name for name in _names() if name not in known)
+    told = {"among": config["among"], "noise_density": config["noise_density"], "signatures": True, "name": name}
     table, found, proposal = discrepancy.diagnose(drives, car, **told, **settings)
     content = found.json()
-    proposed = Path(verdict).with_name("discovered.py")
-    proposed.unlink(missing_ok=True)  # of drives or of a model before
+    for old in Path(verdict).parent.glob(f"{DISCOVERED}*.py"):  # of drives or of a model before
+        old.unlink()
     if proposal is not None:
         content["proposal"] = proposal.json()
         if proposal.source:
-            _write(proposed, proposal.source)
+            _write(Path(verdict).with_name(f"{name}.py"), proposal.source)
     store.write(table, ranking, title="Evidence for effects that the model lacks", configuration=config, seed=config["seed"])
     _write(verdict, json.dumps(content, indent=1) + "\n")
     print(found.words(), file=sys.stderr)
+
+
+def _names():
+    yield DISCOVERED
+    yield from (f"{DISCOVERED}_{number}" for number in itertools.count(2))
 
 
 def _write(path, text):

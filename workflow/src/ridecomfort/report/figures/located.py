@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from textwrap import fill
+
 import numpy as np
 import xarray as xr
 from matplotlib.colors import LogNorm
@@ -23,6 +25,9 @@ TICKS = (0.1, 0.3, 1, 3, 10, 30)
 
 PER_OCTAVE = 6
 """Rows of the map in an octave: single lines of a short spectrum scatter so much that noise would look like error."""
+
+LONGEST = 125
+"""Letters in a line below the maps."""
 
 NOTHING = f"No error above the floor reaches {100 * findings.NAMED:g} % of its signal's power in any band; what is left: above the maps."
 
@@ -64,7 +69,7 @@ def located(study: Difference, site: str) -> Figure:
     top[0].xaxis.set_ticks_position("top")
     top[0].xaxis.set_label_position("top")
     lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
-    lines = lines or [NOTHING]
+    lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines] or [NOTHING]
     words = [*lines, f"{chosen.label}, model {study.model}, {found.attrs['located_state']}; {floor_note(chosen)}"]
     below = panels[-1][0]
     for axes in (*panels[-1], top[1]):

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from pathlib import Path
+
 import numpy as np
 
+from ...effects.contract import PORTS
+from ...config import BASE, JOIN
 from .. import catalogue
 from ..notation import unit, words
 from ..study import Diagnosis
@@ -21,24 +26,36 @@ NEXT = {
     "named": "Switch them on, effects: [{keys}] in config/study.yaml, and compare again.",
     "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
     "them apart.",
-    "outside": "Look at the proposed form, put discovered.py, which lies beside the verdict, into the folder that effects_folder in "
-    "config/study.yaml names, and switch it on, effects: [discovered].",
+    "outside": "Look at the proposed form. To try it, put {file} into a folder of your own that effects_folder in config/study.yaml names, "
+    "switch it on, effects: [{keys}], and compare again.",
     "nothing": "Nothing is to be switched on.",
     "suspect": "Put the data right first, then diagnose again.",
 }
+
+
+def _promise(proposal: Mapping) -> str:
+    """What a proposed form removes of the error, and how sure it is."""
+    held_out = proposal["held_out_share"]
+    checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
+    fitted = f"{100 * proposal['share']:.0f} % of the explainable error on the fitted drives"
+    return f"{fitted}{checked} (p = {proposal['p_value']:.2g})."
 
 
 def verdict(found: Diagnosis) -> Table:
     """The verdict in words: what it is, why, and what to do next."""
     said = found.verdict
     names = ", ".join(_alike(effect) for effect in said["effects"])
-    keys = ", ".join(effect["name"] for effect in said["effects"])
+    proposal = said.get("proposal") or {}
+    own = [] if found.model == BASE else found.model.split(JOIN)
+    keys = ", ".join([*own, *([proposal["name"]] if proposal.get("form") else [effect["name"] for effect in said["effects"]])])
     rows = [("verdict", f"{SAID[said['verdict']].format(names=names)} ({said['verdict']})")]
     rows += [("reason", _sentence(reason)) for reason in said["reasons"]]
-    proposal = said.get("proposal") or {}
     if proposal.get("form"):
         rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
-        rows.append(("next", NEXT["outside"]))
+        rows.append(("in it", _sentence(PORTS[proposal["port"]].meaning)))
+        rows.append(("it removes", _promise(proposal)))
+        file = str(Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py"))
+        rows.append(("next", NEXT["outside"].format(file=file, keys=keys)))
     elif said["verdict"] == "outside":
         rows.append(("next", "No form was found that would take the error away; see where it lies (compare)."))
     else:
