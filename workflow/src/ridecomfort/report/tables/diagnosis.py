@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...discrepancy.verdict import LITTLE
 from ...effects.contract import PORTS
 from ...config import BASE, JOIN
 from .. import catalogue
@@ -38,7 +39,8 @@ def _promise(proposal: Mapping) -> str:
     held_out = proposal["held_out_share"]
     checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
     fitted = f"{100 * proposal['share']:.0f} % of the explainable error on the fitted drives"
-    return f"{fitted}{checked} (p = {proposal['p_value']:.2g})."
+    little = ": too little to be what is missing" if proposal["share"] < LITTLE else ""
+    return f"{fitted}{checked} (p = {proposal['p_value']:.2g}){little}."
 
 
 def verdict(found: Diagnosis) -> Table:
