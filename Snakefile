@@ -19,7 +19,7 @@ os.environ.update(
     PYTHONPATH=str(PROJECT / "workflow" / "src"),
     NUMBA_CACHE_DIR=str(PROJECT / ".cache" / "numba" / modules.compiled()),
     RIDECOMFORT_CACHE=str(PROJECT / ".cache"),
-    OPENBLAS_NUM_THREADS="1",  # jobs run side by side, and those with threads divide their work themselves
+    OPENBLAS_NUM_THREADS="1",  # jobs run side by side
 )
 
 
