@@ -97,6 +97,19 @@ def test_findings_are_numbered_alike_in_table_and_figure(tables, drawn, study):
         assert str(number) in words and any(each.words().removeprefix(each.signal) in text for text in words)
 
 
+def test_what_is_written_below_the_maps_has_room(study, monkeypatch):
+    """Layout does not know of it: as many findings as there may be, each of two lines."""
+    site = study.sites[0]
+    long = findings.findings(site.comparison)[0]
+    monkeypatch.setattr(type(long), "words", lambda self: f"{self.signal}, " + "mostly at suspension velocities above 0.04 m/s, " * 4)
+    monkeypatch.setattr(findings, "findings", lambda found: [long] * 5)
+    with style.styled():
+        made = located.located(Difference((site,), study.ladder), site.name)
+        FigureCanvasAgg(made).draw()
+    written = next(text for text in made.findobj(Text) if text.get_text().startswith("1  ")).get_window_extent()
+    assert made.bbox.x0 <= written.x0 and written.x1 <= made.bbox.x1 and made.bbox.y0 < written.y0
+
+
 def test_maps_of_two_models_compare_by_their_colours(study):
     site = study.sites[0]
     better = Compared(site.name, site.measured, made_up.comparison((0.5, 0.1)))

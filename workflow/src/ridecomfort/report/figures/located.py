@@ -37,9 +37,13 @@ def located(study: Difference, site: str) -> Figure:
     chosen = next(each for each in study.sites if each.name == site)
     found = chosen.comparison
     errors = findings.findings(found)
-    drawn = style.figure(style.DOUBLE, 9.2)
+    lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
+    lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines] or [NOTHING]
+    words = [*lines, f"{chosen.label}, model {study.model}, {found.attrs['located_state']}; {floor_note(chosen)}"]
+    count = "\n".join(words).count("\n") + 1
+    drawn = style.figure(style.DOUBLE, 8.3 + 0.16 * count)
     panels = drawn.subplots(
-        len(SIGNALS) + 2, 2, width_ratios=(3.2, 1.0), height_ratios=(0.08, *[1.0] * len(SIGNALS), 1.05), squeeze=False
+        len(SIGNALS) + 2, 2, width_ratios=(3.2, 1.0), height_ratios=(0.08, *[1.0] * len(SIGNALS), 0.22 * count), squeeze=False
     )
     top, panels = panels[0], panels[1:]
     place = found["s_map"].values / 1000
@@ -68,9 +72,6 @@ def located(study: Difference, site: str) -> Figure:
     bar.set_label("error above the floor, same colours for every model [% of the signal's power per octave]")
     top[0].xaxis.set_ticks_position("top")
     top[0].xaxis.set_label_position("top")
-    lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
-    lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines] or [NOTHING]
-    words = [*lines, f"{chosen.label}, model {study.model}, {found.attrs['located_state']}; {floor_note(chosen)}"]
     below = panels[-1][0]
     for axes in (*panels[-1], top[1]):
         axes.set_axis_off()
