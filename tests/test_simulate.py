@@ -8,6 +8,7 @@ import xarray as xr
 from scipy.signal import butter, sosfiltfilt, welch
 
 from ridecomfort import simulate
+from ridecomfort.effects import library
 from ridecomfort.errors import InputError
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import DRIVE, SIGNALS
@@ -53,6 +54,19 @@ def test_a_sensor_off_the_centre_feels_the_rigid_body(course, car):
     found = (ahead.a_z - centre.a_z).values
     assert (found + 1.2 * pitching).std() < 0.05 * found.std()
     np.testing.assert_array_equal(ahead.pitch_rate, centre.pitch_rate)
+
+
+def test_a_sensor_stays_on_the_body_where_the_centre_of_gravity_moves(course, car):
+    """By the same load as parameters of the vehicle, with the sensor's place told from its centre of gravity."""
+    load = {"mass": 300.0, "ahead": -1.0, "height": 0.9}
+    entry, sizes = library.choose({"payload": load})[0]
+    loaded = entry.act(car, **sizes)
+    back, up = loaded["cg_to_front_axle"] - car["cg_to_front_axle"], loaded["cg_height"] - car["cg_height"]
+    assert back == pytest.approx(300.0 / loaded["sprung_mass"])
+    with_effect = simulate.run(course, car, speed=20.0, effects={"payload": load}, sensor=(0.4, 0.1, 0.7))
+    by_hand = simulate.run(course, loaded, speed=20.0, sensor=(0.4 + back, 0.1, 0.7 - up))
+    for name in SIGNALS:
+        np.testing.assert_allclose(with_effect[name], by_hand[name], atol=1e-9)
 
 
 def test_records_do_not_alias(car):

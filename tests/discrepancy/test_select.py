@@ -194,9 +194,28 @@ def test_shared_error_of_repeats_is_nothing_for_noise_and_half_for_one_as_large_
     assert 0.3 < selection.remaining.share < 0.7 and selection.remaining.z > 3
 
 
+def alone(model):
+    """The same drives where none repeats another."""
+    model.records = [replace(record, condition=record.name) for record in model.records]
+    return model
+
+
+def test_without_repeats_an_error_that_answers_to_what_cannot_be_it_is_more_than_noise():
+    too_large = {"effect_3.size": 7.0}
+    _, found = judged(alone(Linear(5, too_large)))
+    assert found.verdict == "outside" and found.effects == ()
+    assert any("answers to effect_3" in reason for reason in found.reasons)
+    selection = select.select(alone(Linear(5, too_large)), {"stiffness": 0.0}, most=3)
+    assert verdict.judge(selection, Linear(5, {}).candidates, is_material=False).verdict == "nothing"
+
+
+@pytest.mark.parametrize("seed", range(30, 36))
+def test_without_repeats_noise_is_nothing(seed):
+    assert judged(alone(Linear(seed, {})))[1].verdict == "nothing"
+
+
 def test_without_repeats_the_floor_is_the_noise_that_is_known_of_the_instruments():
-    model = Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0})
-    model.records = [replace(r, condition=r.name) for r in model.records]
+    model = alone(Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0}))
     assert any("taken as nil" in reason for reason in judged(model)[1].reasons)
     model.records = [replace(record, noise=(0.1,) * 4) for record in model.records]
     selection, found = judged(model)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import select, verdict
 from ridecomfort.discrepancy.judged import band
+from ridecomfort.discrepancy.shared import is_material
 
 from .linear import RATE, SAMPLES, Linear
 
@@ -32,6 +35,17 @@ def test_what_repeats_share_in_a_narrow_band_is_told_with_its_signal_and_band():
 def test_noise_of_every_drive_agrees_in_no_band(seed):
     selection, found = judged(Linear(seed, {}))
     assert selection.remaining.band.z < verdict.SHARED_BAND_Z and found.verdict == "nothing"
+
+
+@pytest.mark.parametrize("share, matters", [(0.02, False), (0.2, True)])
+def test_an_error_of_drives_that_were_not_repeated_matters_from_some_percent_of_a_signal_on(share, matters):
+    model = Linear(9, {})
+    model.records = [replace(record, condition=record.name) for record in model.records]
+    frame = select.select(model, {"stiffness": 0.0}, most=0).frame
+    residuals = {index: model.residual({}, index) for index in frame.indices}
+    powers = {index: np.sum(frame.cleaned(index, part) ** 2, axis=1) for index, part in residuals.items()}
+    measured = {index: np.sin(np.arange(SAMPLES) / 7.0) * np.sqrt(2.0 * power / share / SAMPLES)[:, None] for index, power in powers.items()}
+    assert is_material(frame, residuals, measured) is matters
 
 
 def test_without_repeats_nothing_is_known_to_be_shared():

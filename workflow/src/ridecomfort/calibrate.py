@@ -68,8 +68,9 @@ def problem(
     effects: Mapping[str, Mapping[str, float]] | None = None,
     signals: Sequence[str] = SIGNALS,
     options: Mapping | None = None,
+    scales: Sequence[float] | None = None,
 ) -> Problem:
-    """The problem of fitting the drives whose role is "fit"; arguments as for ``calibrate``."""
+    """The problem of fitting the drives whose role is "fit"; arguments as for ``calibrate``, ``scales`` as for ``Problem``."""
     drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
     roads = list(road) if isinstance(road, (list, tuple)) else [road] * len(drives)
     replays = [
@@ -84,7 +85,7 @@ def problem(
         if not (np.isfinite([lower, upper]).all() and lower < upper):
             raise InputError(f"bounds {lower:g} to {upper:g} (expected lower < upper)", place=name)
     lower, upper = np.array(list(bounds.values()), dtype=float).T
-    return Problem(replays, vehicle, tuple(bounds), lower, upper, effects or {}, tuple(signals))
+    return Problem(replays, vehicle, tuple(bounds), lower, upper, effects or {}, tuple(signals), scales=scales)
 
 
 def calibrate(

@@ -47,10 +47,15 @@ class Problem:
     uncorrected: Sequence[Replay] = ()
     """The drives as alignment left them, where ``replays`` have been corrected further. Path and speed are asked for
     again only then: what they change is seen from a vehicle that fits roughly."""
+    scales: Sequence[float] | None = None
+    """What each of SIGNALS is divided by, in its unit, if not by its measured range."""
 
     def __post_init__(self):
         self._used = [SIGNALS.index(signal) for signal in self.signals]
-        self._ranges = [np.ptp(again.measured()[:, again.compared], axis=1) for again in self.replays]
+        self._ranges = [
+            np.ptp(again.measured()[:, again.compared], axis=1) if self.scales is None else np.asarray(self.scales)
+            for again in self.replays
+        ]
         self._known: dict[bytes, list[tuple[np.ndarray, np.ndarray]]] = {}
         self._scale, self._left_over = [], []
         for again, ranges in zip(self.replays, self._ranges):

@@ -96,7 +96,8 @@ def run(
     number or a DataArray over u. ``friction`` of the road, 1 when dry. ``effects``: names, or
     a mapping of name to {parameter: value}. ``sensor``: its place in m relative to the centre
     of gravity of the sprung mass. ``start`` and ``end``: m along the reference line; the whole
-    road by default. ``step`` of the integration in s, ``rate`` of the records in Hz.
+    road by default. ``step`` of the integration in s, ``rate`` of the records in Hz. A sensor stays at its place on the body
+    where an effect moves the centre of gravity.
 
     Accelerations are those of the sensor in body axes without gravity. They and the rates are band-limited below
     half the rate before they are sampled, as an instrument does it: of a roll rate on a rough road some percent of what is
@@ -104,15 +105,17 @@ def run(
     """
     course = road if isinstance(road, Course) else prepare(road)
     chosen = library.choose(effects, effects_folder)
+    changed = vehicle
     for entry, sizes in chosen:
         if entry.effect.port == "vehicle":
-            vehicle = entry.act(vehicle, **sizes)
+            changed = entry.act(changed, **sizes)
+    fixed = _on_body(sensor, vehicle, changed)
     believed = course.on_u(lateral, "lateral")
     driven = believed
     for entry, sizes in chosen:
         if entry.effect.port == "path":
             driven = entry.act(driven, course.u, **sizes)
-    record = _record(course, vehicle, course.on_u(speed, "speed"), driven, friction, chosen, sensor, start, end, step, rate)
+    record = _record(course, changed, course.on_u(speed, "speed"), driven, friction, chosen, fixed, start, end, step, rate)
     if driven is not believed:
         record[:, COLUMNS.index("e")] -= np.interp(record[:, COLUMNS.index("s")], course.u, driven - believed)
     drive = xr.Dataset(
@@ -170,6 +173,13 @@ def runs(
             coords={"run": np.arange(len(records)), "time": np.arange(longest) / rate},
         )
     )
+
+
+def _on_body(sensor, before: Vehicle, after: Vehicle) -> tuple[float, float, float]:
+    """Place relative to the centre of gravity of a vehicle whose centre of gravity lay elsewhere ``before``."""
+    x, y, z = sensor
+    back = after["cg_to_front_axle"] - before["cg_to_front_axle"]
+    return x + back, y, z - (after["cg_height"] - before["cg_height"])
 
 
 def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, end, step, rate) -> np.ndarray:

@@ -10,12 +10,13 @@ import xarray as xr
 
 from . import car as cars
 from . import pool
+from .beyond import beyond_bounds
 from .discover import Discovery, discovered
 from .explain import REPEATS
 from .propose import SURE
 from .rank import ranked
 from .rung import begin
-from .verdict import CONFIRMED, DOUBTFUL, LITTLE, Verdict
+from .verdict import CONFIRMED, DOUBTFUL, LITTLE, Verdict, with_parameters
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
@@ -37,7 +38,7 @@ def diagnose(
     common = {"effects_folder": effects_folder, "seed": seed, "say": say}
     common["each"] = pool.mapped(pool.workers() if workers is None else workers)
     rung = begin(experiment, cars.start_values(experiment), common["each"])
-    table, verdict = ranked(experiment, rung, signatures=signatures, **common)
+    table, verdict, selection = ranked(experiment, rung, signatures=signatures, **common)
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     is_road_alone = table.attrs["suspected"] == "road"
     most = 1.0 - WORTH / (1.0 - HALF) if verdict.is_shared else DOUBTFUL
@@ -47,6 +48,9 @@ def diagnose(
         proposal = discovered(rung, name=name, **common)
         verdict = reconsidered(verdict, proposal, is_road_open)
         proposal = proposal if verdict.verdict == "outside" else None
+    if (is_doubtful or verdict.verdict == "outside") and (proposal is None or proposal.share < DOUBTFUL):
+        say("trying parameters of the vehicle beyond their bounds")
+        verdict = with_parameters(verdict, beyond_bounds(selection, common["each"]))
     return table, heard(verdict, table.attrs["turns"], is_road_alone), proposal
 
 

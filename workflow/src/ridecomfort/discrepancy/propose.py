@@ -20,6 +20,9 @@ SURE, CERTAIN = 0.005, 0.002
 DECOYS = 6
 """Columns with the spectrum of a candidate and random phases that must never rank."""
 
+HELD_OUT_Z = 2.0
+"""z of the improvement of held-out drives that what is proposed must reach."""
+
 DECOY_LEVEL = 0.005
 """p-value at which a decoy ranks, where another is significant, too; one alone would do so by chance now and then."""
 

@@ -64,14 +64,14 @@ def rank(
     rung = begin(experiment, cars.start_values(experiment), each)
     return ranked(
         experiment, rung, most=most, seed=seed, signatures=signatures, effects_folder=effects_folder, each=each, say=say
-    )
+    )[:2]
 
 
 def ranked(
     experiment: cars.Car, rung: Rung, *, most: int = 3, seed: int = 0, signatures: bool = False, effects_folder=None, each=map,
     say: Callable[[str], None] = lambda words: None,
-) -> tuple[xr.Dataset, Verdict]:  # fmt: skip
-    """``rank`` from an ``experiment`` as its drives came and the ``rung`` of its calibrated model."""
+) -> tuple[xr.Dataset, Verdict, Selection]:  # fmt: skip
+    """``rank`` from an ``experiment`` as its drives came and the ``rung`` of its calibrated model, with the selection behind it."""
     selection = search(rung, most=most, seed=seed, each=each, say=say)
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
@@ -93,7 +93,7 @@ def ranked(
         named = {e.name: {size["parameter"]: size["size"] for size in e.sizes} for e in verdict.effects}
         curves = signature(rung, named=named, effects_folder=effects_folder, each=each)
         table = table.merge(curves)
-    return table, verdict
+    return table, verdict, selection
 
 
 def _is_material(selection: Selection) -> bool:

@@ -17,7 +17,7 @@ from ..errors import InputError
 from . import cluster, floor, probe, realign, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment
-from .propose import propose
+from .propose import HELD_OUT_Z, propose
 from .refit import Fit
 from .rung import Rung, begin, climb, final_fit, roles
 from .selection import Round, Selection, State, Trial
@@ -35,9 +35,6 @@ PROPOSED = 5
 
 MINOR = 0.05
 """Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
-
-HELD_OUT_Z = 2.0
-"""z of the improvement of held-out drives that an effect must reach."""
 
 WEAK = 16.0
 """Fall of the white loss of held-out drives below which not even the truth reaches HELD_OUT_Z half of the time: a change of that size

@@ -24,6 +24,9 @@ DRIVEN = 3.0
 OF_DRIVEN, OF_BAND = 0.03, 0.002
 """Shares of the measured power within a band below and above that, up to which an error is not worth explaining."""
 
+OF_SIGNAL = 0.05
+"""Share of the measured power of a signal up to which an error of drives that were not repeated is not worth explaining."""
+
 LIKELY = 3.0
 """z of what repeats share in a band from which on it may be worth explaining."""
 
@@ -93,14 +96,17 @@ def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Rec
 
 
 def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> bool:
-    """Whether what repeats share in any band is worth explaining; True where nothing was repeated.
+    """Whether what repeats share in any band is worth explaining; where nothing was repeated, whether the error of any signal is.
 
     ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure.
     """
     cleaned = {index: frame.cleaned(index, residuals[index]) for index in frame.indices}
     pairs = list(_pairs(frame, cleaned))
     if not pairs:
-        return True
+        return any(
+            np.any(np.sum(part**2, axis=1) > OF_SIGNAL * np.sum((measured[index] - measured[index].mean(axis=1, keepdims=True)) ** 2, axis=1))
+            for index, part in cleaned.items()
+        )
     edges, agreement, variance = _bands(frame.experiment.channels, pairs)
     power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
     least = np.where(edges[:-1] < DRIVEN, OF_DRIVEN, OF_BAND) * power

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
 from . import floor
+from .beyond import BeyondBounds
 from .cluster import SAME_PORT
 from .experiment import Candidate, Size
-from .propose import LEVEL, SURE
+from .propose import HELD_OUT_Z, LEVEL, SURE
 from .selection import Selection, State
 
 ENOUGH = 0.5
@@ -86,6 +87,8 @@ class Verdict:
     held_out_share: float
     is_left: bool = False
     is_shared: bool = False
+    beyond_bounds: BeyondBounds | None = None
+    """Parameters of the vehicle that would explain more if they lay beyond their bounds, where effects explain too little."""
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
@@ -124,6 +127,16 @@ def something_left(selection: Selection) -> bool:
     return bool(selection.remaining.z > SHARED_Z and selection.remaining.share > SHARED)
 
 
+def _answered(selection: Selection) -> list[str]:
+    """Names of candidates that make surely something better, on fitted drives and on those held out, where nothing was accepted or
+    repeated: what is left is more than noise."""
+    if selection.repeats or selection.accepted:
+        return []
+    turn = selection.rounds[-1]
+    p_value = dict(zip(turn.names, turn.p_value))
+    return [trial.name for trial in turn.trials if p_value[trial.name] <= SURE and trial.held_out_z > HELD_OUT_Z]
+
+
 def is_slow(selection: Selection) -> bool:
     """Whether what repeats share most surely is too slow to be noise of the road's points or what lies between them."""
     band = selection.remaining.band
@@ -159,7 +172,7 @@ def _balance(selection: Selection, notes: Sequence[str], is_material: bool) -> _
     band = selection.remaining.band
     in_band = band is not None and band.z > SHARED_BAND_Z and not notes  # a road that is another makes errors that repeats share
     is_shared = something_left(selection) or in_band
-    is_left = is_material and is_shared
+    is_left = is_material and (is_shared or bool(_answered(selection)))
     explained = max(share, selection.shared_gone) if selection.repeats else share
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     is_refuted = is_met and held_out < CONFIRMED
@@ -214,6 +227,11 @@ def judge(
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
 
 
+def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
+    """A verdict with the parameters of the vehicle that would explain more beyond their bounds, if any: a reason more."""
+    return verdict if found is None else replace(verdict, reasons=(*verdict.reasons, found.words()), beyond_bounds=found)
+
+
 def _removed(balance: _Balance) -> list[str]:
     """How much of the explainable error the effects remove, in words."""
     held_out = [f"{_percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
@@ -231,6 +249,9 @@ def _unfound(selection: Selection, count: int) -> list[str]:
 
 def _unexplained(selection: Selection, balance: _Balance, is_little: bool) -> str:
     """What is left beside the effects, in words; ``is_little``: whether too little was found."""
+    if not is_little and not selection.repeats:
+        names = ", ".join(_answered(selection))
+        return f"but the error answers to {names} on drives held out, too, more than noise does, and none of them explains it"
     if not is_little:
         return f"but repeats share an error that no candidate explains: {selection.remaining}"
     if balance.explained < ENOUGH:

@@ -43,6 +43,17 @@ def _promise(proposal: Mapping) -> str:
     return f"{fitted}{checked} (p = {proposal['p_value']:.2g}){little}."
 
 
+def _farther(beyond: Mapping) -> str:
+    """What to do where parameters of the vehicle want to lie beyond their bounds."""
+    names = ", ".join(one["parameter"] for one in beyond["parameters"])
+    rounded = [[float(f"{end:.3g}") for end in one["wider"]] for one in beyond["parameters"]]
+    bounds = ", ".join("{}: [{:g}, {:g}]".format(one["parameter"], *ends) for one, ends in zip(beyond["parameters"], rounded))
+    return (
+        f"If the vehicle's file may be that wrong, have it calibrated: add {names} to calibration: parameters in config/study.yaml, and "
+        f"{bounds} to calibration: bounds, then compare and diagnose again. If it cannot be, they stand in for something else."
+    )
+
+
 def verdict(found: Diagnosis) -> Table:
     """The verdict in words: what it is, why, and what to do next."""
     said = found.verdict
@@ -62,6 +73,8 @@ def verdict(found: Diagnosis) -> Table:
         rows.append(("next", "No form was found that would take the error away; see where it lies (compare)."))
     else:
         rows.append(("next", NEXT[said["verdict"]].format(keys=keys)))
+    if said.get("beyond_bounds"):
+        rows.append(("the vehicle", _farther(said["beyond_bounds"])))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)

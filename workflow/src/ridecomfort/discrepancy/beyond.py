@@ -1,0 +1,140 @@
+"""Parameters of the vehicle beyond their bounds: whether the drives speak for values farther off, and what those explain."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import calibrate
+from ..calibrated import with_values
+from ..descent import descend
+from ..errors import InputError
+from ..vehicle.parameters import PARAMETERS
+from . import floor, refit
+from .experiment import Size
+from .propose import HELD_OUT_Z
+from .rung import Rung, climb
+from .selection import Selection
+
+WIDER = 3.0
+"""Times as far as a bound, and as small a part of it, that a parameter may go."""
+
+LEAST_SHARE = 0.05
+"""Share of the explainable error that must go for them to be worth a word."""
+
+
+@dataclass(frozen=True)
+class Beyond:
+    """A parameter of the vehicle: its ``given`` value with the ``bounds`` it was kept in, and the ``value`` it has within ``wider`` ones,
+    with its 90 % ``interval``."""
+
+    parameter: str
+    unit: str
+    given: float
+    bounds: tuple[float, float]
+    wider: tuple[float, float]
+    value: float
+    interval: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class BeyondBounds:
+    """``parameters`` that lie beyond their bounds, and the ``share`` of the explainable error that goes on fitted and on held-out drives
+    (nan without) when they may, beside what effects remove."""
+
+    parameters: tuple[Beyond, ...]
+    share: float
+    held_out_share: float
+
+    def words(self) -> str:
+        """What they are and what goes with them."""
+        names = ", ".join(
+            f"{one.parameter} {_rounded(one.value):g} {one.unit}".removesuffix(" 1") + f" for {_rounded(one.given):g}" for one in self.parameters
+        )
+        held_out = f", {100 * self.held_out_share:.0f} % on drives held out," if np.isfinite(self.held_out_share) else ""
+        return (
+            f"another {100 * self.share:.0f} % of the explainable error{held_out} goes with parameters of the vehicle beyond their bounds: {names}"
+        )
+
+
+def beyond_bounds(selection: Selection, each: Callable = map) -> BeyondBounds | None:
+    """Parameters of the vehicle that lie beyond their bounds in a model that explains more than the last of a selection; None where
+    none ends at a bound, or going beyond is no better, on the fitted drives or on those held out.
+
+    What is calibrated or uncertain is calibrated anew within bounds WIDER than its own, on one drive of each condition, and then fitted
+    with all drives like every model of the selection: that fit alone, whose error makes itself white, does not find its way so far. A parameter is told if its 90 % interval lies beyond the bounds, so that none is that the drives
+    are silent about.
+    """
+    experiment, fit = selection.frame.experiment, selection.ladder[-1].fit
+    own = [size for size in experiment.free if size.key in PARAMETERS]
+    if all(refit.is_within(size, fit.values) for size in own):
+        return None
+    wider = {size.key: _wider(size) for size in own}
+    free = tuple(wider.get(size.key, size) for size in experiment.free)
+    known = {size.key: size for candidate in experiment.candidates for size in (*candidate.sizes, *candidate.shaping)}
+    sizes = [*free, *(known[key] for key in fit.keys if key in known)]
+    try:
+        start = {**fit.values, **_calibrated(selection, sizes)}
+        rung = climb(replace(experiment, free=free), start, sizes, each)
+    except (InputError, ValueError):  # a vehicle that cannot be driven
+        return None
+    shares = _shares(selection, rung)
+    if shares is None:
+        return None
+    intervals = refit.intervals(rung.fit, rung.frame, sizes)
+    found = [
+        Beyond(
+            size.key, size.unit, float(experiment.vehicle[size.key]), (size.lower, size.upper),
+            (wider[size.key].lower, wider[size.key].upper), rung.fit.values[size.key], intervals[size.key],
+        )
+        for size in own
+        if not (intervals[size.key][0] <= size.upper and intervals[size.key][1] >= size.lower)
+    ]  # fmt: skip
+    return BeyondBounds(tuple(found), *shares) if found else None
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.3g}")
+
+
+def _wider(size: Size) -> Size:
+    """With bounds WIDER than its own; a length is known to a tape measure."""
+    span = PARAMETERS[size.key]
+    if size.unit == "m":
+        return size
+    return replace(size, lower=max(min(size.lower, size.lower / WIDER), span.lower), upper=min(max(size.upper, size.upper * WIDER), span.upper))
+
+
+def _calibrated(selection: Selection, sizes: Sequence[Size]) -> dict[str, float]:
+    """Values of ``sizes`` by least squares of what is calibrated, every signal in units of the error that is left of it."""
+    experiment, last = selection.frame.experiment, selection.ladder[-1]
+    chosen = {experiment.records[index].condition: index for index in reversed(selection.frame.indices)}
+    replays = [experiment.replays[index] for index in sorted(chosen.values())]
+    vehicle, effects = with_values(experiment.vehicle, experiment.effects, last.fit.values)
+    limits = {size.key: (size.lower, size.upper) for size in sizes}
+    task = calibrate.problem(
+        [again.drive.assign_attrs(role="fit") for again in replays], [again.road for again in replays], vehicle,
+        parameters=[key for key in limits if key in PARAMETERS], bounds=limits, effects=effects, options=replays[0].options,
+        scales=np.sqrt(last.squares.mean(axis=0)),
+    )  # fmt: skip
+    point, everything = task.point([last.fit.values[key] for key in task.parameters]), list(range(len(limits)))
+    for _ in range(2):
+        point = descend(task.about(point), point, everything, calibrate.COARSE).point
+    return dict(zip(task.parameters, task.values(point).tolist()))
+
+
+def _shares(selection: Selection, rung: Rung) -> tuple[float, float] | None:
+    """Share of the explainable error that a model removes beyond the last of a selection, fitted and held out (nan without); None where
+    it is not worth a word."""
+    first, last = selection.ladder[0], selection.ladder[-1]
+    now = floor.squares(rung.experiment, rung.frame.all_cleaned(rung.fit.residuals))
+    share = floor.explained_share(last.squares, now, first.squares, np.minimum(selection.ground, rung.ground))
+    if rung.check_frame is None:
+        return (share, float("nan")) if share > LEAST_SHARE else None
+    now = floor.squares(rung.experiment, rung.check_frame.all_cleaned(rung.check))
+    ground = np.minimum(selection.held_out_ground, rung.held_out_ground)
+    held_out = floor.explained_share(last.held_out_squares, now, first.held_out_squares, ground)
+    z = refit.advantage(rung.check_frame, rung.check, selection.check)[1]
+    return (share, held_out) if min(share, held_out) > LEAST_SHARE and z > HELD_OUT_Z else None
