@@ -18,8 +18,12 @@ from .propose import HELD_OUT_Z
 from .rung import Rung, climb
 from .selection import Selection
 
-WIDER = 3.0
-"""Times as far as a bound, and as small a part of it, that a parameter may go."""
+WIDER = {"m": 1.0, "kg m2": 2.0}
+"""By unit, times as far as a bound, and as small a part of it, that a parameter may go: lengths are known to a tape measure, inertias by
+mass and size..."""
+
+ANY = 3.0
+"""...and stiffnesses, dampings and friction by nothing but their effect."""
 
 LEAST_SHARE = 0.05
 """Share of the explainable error that must go for them to be worth a word."""
@@ -100,11 +104,9 @@ def _rounded(value: float) -> float:
 
 
 def _wider(size: Size) -> Size:
-    """With bounds WIDER than its own; a length is known to a tape measure."""
-    span = PARAMETERS[size.key]
-    if size.unit == "m":
-        return size
-    return replace(size, lower=max(min(size.lower, size.lower / WIDER), span.lower), upper=min(max(size.upper, size.upper * WIDER), span.upper))
+    """With bounds WIDER than its own."""
+    span, times = PARAMETERS[size.key], WIDER.get(size.unit, ANY)
+    return replace(size, lower=max(min(size.lower, size.lower / times), span.lower), upper=min(max(size.upper, size.upper * times), span.upper))
 
 
 def _calibrated(selection: Selection, sizes: Sequence[Size]) -> dict[str, float]:

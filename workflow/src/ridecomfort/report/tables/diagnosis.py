@@ -46,8 +46,12 @@ def _promise(proposal: Mapping) -> str:
 def _farther(beyond: Mapping) -> str:
     """What to do where parameters of the vehicle want to lie beyond their bounds."""
     names = ", ".join(one["parameter"] for one in beyond["parameters"])
-    rounded = [[float(f"{end:.3g}") for end in one["wider"]] for one in beyond["parameters"]]
-    bounds = ", ".join("{}: [{:g}, {:g}]".format(one["parameter"], *ends) for one, ends in zip(beyond["parameters"], rounded))
+    ends = [
+        (min(one["wider"][0], 0.5 * one["value"]), max(one["wider"][1], 2.0 * one["value"])) for one in beyond["parameters"]
+    ]  # a value at the end of the wider bounds wants to go on
+    bounds = ", ".join(
+        "{}: [{:g}, {:g}]".format(one["parameter"], *(float(f"{end:.3g}") for end in own)) for one, own in zip(beyond["parameters"], ends)
+    )
     return (
         f"If the vehicle's file may be that wrong, have it calibrated: add {names} to calibration: parameters in config/study.yaml, and "
         f"{bounds} to calibration: bounds, then compare and diagnose again. If it cannot be, they stand in for something else."
@@ -73,6 +77,12 @@ def verdict(found: Diagnosis) -> Table:
         rows.append(("next", "No form was found that would take the error away; see where it lies (compare)."))
     else:
         rows.append(("next", NEXT[said["verdict"]].format(keys=keys)))
+    if said["verdict"] == "outside" and said["effects"]:
+        keys = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
+        held_out = said["held_out_share"]
+        checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
+        rows.append(("in the library", f"{names} together take {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for "
+                     f"what is missing. To go on from them instead: effects: [{keys}]."))
     if said.get("beyond_bounds"):
         rows.append(("the vehicle", _farther(said["beyond_bounds"])))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
