@@ -84,7 +84,24 @@ def difference(names=("ts1", "ts2"), standin=True) -> Difference:
         )
         for name, models in of_site.items()
     )  # fmt: skip
-    return Difference(sites, rungs(of_site), "ladder/base.nc")
+    return Difference(
+        sites, rungs(of_site), "ladder/base.nc", calibrations={names[0]: calibration()}, calibration_files={names[0]: "base/calibration.nc"}
+    )
+
+
+def calibration() -> xr.Dataset:
+    """A parameter of the vehicle that is known and one of an effect at its bound."""
+    numbers = {"initial": (28000.0, 60.0), "value": (20000.0, 0.0), "interval_lower": (19000.0, 0.0), "interval_upper": (21000.0, 30.0),
+               "lower": (15000.0, 0.0), "upper": (40000.0, 500.0)}  # fmt: skip
+    return xr.Dataset(
+        {
+            **{key: ("parameter", np.array(values)) for key, values in numbers.items()},
+            "unit": ("parameter", np.array(["N/m", "N"])),
+            "verdict": ("parameter", np.array(["identified", "at its lower bound"])),
+        },
+        {"parameter": ["spring_stiffness_front", "suspension_friction.front"]},
+        {"remarks": "suspension_friction.front is at its lower bound: the data ask for more than the bounds allow"},
+    )
 
 
 VERDICT = {

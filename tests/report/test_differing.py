@@ -51,6 +51,13 @@ def test_every_form_can_be_written(tables):
         assert all(form(each) for form in table.WRITERS.values())
 
 
+def test_what_calibration_made_of_the_model_is_told_with_what_the_drives_say_of_it(tables):
+    spring, friction = rows(tables["calibrated"])
+    assert (spring["parameter"], spring["initial"], spring["value"]) == ("spring stiffness front", 28000.0, 20000.0)
+    assert friction["parameter"] == "suspension friction: front" and friction["verdict"] == "at its lower bound"
+    assert any("the data ask for more" in note for note in tables["calibrated"].notes)
+
+
 def test_the_ladder_begins_with_everything_and_ends_at_the_floor(tables, study):
     found = [row for row in rows(tables["error_ladder"]) if row["site"] == "Ts1" and row["drives"] == "fitted"]
     assert [row["model"] for row in found] == ["uncalibrated", "calibrated", "+ suspension friction", "lowest floor"]

@@ -68,6 +68,11 @@ rule compared:
         code=modules.of_step("compared"),
         measured=expand("results/{site}/measured.nc", site=study.measured),
         comparisons=expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
+        calibrations=expand(
+            "results/{site}/{model}/calibration.nc",
+            site={study.calibrated_on(site) for site in study.measured} - {None},
+            model=study.model,
+        ),
         ladder=rules.ladder.output,
     output:
         expand("results/tables/{name}.{suffix}", name=catalogue.DIFFERENCE_TABLES, suffix=["csv", "md", "tex", "trace.csv"]),

@@ -137,7 +137,7 @@ def summary(study: Study, site: str) -> dict:
 
 def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:
     """What tables and figures of measured drives say of these sites."""
-    return {site: {key: summary(study, site)[key] for key in ("title", "standin", "has_drives")} for site in sites}
+    return {site: {key: summary(study, site)[key] for key in ("title", "standin", "has_drives", "calibrated_on")} for site in sites}
 
 
 def _noise_densities(drives: Iterable[Mapping]) -> dict[str, dict[str, float]]:

@@ -64,6 +64,7 @@ CLAIMS_TABLES = {
 
 DIFFERENCE_TABLES = {
     "alignment": "Alignment of the measured drives: clock, speed scale, path and mounting as found.",
+    "calibrated": "What calibration made of the model: values with 90 % intervals, and what the drives say of them.",
     "findings": "Where the error sits, largest first: errors above the floor by signal, frequency, place and condition.",
     "explainable": "Error of the model by signal: RMSE, NRMSE, the floor, what lies above it and how much of that is left.",
     "error_ladder": "The error ladder: error of each model, and the share of the explainable error that it leaves.",

@@ -9,7 +9,7 @@ from . import style
 from .figures import conditions, ladder, located
 from .study import Difference
 from .table import Table
-from .tables import difference
+from .tables import calibration, difference
 from .tables import ladder as rungs
 
 
@@ -17,6 +17,7 @@ def tables(found: Difference) -> dict[str, Table]:
     """Every table of ``catalogue.DIFFERENCE_TABLES``."""
     return {
         "alignment": difference.alignment(found),
+        "calibrated": calibration.calibrated(found),
         "findings": difference.findings(found),
         "explainable": difference.explainable(found),
         "error_ladder": rungs.error_ladder(found),

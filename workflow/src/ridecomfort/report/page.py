@@ -39,7 +39,7 @@ SECTIONS = (
     (
         "difference",
         "Where model and measurement differ",
-        ("located_*", "findings", "explainable", "conditions_*", "responses_*", "alignment"),
+        ("located_*", "findings", "explainable", "conditions_*", "responses_*", "alignment", "calibrated"),
     ),
     ("missing", "Which effect is missing", ("verdict", "missing_effects", "evidence.figure", "signature", "evidence", "standin_score")),
     ("ladder", "How the error falls", ("error_ladder.figure", "error_ladder", "error_ladder_sections")),

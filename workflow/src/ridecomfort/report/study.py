@@ -61,12 +61,17 @@ class Compared:
 
 @dataclass(frozen=True)
 class Difference:
-    """Where model and measurement differ, on every measured site, and the error ladder (``discrepancy.ladder``)."""
+    """Where model and measurement differ, on every measured site, and the error ladder (``discrepancy.ladder``).
+
+    The calibrations of the model by the site that they were made on, with their files.
+    """
 
     sites: tuple[Compared, ...]
     ladder: xr.Dataset
     ladder_file: str = ""
     model: str = "base"
+    calibrations: Mapping[str, xr.Dataset] = field(default_factory=dict)
+    calibration_files: Mapping[str, str] = field(default_factory=dict)
 
     def standin_note(self) -> str | None:
         """As of a Study."""

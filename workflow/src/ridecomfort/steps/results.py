@@ -14,7 +14,7 @@ from ..report.study import Compared, Diagnosis, Difference, Site, Study
 def load(results: Path, config: dict, software: dict | None = None) -> Study:
     """Every dataset that tables and figures of the study are made from, read from the folder of results."""
     model = config["model"]
-    calibrations = {name: results / name / model / "calibration.nc" for name in calibrated_on(config["sites"])}
+    calibrations = _calibration_files(results, config)
     assessment = results / "comfort" / model / "agreement.nc"
     return Study(
         sites=tuple(_site(results, name, model, settings) for name, settings in config["sites"].items()),
@@ -38,7 +38,7 @@ def whole(results: Path, config: dict, software: dict) -> Study:
 
 
 def difference(results: Path, config: dict) -> Difference:
-    """Comparisons and aligned drives of the measured sites with the model of ``config``, and the error ladder."""
+    """Comparisons and aligned drives of the measured sites with the model of ``config``, its calibrations, and the error ladder."""
     model = config["model"]
     ladder = results / "ladder" / f"{model}.nc"
     sites = []
@@ -47,7 +47,11 @@ def difference(results: Path, config: dict) -> Difference:
         loaded = {key: store.read(file) for key, file in files.items()}
         standin = config["sites"][name]["standin"]
         sites.append(Compared(name, **loaded, standin=standin, files={key: file.as_posix() for key, file in files.items()}))
-    return Difference(tuple(sites), store.read(ladder), ladder.as_posix(), model)
+    calibrations = _calibration_files(results, config)
+    return Difference(
+        tuple(sites), store.read(ladder), ladder.as_posix(), model, {name: store.read(file) for name, file in calibrations.items()},
+        {name: file.as_posix() for name, file in calibrations.items()},
+    )  # fmt: skip
 
 
 def diagnosis(results: Path, config: dict) -> Diagnosis | None:
@@ -75,6 +79,10 @@ def drop_others(folder: Path, sites: dict) -> None:
     for path in folder.glob("*.*"):
         if of_another_study(path.name.split(".")[0], sites):
             path.unlink()
+
+
+def _calibration_files(results: Path, config: dict) -> dict[str, Path]:
+    return {name: results / name / config["model"] / "calibration.nc" for name in calibrated_on(config["sites"])}
 
 
 def _site(results: Path, name: str, model: str, settings: dict) -> Site:

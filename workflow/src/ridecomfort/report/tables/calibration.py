@@ -7,7 +7,7 @@ import xarray as xr
 from ...vocabulary import SIGNALS
 from .. import catalogue, published
 from ..notation import symbol, unit, words
-from ..study import Site, Study
+from ..study import Difference, Site, Study
 from ..table import Column, Source, Table
 from .comfort import OURS, PAPER
 
@@ -146,6 +146,42 @@ def constraints(study: Study) -> Table:
         _notes(study, notes, normalisation=False),
         breaks=tuple(breaks),
     )
+
+
+def calibrated(found: Difference) -> Table:
+    """The parameters of a model that was compared, those of its effects included, as calibration left them."""
+    columns = (
+        Column("calibrated_on", ("", "Calibrated on")),
+        Column("parameter", ("", "Parameter")),
+        Column("unit", ("", "Unit")),
+        Column("initial", ("Value", "initial"), ".4g"),
+        Column("value", ("Value", "calibrated"), ".4g"),
+        Column("interval_lower", ("90 % interval", "lower"), ".4g"),
+        Column("interval_upper", ("90 % interval", "upper"), ".4g"),
+        Column("lower", ("Bounds", "lower"), ".7g"),
+        Column("upper", ("Bounds", "upper"), ".7g"),
+        Column("verdict", ("", "In words")),
+    )
+    rows, sources, breaks, notes = [], [], [], []
+    for name, calibration in found.calibrations.items():
+        breaks.append(len(rows))
+        for parameter in calibration["parameter"].values.tolist():
+            chosen = calibration.sel(parameter=parameter)
+            shown = [float(chosen[column.key]) for column in columns[3:9]]
+            in_words = words(parameter.replace(".", ": "))
+            rows.append((catalogue.label(name), in_words, unit(str(chosen["unit"].item())), *shown, str(chosen["verdict"].item())))
+        variables = "initial, value, interval_lower, interval_upper, lower, upper, verdict"
+        sources.append(Source(catalogue.label(name), found.calibration_files.get(name, ""), variables, "as in the file"))
+        notes.append(f"{catalogue.label(name)}: {calibration.attrs['remarks']}.")
+    if not rows:
+        rows.append(("none", "", "", *(None,) * 6, ""))
+    notes.append(
+        "At a bound the data ask for more than the bounds allow, or the model lacks something that the parameter stands in for. Not identified: "
+        "the drives do not tell it, and another value would do."
+    )
+    notes += filter(None, [found.standin_note()])
+    caption = f"{catalogue.DIFFERENCE_TABLES['calibrated']} Model: {found.model}."
+    return Table("calibrated", caption, columns, tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks[1:]))
 
 
 def _drives(site: Site, role: str) -> list[int]:
