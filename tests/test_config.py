@@ -270,6 +270,17 @@ def test_mistake_in_a_site(project, content, said):
     assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
 
 
+def test_a_column_that_a_drive_does_not_have_is_missed_before_anything_runs(project):
+    (project / "drive.csv").write_text("time [s], acc\n0, 1\n", encoding="utf-8-sig")
+    columns = {"time": {"column": "time [s]", "unit": "s"}, "a_z": {"column": "acc_z", "unit": "m/s2"}}
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{"file": "drive.csv", "columns": columns}]})
+    with pytest.raises(InputError, match=r"drive.csv: no column 'acc_z' for a_z \(found time \[s\], acc\)"):
+        config.load({"sites": ["own"]}, project)
+    columns["a_z"]["column"] = "acc"
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{"file": "drive.csv", "columns": columns}]})
+    config.load({"sites": ["own"]}, project)
+
+
 def test_a_site_may_not_be_named_like_a_target(project):
     write(project, "tables", {"road": {"file": "road.crg"}})
     assert_said(project, {"sites": ["tables"]}, "'tables' is the name of something else", config.STUDY)

@@ -228,6 +228,7 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
     _check_vehicles(study, given)
     _check_calibrations(study)
     _check_handed_in(study)
+    _check_columns(study)
     return study
 
 
@@ -389,6 +390,13 @@ def _check_handed_in(study: Study) -> None:
         count, runs = len(study.handed_in(name)), study.settings["runs"]
         if count != runs:
             raise InputError(f"{count} drives in {folder!r}, expected one for each of the {runs} runs", file=file, place=place)
+
+
+def _check_columns(study: Study) -> None:
+    for site in study.sites.values():
+        for drive in () if site["standin"] else site["drives"]:
+            if (study.folder / drive["file"]).is_file():
+                readers.check(study.folder / drive["file"], drive.get("columns"))
 
 
 def _check_calibrations(study: Study) -> None:

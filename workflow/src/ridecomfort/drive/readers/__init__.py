@@ -3,7 +3,8 @@
 A reader is a module of this folder with the suffixes it reads (``SUFFIXES``) and
 ``read(path, columns) -> (quantities, attributes)``: quantities map a name of
 ``vocabulary.DRIVE`` to (time, values) in SI units, attributes are what the file
-itself says about gravity, sensor, ... Another format is one more file here.
+itself says about gravity, sensor, ... It may have ``check(path, columns)``, which raises what can be
+seen without reading the values. Another format is one more file here.
 """
 
 from __future__ import annotations
@@ -26,6 +27,14 @@ def suffixes() -> dict[str, str]:
         for suffix in importlib.import_module(f"{__name__}.{module.name}").SUFFIXES:
             found[suffix] = f"{__name__}.{module.name}"
     return found
+
+
+def check(path, columns: Mapping[str, Mapping] | None = None) -> None:
+    """Raise InputError where a file cannot hold what ``columns`` asks for, as far as that is seen at a glance."""
+    reader = suffixes().get(Path(path).suffix.lower())
+    look = getattr(importlib.import_module(reader), "check", None) if reader else None
+    if look:
+        look(path, columns)
 
 
 def read(path, columns: Mapping[str, Mapping] | None = None, **attributes) -> xr.Dataset:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import csv
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -24,23 +25,39 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     table = _table(path)
     if columns is None:
         columns = {name: {"column": name} for name in ("time", *DRIVE) if name in table.columns}
-    if "time" not in columns:
-        raise InputError("no column stands for time", file=path, place="columns")
+    _check_names(list(map(str, table.columns)), columns, path)
     values = {}
     for quantity, entry in columns.items():
-        if quantity not in ("time", *DRIVE):
-            expected = ", ".join(("time", *DRIVE))
-            raise InputError(f"unknown quantity {quantity!r} (expected {expected})", file=path, place="columns")
         column = entry["column"]
-        if column not in table.columns:
-            found = ", ".join(map(str, table.columns))
-            raise InputError(f"no column {column!r} for {quantity} (found {found})", file=path)
         scale = units.of_column(quantity, entry, file=path, place=f"column {column!r}")
         if quantity == "time":
             _check_clock(scale * _numbers(table[column], path, column), path, column)
         values[quantity] = entry.get("factor", 1.0) * scale * _numbers(table[column], path, column)
     time = values.pop("time")
     return {quantity: (time, series) for quantity, series in values.items()}, {}
+
+
+def check(path, columns: Mapping[str, Mapping] | None) -> None:
+    """Raise InputError where the first line of the file does not name what ``columns`` asks for."""
+    if columns is None:
+        return
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            found = next(csv.reader(file, skipinitialspace=True), [])
+    except UnicodeDecodeError:
+        return  # reading it says why
+    _check_names(found, columns, path)
+
+
+def _check_names(found: Sequence[str], columns: Mapping[str, Mapping], path) -> None:
+    if "time" not in columns:
+        raise InputError("no column stands for time", file=path, place="columns")
+    for quantity, entry in columns.items():
+        if quantity not in ("time", *DRIVE):
+            expected = ", ".join(("time", *DRIVE))
+            raise InputError(f"unknown quantity {quantity!r} (expected {expected})", file=path, place="columns")
+        if entry["column"] not in found:
+            raise InputError(f"no column {entry['column']!r} for {quantity} (found {', '.join(found)})", file=path)
 
 
 def _table(path) -> pd.DataFrame:
