@@ -310,7 +310,7 @@ def assert_said(project, settings, said, file):
 
 
 def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
-    drive = {"file": "drive.csv", "columns": {}, "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
+    drive = {"file": "drive.csv", "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
     (project / "drive.csv").touch()
     write(project, "own", {"road": {"file": "road.crg"}, "drives": [drive]})
     study = config.load({**read(project), "sites": ["own"]}, project)
