@@ -52,6 +52,23 @@ def test_a_proposed_form_is_shown():
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
 
 
+def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_from():
+    said = words(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside"}))["verdict"])
+    assert "suspension friction together take 80 % on the fitted drives, 75 % on drives held out" in said
+    assert "effects: [suspension_friction]" in said
+
+
+def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_configuration():
+    bar = {"parameter": "anti_roll_stiffness_rear", "unit": "N m/rad", "given": 10000.0, "bounds": [8500.0, 11500.0],
+           "wider": [2833.3, 34500.0], "value": 34500.0, "interval": [20000.0, 49000.0]}  # fmt: skip
+    inertia = {**bar, "parameter": "roll_inertia", "wider": [257.4, 1258.4], "value": 406.2}
+    beyond = {"parameters": [inertia, bar], "share": 0.27, "held_out_share": 0.16}
+    said = words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": beyond}))["verdict"])
+    assert "add roll_inertia, anti_roll_stiffness_rear to calibration: parameters" in said
+    # Half to twice what was found is within the bounds, too: a bar that ends where it was allowed to wants to go on.
+    assert "roll_inertia: [203, 1260], anti_roll_stiffness_rear: [2830, 69000] to calibration: bounds" in said
+
+
 def test_evidence_is_in_the_order_of_the_gain_with_the_outcome_of_refits():
     found = rows(diagnosed.tables(made_up.diagnosis())["evidence"])
     assert [(row["round"], row["effect"]) for row in found[:3]] == [
