@@ -54,7 +54,7 @@ def test_a_proposed_form_is_shown():
 
 def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_from():
     said = words(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside"}))["verdict"])
-    assert "suspension friction together take 80 % on the fitted drives, 75 % on drives held out" in said
+    assert "suspension friction takes 80 % on the fitted drives, 75 % on drives held out" in said
     assert "effects: [suspension_friction]" in said
 
 

@@ -79,10 +79,12 @@ def verdict(found: Diagnosis) -> Table:
         rows.append(("next", NEXT[said["verdict"]].format(keys=keys)))
     if said["verdict"] == "outside" and said["effects"]:
         keys = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
-        held_out = said["held_out_share"]
+        held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
         checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
-        rows.append(("in the library", f"{names} together take {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for "
-                     f"what is missing. To go on from them instead: effects: [{keys}]."))
+        rows.append(
+            ("in the library", f"{names} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is "
+             f"missing. To go on from them instead: effects: [{keys}].")
+        )  # fmt: skip
     if said.get("beyond_bounds"):
         rows.append(("the vehicle", _farther(said["beyond_bounds"])))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
