@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import pytest
 
+from ridecomfort.discrepancy.beyond import Beyond, BeyondBounds
 from ridecomfort.discrepancy.diagnose import reconsidered
 from ridecomfort.discrepancy.discover import Discovery
-from ridecomfort.discrepancy.verdict import Named, Verdict
+from ridecomfort.discrepancy.verdict import Named, Verdict, with_parameters
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 
@@ -63,6 +64,28 @@ def test_a_name_that_leaves_little_but_that_for_certain_gives_way_to_a_force_tha
     assert reconsidered(replace(little, is_shared=False), exact).verdict == "named"
     hardly = replace(little, share=0.97, held_out_share=0.97)
     assert reconsidered(hardly, replace(exact, share=0.995, held_out_share=0.995)) is hardly
+
+
+def beyond(share, held_out_share):
+    inertia = Beyond("roll_inertia", "kg m2", 572.0, (515.0, 629.0), (257.0, 1258.0), 390.0, (380.0, 400.0))
+    return BeyondBounds((inertia,), share, held_out_share)
+
+
+@pytest.mark.parametrize(
+    "held_out, found, kind",
+    [(0.62, (0.32, 0.33), "named"), (float("nan"), (0.32, float("nan")), "named"), (0.62, (0.32, 0.1), "outside"), (0.62, (0.2, 0.5), "outside")],
+)
+def test_what_explains_nearly_all_beside_a_wrong_file_of_the_vehicle_is_named(held_out, found, kind):
+    other = replace(NOTHING, verdict="outside", effects=(FOUND,), share=0.57, held_out_share=held_out)
+    said = with_parameters(other, beyond(*found))
+    assert said.verdict == kind and "roll_inertia 390 kg m2 for 572" in said.reasons[-1]
+    assert said.json()["beyond_bounds"]["parameters"][0]["interval"] == [380.0, 400.0]
+
+
+def test_a_wrong_file_of_the_vehicle_alone_names_nothing():
+    other = replace(NOTHING, verdict="outside")
+    assert with_parameters(other, beyond(0.95, 0.95)).verdict == "outside"
+    assert with_parameters(other, None) is other
 
 
 FOUND = Named("friction", (), "", 0.001, 0.3, 0.3, 0.0, (), {})

@@ -51,6 +51,7 @@ def diagnose(
     if (is_doubtful or verdict.verdict == "outside") and (proposal is None or proposal.share < DOUBTFUL):
         say("trying parameters of the vehicle beyond their bounds")
         verdict = with_parameters(verdict, beyond_bounds(selection, common["each"]))
+        proposal = proposal if verdict.verdict == "outside" else None
     return table, heard(verdict, table.attrs["turns"], is_road_alone), proposal
 
 

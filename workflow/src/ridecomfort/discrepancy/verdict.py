@@ -228,8 +228,15 @@ def judge(
 
 
 def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
-    """A verdict with the parameters of the vehicle that would explain more beyond their bounds, if any: a reason more."""
-    return verdict if found is None else replace(verdict, reasons=(*verdict.reasons, found.words()), beyond_bounds=found)
+    """A verdict with the parameters of the vehicle that would explain more beyond their bounds, if any: a reason more. What stands of the
+    library is named where it removes, with them, DOUBTFUL of the error on all drives."""
+    if found is None:
+        return verdict
+    shares = [verdict.share + found.share, verdict.held_out_share + found.held_out_share]
+    kind = verdict.verdict
+    if kind == "outside" and verdict.effects and not min(share for share in shares if np.isfinite(share)) < DOUBTFUL:
+        kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
+    return replace(verdict, verdict=kind, reasons=(*verdict.reasons, found.words()), beyond_bounds=found)
 
 
 def _removed(balance: _Balance) -> list[str]:
