@@ -19,10 +19,14 @@ WIDTH = 2.0
 
 DRIVEN = 3.0
 """Hz below which foot and hands of a driver show, which a driver model moves otherwise: on roads and drives without any other error that is
-2 % of the power of a_x in the band, 1 % of pitch rate, 0.5 % of yaw rate, and less than 0.1 % of any signal above."""
+up to 2.5 % of the power of a_x in the band, 3 % of pitch rate, 0.7 % of yaw rate, 0.4 % of a_y, 0.1 % of roll rate, and less than 0.1 %
+of any signal above."""
 
-OF_DRIVEN, OF_BAND = 0.03, 0.002
-"""Shares of the measured power within a band below and above that, up to which an error is not worth explaining."""
+OF_DRIVEN, OF_BAND = {"a_x": 0.06, "pitch_rate": 0.06, "yaw_rate": 0.02, "a_y": 0.01}, 0.002
+"""Shares of the measured power within a band below that, by signal, and in all other bands, up to which an error is not worth explaining."""
+
+OF_SLOW = 0.005
+"""The same of other signals below DRIVEN."""
 
 OF_SIGNAL = 0.05
 """Share of the measured power of a signal up to which an error of drives that were not repeated is not worth explaining."""
@@ -109,7 +113,8 @@ def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Map
         )
     edges, agreement, variance = _bands(frame.experiment.channels, pairs)
     power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
-    least = np.where(edges[:-1] < DRIVEN, OF_DRIVEN, OF_BAND) * power
+    slow = np.array([OF_DRIVEN.get(channel, OF_SLOW) for channel in frame.experiment.channels])
+    least = np.where(edges[:-1] < DRIVEN, slow[:, None], OF_BAND) * power
     return bool(((agreement > least) & (agreement > LIKELY * np.sqrt(variance))).any())
 
 
