@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from ridecomfort.discrepancy import beyond, rung, select
+from ridecomfort.discrepancy import beyond, diagnose, rung, select
 from ridecomfort.discrepancy import car as cars
+from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
 
@@ -15,25 +16,40 @@ def car(repository):
     return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
 
 
-def found(car, **wrong):
-    """What lies beyond its bounds where the measured car is another: (parameters by name, all of it)."""
+def measured(car, wrong, effects=None, seed=41):
+    """Drives of a car some of whose parameters are these many times what its file says."""
     true = car.replace(**{name: factor * car[name] for name, factor in wrong.items()})
-    drives = trials.make(41, true, {}, 1.0).measured
+    return trials.make(seed, true, effects or {}, 1.0).measured
+
+
+def selected(drives, car):
     experiment = cars.car(cars.sites_of(drives), car, library_names=["crosswind"])
-    selection = select.search(rung.begin(experiment, cars.start_values(experiment)), most=1)
-    told = beyond.beyond_bounds(selection)
-    return {one.parameter: one for one in told.parameters} if told else {}, told
+    return select.search(rung.begin(experiment, cars.start_values(experiment)), most=1)
+
+
+def holds(one, truth):
+    return one.interval[0] < truth < one.interval[1] and not one.bounds[0] < one.value < one.bounds[1]
 
 
 def test_a_bar_twice_as_stiff_and_an_inertia_of_seven_tenths_are_told_with_what_they_explain(car):
     wrong = {"anti_roll_stiffness_rear": 2.0, "roll_inertia": 0.7}
-    by_name, told = found(car, **wrong)
-    for name, factor in wrong.items():
-        lower, upper = by_name[name].interval
-        assert lower < factor * car[name] < upper and not by_name[name].bounds[0] < by_name[name].value < by_name[name].bounds[1]
-    assert told.share > 0.3 and told.held_out_share > 0.3
-    assert "roll_inertia" in told.words()
+    told, _ = beyond.beyond_bounds(selected(measured(car, wrong), car))
+    by_name = {one.parameter: one for one in told.parameters}
+    assert all(holds(by_name[name], factor * car[name]) for name, factor in wrong.items())
+    assert told.share > 0.3 and told.held_out_share > 0.3 and "roll_inertia" in told.words()
 
 
 def test_nothing_is_told_of_a_car_that_is_within_its_bounds(car):
-    assert found(car, anti_roll_stiffness_rear=1.1) == ({}, None)
+    assert beyond.beyond_bounds(selected(measured(car, {"anti_roll_stiffness_rear": 1.1}), car)) is None
+
+
+def test_an_effect_that_is_missing_beside_a_wrong_file_is_named_alone(car):
+    """Without the damping put right, friction of the struts would stand in for it."""
+    hidden = {"top_mount": library.find()["top_mount"].effect.values()}
+    drives = measured(car, {"damping_front": 1.45}, hidden, seed=5002)
+    among = ["top_mount", "suspension_friction", "damper_knee", "payload"]
+    _, verdict, _ = diagnose(drives, car, among=among, workers=1)
+    assert verdict.verdict == "named" and [effect.name for effect in verdict.effects] == ["top_mount"]
+    (damping,) = verdict.beyond_bounds.parameters
+    assert damping.parameter == "damping_front" and holds(damping, 1.45 * car["damping_front"])
+    assert any("other shares are of what they leave" in reason for reason in verdict.reasons)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,10 +13,11 @@ from ..descent import descend
 from ..errors import InputError
 from ..vehicle.parameters import PARAMETERS
 from . import floor, refit
+from .car import Car
 from .experiment import Size
 from .propose import HELD_OUT_Z
 from .rung import Rung, climb
-from .selection import Selection
+from .selection import Selection, State
 
 WIDER = {"m": 1.0, "kg m2": 2.0}
 """By unit, times as far as a bound, and as small a part of it, that a parameter may go: lengths are known to a tape measure, inertias by
@@ -46,11 +47,12 @@ class Beyond:
 @dataclass(frozen=True)
 class BeyondBounds:
     """``parameters`` that lie beyond their bounds, and the ``share`` of the explainable error that goes on fitted and on held-out drives
-    (nan without) when they may, beside what effects remove."""
+    (nan without) when they may: beside effects that were found without, or, where ``is_first``, before any effect."""
 
     parameters: tuple[Beyond, ...]
     share: float
     held_out_share: float
+    is_first: bool = False
 
     def words(self) -> str:
         """What they are and what goes with them."""
@@ -58,18 +60,17 @@ class BeyondBounds:
             f"{one.parameter} {_rounded(one.value):g} {one.unit}".removesuffix(" 1") + f" for {_rounded(one.given):g}" for one in self.parameters
         )
         held_out = f", {100 * self.held_out_share:.0f} % on drives held out," if np.isfinite(self.held_out_share) else ""
-        return (
-            f"another {100 * self.share:.0f} % of the explainable error{held_out} goes with parameters of the vehicle beyond their bounds: {names}"
-        )
+        share = f"{100 * self.share:.0f} % of the explainable error{held_out} goes with parameters of the vehicle beyond their bounds: {names}"
+        return f"{share}; other shares are of what they leave" if self.is_first else f"another {share}"
 
 
-def beyond_bounds(selection: Selection, each: Callable = map) -> BeyondBounds | None:
-    """Parameters of the vehicle that lie beyond their bounds in a model that explains more than the last of a selection; None where
-    none ends at a bound, or going beyond is no better, on the fitted drives or on those held out.
+def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBounds, Rung] | None:
+    """Parameters of the vehicle that lie beyond their bounds in a model that explains more than the last of a selection, and the rung of
+    that model; None where none ends at a bound, or going beyond is no better, on the fitted drives or on those held out.
 
     What is calibrated or uncertain is calibrated anew within bounds WIDER than its own, on one drive of each condition, and then fitted
-    with all drives like every model of the selection: that fit alone, whose error makes itself white, does not find its way so far. A parameter is told if its 90 % interval lies beyond the bounds, so that none is that the drives
-    are silent about.
+    with all drives like every model of the selection: that fit alone, whose error makes itself white, does not find its way so far. A
+    parameter is told if its 90 % interval lies beyond the bounds, so that none is that the drives are silent about.
     """
     experiment, fit = selection.frame.experiment, selection.ladder[-1].fit
     own = [size for size in experiment.free if size.key in PARAMETERS]
@@ -84,19 +85,45 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> BeyondBounds | 
         rung = climb(replace(experiment, free=free), start, sizes, each)
     except (InputError, ValueError):  # a vehicle that cannot be driven
         return None
-    shares = _shares(selection, rung)
-    if shares is None:
+    last, check = selection.ladder[-1], (rung.check_frame, rung.check, selection.check)
+    shares = _shares(selection, last, _squares(rung))
+    if not min(share for share in shares if np.isfinite(share)) > LEAST_SHARE:
         return None
-    intervals = refit.intervals(rung.fit, rung.frame, sizes)
-    found = [
+    if rung.check_frame is not None and not refit.advantage(*check)[1] > HELD_OUT_Z:
+        return None
+    parameters = _beyond(experiment, rung.experiment, rung.fit.values, refit.intervals(rung.fit, rung.frame, sizes))
+    return (BeyondBounds(parameters, *shares), rung) if parameters else None
+
+
+def without_effects(rung: Rung, each: Callable = map) -> Rung:
+    """The rung of a model with its vehicle's parameters alone: where a search that allows them as much begins."""
+    experiment = rung.experiment
+    return climb(experiment, {size.key: rung.fit.values[size.key] for size in experiment.free}, experiment.free, each)
+
+
+def searched(before: Selection, after: Selection) -> BeyondBounds | None:
+    """Parameters beyond their bounds in a search of its own, ``after``, whose model is better than that of the search ``before``, which
+    kept to the bounds; None where it is not, or none lies beyond."""
+    last, first = after.ladder[-1], after.ladder[0]
+    gained = _shares(before, before.ladder[-1], (last.squares, last.held_out_squares), after)
+    if not min(share for share in gained if np.isfinite(share)) > LEAST_SHARE:
+        return None
+    parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
+    alone = _shares(before, before.ladder[0], (first.squares, first.held_out_squares), after)
+    return BeyondBounds(parameters, *alone, is_first=True) if parameters else None
+
+
+def _beyond(before: Car, after: Car, values: Mapping[str, float], intervals: Mapping[str, tuple[float, float]]) -> tuple[Beyond, ...]:
+    """What lies beyond the bounds of ``before`` with its whole interval."""
+    wider = {size.key: (size.lower, size.upper) for size in after.free}
+    return tuple(
         Beyond(
-            size.key, size.unit, float(experiment.vehicle[size.key]), (size.lower, size.upper),
-            (wider[size.key].lower, wider[size.key].upper), rung.fit.values[size.key], intervals[size.key],
+            size.key, size.unit, float(before.vehicle[size.key]), (size.lower, size.upper), wider[size.key], values[size.key],
+            intervals[size.key],
         )
-        for size in own
-        if not (intervals[size.key][0] <= size.upper and intervals[size.key][1] >= size.lower)
-    ]  # fmt: skip
-    return BeyondBounds(tuple(found), *shares) if found else None
+        for size in before.free
+        if size.key in PARAMETERS and not (intervals[size.key][0] <= size.upper and intervals[size.key][1] >= size.lower)
+    )  # fmt: skip
 
 
 def _rounded(value: float) -> float:
@@ -127,16 +154,21 @@ def _calibrated(selection: Selection, sizes: Sequence[Size]) -> dict[str, float]
     return dict(zip(task.parameters, task.values(point).tolist()))
 
 
-def _shares(selection: Selection, rung: Rung) -> tuple[float, float] | None:
-    """Share of the explainable error that a model removes beyond the last of a selection, fitted and held out (nan without); None where
-    it is not worth a word."""
-    first, last = selection.ladder[0], selection.ladder[-1]
-    now = floor.squares(rung.experiment, rung.frame.all_cleaned(rung.fit.residuals))
-    share = floor.explained_share(last.squares, now, first.squares, np.minimum(selection.ground, rung.ground))
+def _squares(rung: Rung) -> tuple[np.ndarray, np.ndarray]:
+    """Mean squares (record, channel) of fitted and of held-out records; the latter empty without any."""
+    squares = floor.squares(rung.experiment, rung.frame.all_cleaned(rung.fit.residuals))
     if rung.check_frame is None:
-        return (share, float("nan")) if share > LEAST_SHARE else None
-    now = floor.squares(rung.experiment, rung.check_frame.all_cleaned(rung.check))
-    ground = np.minimum(selection.held_out_ground, rung.held_out_ground)
-    held_out = floor.explained_share(last.held_out_squares, now, first.held_out_squares, ground)
-    z = refit.advantage(rung.check_frame, rung.check, selection.check)[1]
-    return (share, held_out) if min(share, held_out) > LEAST_SHARE and z > HELD_OUT_Z else None
+        return squares, np.zeros((0, 0))
+    return squares, floor.squares(rung.experiment, rung.check_frame.all_cleaned(rung.check))
+
+
+def _shares(selection: Selection, before: State, now: tuple[np.ndarray, np.ndarray], other: Selection | None = None) -> tuple[float, float]:
+    """Share of the explainable error of a selection that goes from a model of it to one of these squares, fitted and held out (nan
+    without); above the floor of both selections."""
+    first, grounds = selection.ladder[0], (selection.ground, selection.held_out_ground)
+    if other is not None:
+        grounds = tuple(np.minimum(*pair) for pair in zip(grounds, (other.ground, other.held_out_ground)))
+    return (
+        floor.explained_share(before.squares, now[0], first.squares, grounds[0]),
+        floor.explained_share(before.held_out_squares, now[1], first.held_out_squares, grounds[1]) if now[1].size else float("nan"),
+    )

@@ -10,7 +10,7 @@ import xarray as xr
 
 from . import car as cars
 from . import pool
-from .beyond import beyond_bounds
+from .beyond import beyond_bounds, searched, without_effects
 from .discover import Discovery, discovered
 from .explain import REPEATS
 from .propose import SURE
@@ -39,20 +39,31 @@ def diagnose(
     common["each"] = pool.mapped(pool.workers() if workers is None else workers)
     rung = begin(experiment, cars.start_values(experiment), common["each"])
     table, verdict, selection = ranked(experiment, rung, signatures=signatures, **common)
+    found = None
+    if _is_doubtful(verdict) or verdict.verdict == "outside" or verdict.verdict == "suspect" and not table.attrs["suspected"]:
+        say("trying parameters of the vehicle beyond their bounds")
+        other = beyond_bounds(selection, common["each"])
+        if other is not None:
+            found, farther = other[0], without_effects(other[1], common["each"])
+            again = ranked(farther.experiment, farther, signatures=signatures, **common)
+            first = searched(selection, again[2])
+            if first is not None:
+                (table, verdict, selection), found, rung = again, first, farther
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     is_road_alone = table.attrs["suspected"] == "road"
-    most = 1.0 - WORTH / (1.0 - HALF) if verdict.is_shared else DOUBTFUL
-    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < most
     proposal = None
-    if is_doubtful or verdict.verdict in ("outside", "nothing") or is_road_alone:
+    if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone:
         proposal = discovered(rung, name=name, **common)
         verdict = reconsidered(verdict, proposal, is_road_open)
         proposal = proposal if verdict.verdict == "outside" else None
-    if (is_doubtful or verdict.verdict == "outside") and (proposal is None or proposal.share < DOUBTFUL):
-        say("trying parameters of the vehicle beyond their bounds")
-        verdict = with_parameters(verdict, beyond_bounds(selection, common["each"]))
-        proposal = proposal if verdict.verdict == "outside" else None
+    verdict = with_parameters(verdict, found)
     return table, heard(verdict, table.attrs["turns"], is_road_alone), proposal
+
+
+def _is_doubtful(verdict: Verdict) -> bool:
+    """Whether what is named explains so little that it may stand in for something else."""
+    most = 1.0 - WORTH / (1.0 - HALF) if verdict.is_shared else DOUBTFUL
+    return verdict.verdict in ("named", "cluster") and verdict.share < most
 
 
 def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = False) -> Verdict:

@@ -228,14 +228,11 @@ def judge(
 
 
 def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
-    """A verdict with the parameters of the vehicle that would explain more beyond their bounds, if any: a reason more. What stands of the
-    library is named where it removes, with them, DOUBTFUL of the error on all drives."""
+    """A verdict with the parameters of the vehicle that explain more beyond their bounds, if any: a reason more. Where they came first and
+    nothing else is missing, what is missing is no effect of the library."""
     if found is None:
         return verdict
-    shares = [verdict.share + found.share, verdict.held_out_share + found.held_out_share]
-    kind = verdict.verdict
-    if kind == "outside" and verdict.effects and not min(share for share in shares if np.isfinite(share)) < DOUBTFUL:
-        kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
+    kind = "outside" if found.is_first and verdict.verdict == "nothing" else verdict.verdict
     return replace(verdict, verdict=kind, reasons=(*verdict.reasons, found.words()), beyond_bounds=found)
 
 
