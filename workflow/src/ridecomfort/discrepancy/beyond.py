@@ -64,13 +64,13 @@ class BeyondBounds:
         return f"{share}; other shares are of what they leave" if self.is_first else f"another {share}"
 
 
-def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBounds, Rung] | None:
-    """Parameters of the vehicle that lie beyond their bounds in a model that explains more than the last of a selection, and the rung of
-    that model; None where none ends at a bound, or going beyond is no better, on the fitted drives or on those held out.
+def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBounds | None, Rung] | None:
+    """Parameters of the vehicle that lie beyond their bounds in a model that explains more than the last of a selection, if they surely do,
+    and the rung of that model; None where none ends at a bound, or going beyond is no better, on the fitted drives or on those held out.
 
     What is calibrated or uncertain is calibrated anew within bounds WIDER than its own, on one drive of each condition, and then fitted
-    with all drives like every model of the selection: that fit alone, whose error makes itself white, does not find its way so far. A
-    parameter is told if its 90 % interval lies beyond the bounds, so that none is that the drives are silent about.
+    with all drives like every model of the selection: that fit alone, whose error makes itself white, does not find its way so far. It is
+    sure with HELD_OUT_Z on drives held out, of parameters whose 90 % interval lies beyond the bounds.
     """
     experiment, fit = selection.frame.experiment, selection.ladder[-1].fit
     own = [size for size in experiment.free if size.key in PARAMETERS]
@@ -85,14 +85,12 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
         rung = climb(replace(experiment, free=free), start, sizes, each)
     except (InputError, ValueError):  # a vehicle that cannot be driven
         return None
-    last, check = selection.ladder[-1], (rung.check_frame, rung.check, selection.check)
-    shares = _shares(selection, last, _squares(rung))
+    shares = _shares(selection, selection.ladder[-1], _squares(rung))
     if not min(share for share in shares if np.isfinite(share)) > LEAST_SHARE:
         return None
-    if rung.check_frame is not None and not refit.advantage(*check)[1] > HELD_OUT_Z:
-        return None
-    parameters = _beyond(experiment, rung.experiment, rung.fit.values, refit.intervals(rung.fit, rung.frame, sizes))
-    return (BeyondBounds(parameters, *shares), rung) if parameters else None
+    is_sure = rung.check_frame is None or refit.advantage(rung.check_frame, rung.check, selection.check)[1] > HELD_OUT_Z
+    parameters = _beyond(experiment, rung.experiment, rung.fit.values, refit.intervals(rung.fit, rung.frame, sizes)) if is_sure else ()
+    return (BeyondBounds(parameters, *shares) if parameters else None), rung
 
 
 def without_effects(rung: Rung, each: Callable = map) -> Rung:
