@@ -31,7 +31,7 @@ def test_every_verdict_is_said_with_its_reasons_and_what_to_do_next(kind):
     assert list(tables) == list(catalogue.DIAGNOSIS_TABLES)
     said = words(tables["verdict"])
     assert kind in said and all(reason[1:] in said for reason in verdict["reasons"])
-    assert rows(tables["verdict"])[-1]["what"] == "next"
+    assert rows(tables["verdict"])[-1 - (kind == "outside" and bool(verdict["effects"]))]["what"] == "next"
     assert all(form(each) for each in tables.values() for form in table.WRITERS.values())
 
 
@@ -67,6 +67,9 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     assert "add roll_inertia, anti_roll_stiffness_rear to calibration: parameters" in said
     # Half to twice what was found is within the bounds, too: a bar that ends where it was allowed to wants to go on.
     assert "roll_inertia: [203, 1260], anti_roll_stiffness_rear: [2830, 69000] to calibration: bounds" in said
+    assert said.startswith("verdict No effect of the library is missing: parameters of the vehicle lie far from its file. (outside)")
+    named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
+    assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
 
 
 def test_evidence_is_in_the_order_of_the_gain_with_the_outcome_of_refits():

@@ -104,7 +104,8 @@ class Verdict:
             "nothing": "Nothing is missing beyond the noise.",
             "suspect": "The data are suspect; no effect is named.",
         }[self.verdict]
-        return " ".join([first, *(f"{reason[0].upper()}{reason[1:]}." for reason in self.reasons)])
+        begun = (reason if "_" in reason.partition(" ")[0] else f"{reason[0].upper()}{reason[1:]}" for reason in self.reasons)
+        return " ".join([first, *(f"{reason}." for reason in begun)])
 
 
 def shares(selection: Selection, before: State, after: State) -> tuple[float, float]:
@@ -222,7 +223,7 @@ def judge(
     else:
         kind = "nothing"
         if something_left(selection):
-            reasons.append(f"repeats share an error, too small to matter: {selection.remaining}")
+            reasons.append(f"repeats share an error, too small to matter or of a kind that drivers make: {selection.remaining}")
     said = (*reasons, _floor(selection))
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
 

@@ -24,7 +24,7 @@ PAGE = "results/report.html"
 """What a run that makes the page ends with."""
 
 TO_LOOK_AT = {
-    "compared": "results/figures/located_*.png, error_ladder.png; results/tables/findings.md, explainable.md",
+    "compared": "results/figures/located_*.png, error_ladder.png; results/tables/findings.md, calibrated.md",
     "diagnosed": "results/tables/verdict.md, missing_effects.md; results/figures/evidence.png",
 }
 """What a run without the page ends with, by the rule that made it."""

@@ -23,8 +23,11 @@ SAID = {
     "suspect": "The data are suspect: no effect is named.",
 }
 
+FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
+"""What is said where those are all that was found."""
+
 NEXT = {
-    "named": "Switch them on, effects: [{keys}] in config/study.yaml, and compare again.",
+    "named": "Switch on what is missing, effects: [{keys}] in config/study.yaml, and compare again.",
     "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
     "them apart.",
     "outside": "Look at the proposed form. To try it, put {file} into a folder of your own that effects_folder in config/study.yaml names, "
@@ -53,7 +56,7 @@ def _farther(beyond: Mapping) -> str:
         "{}: [{:g}, {:g}]".format(one["parameter"], *(float(f"{end:.3g}") for end in own)) for one, own in zip(beyond["parameters"], ends)
     )
     return (
-        f"If the vehicle's file may be that wrong, have it calibrated: add {names} to calibration: parameters in config/study.yaml, and "
+        f"First of all: if the vehicle's file may be that wrong, have it calibrated: add {names} to calibration: parameters in config/study.yaml, and "
         f"{bounds} to calibration: bounds, then compare and diagnose again. If it cannot be, they stand in for something else."
     )
 
@@ -65,18 +68,26 @@ def verdict(found: Diagnosis) -> Table:
     proposal = said.get("proposal") or {}
     own = [] if found.model == BASE else found.model.split(JOIN)
     keys = ", ".join([*own, *([proposal["name"]] if proposal.get("form") else [effect["name"] for effect in said["effects"]])])
-    rows = [("verdict", f"{SAID[said['verdict']].format(names=names)} ({said['verdict']})")]
+    beyond, is_form = said.get("beyond_bounds"), bool(proposal.get("form"))
+    is_file_alone = bool(beyond) and said["verdict"] == "outside" and not said["effects"] and not is_form
+    first = FILE_ALONE if is_file_alone else SAID[said["verdict"]].format(names=names)
+    rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [("reason", _sentence(reason)) for reason in said["reasons"]]
-    if proposal.get("form"):
+    if beyond:
+        rows.append(("the vehicle", _farther(beyond)))
+    what = "next, after the vehicle" if beyond else "next"
+    if is_form:
         rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
         rows.append(("in it", _sentence(PORTS[proposal["port"]].meaning)))
         rows.append(("it removes", _promise(proposal)))
         file = str(Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py"))
-        rows.append(("next", NEXT["outside"].format(file=file, keys=keys)))
+        rows.append((what, NEXT["outside"].format(file=file, keys=keys)))
+    elif is_file_alone:
+        rows.append((what, "Nothing is to be switched on."))
     elif said["verdict"] == "outside":
-        rows.append(("next", "No form was found that would take the error away; see where it lies (compare)."))
+        rows.append((what, "No form was found that would take the error away; see where it lies (compare)."))
     else:
-        rows.append(("next", NEXT[said["verdict"]].format(keys=keys)))
+        rows.append((what, NEXT[said["verdict"]].format(keys=keys)))
     if said["verdict"] == "outside" and said["effects"]:
         keys = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
         held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
@@ -85,8 +96,6 @@ def verdict(found: Diagnosis) -> Table:
             ("in the library", f"{names} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is "
              f"missing. To go on from them instead: effects: [{keys}].")
         )  # fmt: skip
-    if said.get("beyond_bounds"):
-        rows.append(("the vehicle", _farther(said["beyond_bounds"])))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)
@@ -194,7 +203,8 @@ def _alike(effect) -> str:
 
 
 def _sentence(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:]}."
+    """A reason as a sentence; one that begins with the name of an effect keeps it as it is written."""
+    return f"{text}." if "_" in text.partition(" ")[0] else f"{text[:1].upper()}{text[1:]}."
 
 
 def _percent(share: float | None) -> float | None:

@@ -59,7 +59,8 @@ def error_ladder(study: Difference) -> Table:
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
         "much as there was to explain of its own error. The lowest floor is the least that any rung shown reaches, so it lies below that "
         "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it. The diagnosis tells "
-        "other shares: it takes all sites together and aligns their drives for every model.",
+        "other shares: it takes all sites together and aligns their drives for every model. With other parameters calibrated the base "
+        "model is another, and so are its 100 %: across such a change compare the RMSE.",
         "; ".join(floors) + ".",
     )
     return _table(study, "error_ladder", columns, rows, sources, notes, breaks[1:], frozenset(bold))
