@@ -24,7 +24,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 
 SHARES = {"clean": 8, "messy": 4, "another shape": 1, "another setting": 2, "two": 2, "three": 1, "outside": 3, "outside, messy": 1,
           "nothing": 2, "path error": 1, "clock error, aligned": 1, "another interpolation": 1, "clock error, left": 1, "gain error": 1,
-          "scanner noise": 1}  # fmt: skip
+          "scanner noise": 1, "wrong file": 2}  # fmt: skip
 """Trials of each kind in a round."""
 
 
@@ -35,14 +35,15 @@ def one(job: tuple[str, int, int]) -> dict:
     draw = kinds.draw(kind, seed, number)
     known = library.find(trials.SHAPES)
     hidden = {name: known[name].effect.values(draw.settings.get(name)) for name in draw.hidden}
-    trial = trials.make(100000 * seed + number + 1000 * list(kinds.KINDS).index(kind), car, hidden, draw.kappa, **draw.spoilt)
+    true = car.replace(**{name: factor * car[name] for name, factor in draw.wrong.items()})
+    trial = trials.make(100000 * seed + number + 1000 * list(kinds.KINDS).index(kind), true, hidden, draw.kappa, **draw.spoilt)
     among = [name for name in library.find() if name not in draw.missing]
     start = time.process_time()
     table, verdict, proposal = discrepancy.diagnose(trial.measured, car, among=among, seed=number, workers=1)
     seconds = time.process_time() - start
     row = {"kind": kind, "seed": seed, "number": number, "hidden": "+".join(draw.hidden), "kappa": draw.kappa}
     row |= {"reached": trial.truth["reached"], **score.score(draw, trial.truth, table, verdict)}
-    row |= {"place_right": "", "form_share": ""}
+    row |= {"place_right": "", "form_share": "", "wrong": len(draw.wrong), "told": score.told(draw, car, verdict)}
     ports = {place.port: name for name, place in PLACES.items()}
     place = ports.get(known[draw.hidden[0]].effect.port) if kind.startswith("outside") else None
     fall = lambda first, last: score.against_oracle(trial, car, trials.SHAPES, first, last)
@@ -51,7 +52,7 @@ def one(job: tuple[str, int, int]) -> dict:
         share = fall(ladder[0].held_out_squares, ladder[-1].held_out_squares) if ladder else float("nan")
         row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share}
     reached = table["held_out_mean_square"].values
-    oracle = fall(reached[0], reached[-1]) if draw.hidden and kind != "messy" else float("nan")
+    oracle = fall(reached[0], reached[-1]) if draw.hidden and kind not in ("messy", "wrong file") else float("nan")
     return {**row, "against_oracle": oracle, "cpu_seconds": seconds, "reasons": "; ".join(verdict.reasons)}
 
 

@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ridecomfort.discrepancy.candidates import candidate
+from ridecomfort.discrepancy.car import UNCERTAIN
 from ridecomfort.effects import library
+from ridecomfort.vehicle.parameters import PARAMETERS
 
 KAPPAS = (0.05, 0.1, 0.3, 1.0, 3.0)
 
@@ -43,6 +45,8 @@ class Draw:
     missing: tuple[str, ...] = ()
     spoilt: Mapping[str, object] = field(default_factory=dict)
     settings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    wrong: Mapping[str, float] = field(default_factory=dict)
+    """Parameters of the true car, as multiples of what the vehicle's file says."""
 
     @property
     def there(self) -> frozenset[str]:
@@ -110,6 +114,14 @@ def _outside_messy(rng, names, number) -> Draw:
     return Draw((str(rng.choice(MADE_UP)),), float(rng.choice(STRONG)), frozenset(), spoilt=spoilt)
 
 
+def _wrong_file(rng, names, number) -> Draw:
+    """One or two parameters that nothing calibrates are far off; by turns with an effect missing beside them and with none."""
+    chosen = rng.choice([name for name in UNCERTAIN if PARAMETERS[name].unit != "m"], int(rng.integers(1, 3)), replace=False)
+    wrong = {str(name): float(rng.choice([rng.uniform(0.5, 0.75), rng.uniform(1.4, 2.2)])) for name in chosen}
+    hidden = (str(rng.choice(_plain(names))),) if number % 2 == 0 else ()
+    return Draw(hidden, float(rng.choice(STRONG)) if hidden else 0.0, frozenset(hidden), wrong=wrong)
+
+
 def _null(**spoilt) -> Callable:
     return lambda rng, names, number: Draw((), 0.0, frozenset(), spoilt=spoilt)
 
@@ -130,6 +142,7 @@ KINDS: Mapping[str, Callable] = {
     "outside, messy": _outside_messy,
     "another interpolation": _null(interpolation="linear"),
     "another setting": _set_otherwise,
+    "wrong file": _wrong_file,
 }
 
 SUSPECT = ("clock error, left", "gain error", "scanner noise")

@@ -18,6 +18,9 @@ from .kinds import KAPPAS, SUSPECT, Draw
 FORM = 0.8
 """Share of what the true effect removes of the error held out from which on a form counts as that of the effect."""
 
+CLOSE = 0.05
+"""Share of its true value within which a parameter counts as told."""
+
 VISIBLE = 0.8
 """Share of a kappa that must be reached for a trial to count as one of that kappa."""
 
@@ -39,6 +42,13 @@ def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
         "covered": sum(sizes), "sizes": len(sizes), "share": verdict.share, "held_out_share": verdict.held_out_share,
         **{name: float(table[name]) for name in SHARED},
     }  # fmt: skip
+
+
+def told(draw: Draw, car, verdict) -> int:
+    """How many of the parameters that the vehicle's file has wrong are told, right to CLOSE."""
+    beyond = verdict.beyond_bounds.parameters if verdict.beyond_bounds else ()
+    true = {name: factor * car[name] for name, factor in draw.wrong.items()}
+    return sum(one.parameter in true and abs(one.value / true[one.parameter] - 1.0) < CLOSE for one in beyond)
 
 
 def against_oracle(trial, vehicle, effects_folder, first, last) -> float:
@@ -101,6 +111,11 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     line(f"its proposed form removes {100 * FORM:.0f} % of what the true one does, held out", placed, lambda row: row["form_share"] >= FORM)
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"])
     line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"])
+    beside = [row for row in of("wrong file") if row["hidden"] and reached[id(row)] >= 0.3]
+    line("what is missing named, and nothing else, beside a wrong file of the vehicle, kappa >= 0.3", beside, lambda row: row["exact"])
+    without = [row for row in of("wrong file") if not row["hidden"]]
+    line("no effect named where nothing but the vehicle's file is wrong", without, lambda row: not row["found"])
+    line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %", of("wrong file"), lambda row: row["told"] == row["wrong"])
     for kind in SUSPECT:
         line(f"suspect data flagged: {kind}", of(kind), lambda row: row["verdict"] == "suspect")
     for what, chosen in (("messy", single("messy", seen)), ("others", [row for row in seen if row["kind"] != "messy"])):
