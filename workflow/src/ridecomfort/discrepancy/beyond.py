@@ -101,13 +101,13 @@ def without_effects(rung: Rung, each: Callable = map) -> Rung:
 
 def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     """Parameters beyond their bounds in a search of its own, ``after``, whose model is better than that of the search ``before``, which
-    kept to the bounds; None where it is not, or none lies beyond."""
+    kept to the bounds, as are the parameters alone; None where one is not, or none lies beyond."""
     last, first = after.ladder[-1], after.ladder[0]
     gained = _shares(before, before.ladder[-1], (last.squares, last.held_out_squares), after)
-    if not min(share for share in gained if np.isfinite(share)) > LEAST_SHARE:
+    alone = _shares(before, before.ladder[0], (first.squares, first.held_out_squares), after)
+    if not min(share for share in (*gained, *alone) if np.isfinite(share)) > LEAST_SHARE:
         return None
     parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
-    alone = _shares(before, before.ladder[0], (first.squares, first.held_out_squares), after)
     return BeyondBounds(parameters, *alone, is_first=True) if parameters else None
 
 
