@@ -21,6 +21,9 @@ from .verdict import CONFIRMED, DOUBTFUL, LITTLE, Verdict, with_parameters
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
+NEARLY_ALL = 0.95
+"""Share of the explainable error beyond which what was found leaves no room for a wrong file of the vehicle."""
+
 HALF, WORTH = 0.5, 0.05
 """Share of what the library leaves, where that is little, which a force of any form may leave at most to do so, and share of the
 explainable error by which it must be better then."""
@@ -40,7 +43,7 @@ def diagnose(
     rung = begin(experiment, cars.start_values(experiment), common["each"])
     table, verdict, selection = ranked(experiment, rung, signatures=signatures, **common)
     found = None
-    if _is_doubtful(verdict) or verdict.verdict == "outside" or verdict.verdict == "suspect" and not table.attrs["suspected"]:
+    if not table.attrs["suspected"] and verdict.verdict != "nothing" and not verdict.share > NEARLY_ALL:
         say("trying parameters of the vehicle beyond their bounds")
         other = beyond_bounds(selection, common["each"])
         if other is not None:
