@@ -86,17 +86,21 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
     except (InputError, ValueError):  # a vehicle that cannot be driven
         return None
     shares = _shares(selection, selection.ladder[-1], _squares(rung))
-    if not min(share for share in shares if np.isfinite(share)) > LEAST_SHARE:
+    if not _is_enough(shares):
         return None
     is_sure = rung.check_frame is None or refit.advantage(rung.check_frame, rung.check, selection.check)[1] > HELD_OUT_Z
     parameters = _beyond(experiment, rung.experiment, rung.fit.values, refit.intervals(rung.fit, rung.frame, sizes)) if is_sure else ()
     return (BeyondBounds(parameters, *shares) if parameters else None), rung
 
 
-def without_effects(rung: Rung, each: Callable = map) -> Rung:
-    """The rung of a model with its vehicle's parameters alone: where a search that allows them as much begins."""
+def without_effects(rung: Rung, each: Callable = map) -> Rung | None:
+    """The rung of a model with its vehicle's parameters alone, where a search that allows them as much begins; None where that vehicle cannot
+    be driven."""
     experiment = rung.experiment
-    return climb(experiment, {size.key: rung.fit.values[size.key] for size in experiment.free}, experiment.free, each)
+    try:
+        return climb(experiment, {size.key: rung.fit.values[size.key] for size in experiment.free}, experiment.free, each)
+    except (InputError, ValueError):
+        return None
 
 
 def searched(before: Selection, after: Selection) -> BeyondBounds | None:
@@ -105,7 +109,7 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     last, first = after.ladder[-1], after.ladder[0]
     gained = _shares(before, before.ladder[-1], (last.squares, last.held_out_squares), after)
     alone = _shares(before, before.ladder[0], (first.squares, first.held_out_squares), after)
-    if not min(share for share in (*gained, *alone) if np.isfinite(share)) > LEAST_SHARE:
+    if not _is_enough((*gained, *alone)):
         return None
     parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
     return BeyondBounds(parameters, *alone, is_first=True) if parameters else None
@@ -122,6 +126,11 @@ def _beyond(before: Car, after: Car, values: Mapping[str, float], intervals: Map
         for size in before.free
         if size.key in PARAMETERS and not (intervals[size.key][0] <= size.upper and intervals[size.key][1] >= size.lower)
     )  # fmt: skip
+
+
+def _is_enough(shares: Sequence[float]) -> bool:
+    """Whether all shares that are known are worth a word."""
+    return min((share for share in shares if np.isfinite(share)), default=0.0) > LEAST_SHARE
 
 
 def _rounded(value: float) -> float:

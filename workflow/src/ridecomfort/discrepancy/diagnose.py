@@ -10,12 +10,13 @@ import xarray as xr
 
 from . import car as cars
 from . import pool
-from .beyond import beyond_bounds, searched, without_effects
+from .beyond import BeyondBounds, beyond_bounds, searched, without_effects
 from .discover import Discovery, discovered
 from .explain import REPEATS
 from .propose import SURE
 from .rank import ranked
-from .rung import begin
+from .rung import Rung, begin
+from .selection import Selection
 from .verdict import CONFIRMED, DOUBTFUL, LITTLE, Verdict, with_parameters
 
 BETTER = 1.2
@@ -35,7 +36,8 @@ def diagnose(
 ) -> tuple[xr.Dataset, Verdict, Discovery | None]:  # fmt: skip
     """The evidence, the verdict and the form that is proposed where the library does not explain the drives, else None.
 
-    Arguments as for ``rank``; ``name``: of the effect that is proposed.
+    Where parameters of the vehicle beyond their bounds explain more, all of that is what a second search says, which allows them
+    (``beyond``). Arguments as for ``rank``; ``name``: of the effect that is proposed.
     """
     experiment = cars.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
     common = {"effects_folder": effects_folder, "seed": seed, "say": say}
@@ -44,14 +46,9 @@ def diagnose(
     table, verdict, selection = ranked(experiment, rung, signatures=signatures, **common)
     found = None
     if not table.attrs["suspected"] and verdict.verdict != "nothing" and not verdict.share > NEARLY_ALL:
-        say("trying parameters of the vehicle beyond their bounds")
-        other = beyond_bounds(selection, common["each"])
-        if other is not None:
-            found, farther = other[0], without_effects(other[1], common["each"])
-            again = ranked(farther.experiment, farther, signatures=signatures, **common)
-            first = searched(selection, again[2])
-            if first is not None:
-                (table, verdict, selection), found, rung = again, first, farther
+        found, again = _with_vehicle_right(selection, signatures, common)
+        if again is not None:
+            table, verdict, rung = again
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     is_road_alone = table.attrs["suspected"] == "road"
     proposal = None
@@ -61,6 +58,22 @@ def diagnose(
         proposal = proposal if verdict.verdict == "outside" else None
     verdict = with_parameters(verdict, found)
     return table, heard(verdict, table.attrs["turns"], is_road_alone), proposal
+
+
+def _with_vehicle_right(
+    selection: Selection, signatures: bool, common: Mapping
+) -> tuple[BeyondBounds | None, tuple[xr.Dataset, Verdict, Rung] | None]:
+    """Parameters of the vehicle beyond their bounds, if they explain more, and what a search says that begins with them put right, with the
+    rung it begins at, if that is the better one."""
+    common["say"]("trying parameters of the vehicle beyond their bounds")
+    found, wide = beyond_bounds(selection, common["each"]) or (None, None)
+    rung = wide and without_effects(wide, common["each"])
+    if rung is None:
+        return found, None
+    common["say"]("searching again with those parameters put right")
+    table, verdict, again = ranked(rung.experiment, rung, signatures=signatures, **common)
+    first = searched(selection, again)
+    return (found, None) if first is None else (first, (table, verdict, rung))
 
 
 def _is_doubtful(verdict: Verdict) -> bool:
