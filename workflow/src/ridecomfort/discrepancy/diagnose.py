@@ -56,6 +56,8 @@ def diagnose(
         proposal = discovered(rung, name=name, **common)
         verdict = reconsidered(verdict, proposal, is_road_open)
         proposal = proposal if verdict.verdict == "outside" else None
+    if proposal is not None and found is not None and not found.is_first and proposal.share > verdict.share + found.share:
+        found = None
     verdict = with_parameters(verdict, found)
     return table, heard(verdict, table.attrs["turns"], is_road_alone), proposal
 
@@ -64,7 +66,7 @@ def _with_vehicle_right(
     selection: Selection, signatures: bool, common: Mapping
 ) -> tuple[BeyondBounds | None, tuple[xr.Dataset, Verdict, Rung] | None]:
     """Parameters of the vehicle beyond their bounds, if they explain more, and what a search says that begins with them put right, with the
-    rung it begins at, if that is the better one."""
+    rung it begins at, if that is the better one and leaves nothing out."""
     common["say"]("trying parameters of the vehicle beyond their bounds")
     found, wide = beyond_bounds(selection, common["each"]) or (None, None)
     rung = wide and without_effects(wide, common["each"])
@@ -73,7 +75,8 @@ def _with_vehicle_right(
     common["say"]("searching again with those parameters put right")
     table, verdict, again = ranked(rung.experiment, rung, signatures=signatures, **common)
     first = searched(selection, again)
-    return (found, None) if first is None else (first, (table, verdict, rung))
+    is_explained = verdict.verdict in ("named", "cluster", "nothing")
+    return (first, (table, verdict, rung)) if is_explained and first is not None else (found, None)
 
 
 def _is_doubtful(verdict: Verdict) -> bool:
