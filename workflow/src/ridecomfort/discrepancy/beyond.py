@@ -12,12 +12,12 @@ from ..calibrated import with_values
 from ..descent import descend
 from ..errors import InputError
 from ..vehicle.parameters import PARAMETERS
-from . import floor, refit
+from . import refit
 from .car import Car
 from .experiment import Size
 from .propose import HELD_OUT_Z
 from .rung import Rung, climb
-from .selection import Selection, State
+from .selection import Selection, State, shares
 
 WIDER = {"m": 1.0, "kg m2": 2.0}
 """By unit, times as far as a bound, and as small a part of it, that a parameter may go: lengths are known to a tape measure, inertias by
@@ -85,12 +85,13 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
         rung = climb(replace(experiment, free=free), start, sizes, each)
     except (InputError, ValueError):  # a vehicle that cannot be driven
         return None
-    shares = _shares(selection, selection.ladder[-1], _squares(rung))
-    if not _is_enough(shares):
+    wide = State("", rung.fit, *rung.squares(rung.fit, rung.check))
+    gone = shares(selection, selection.ladder[-1], wide, rung)
+    if not _is_enough(gone):
         return None
     is_sure = rung.check_frame is None or refit.advantage(rung.check_frame, rung.check, selection.check)[1] > HELD_OUT_Z
     parameters = _beyond(experiment, rung.experiment, rung.fit.values, refit.intervals(rung.fit, rung.frame, sizes)) if is_sure else ()
-    return (BeyondBounds(parameters, *shares) if parameters else None), rung
+    return (BeyondBounds(parameters, *gone) if parameters else None), rung
 
 
 def without_effects(rung: Rung, each: Callable = map) -> Rung | None:
@@ -106,9 +107,8 @@ def without_effects(rung: Rung, each: Callable = map) -> Rung | None:
 def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     """Parameters beyond their bounds in a search of its own, ``after``, whose model is better than that of the search ``before``, which
     kept to the bounds, as are the parameters alone; None where one is not, or none lies beyond."""
-    last, first = after.ladder[-1], after.ladder[0]
-    gained = _shares(before, before.ladder[-1], (last.squares, last.held_out_squares), after)
-    alone = _shares(before, before.ladder[0], (first.squares, first.held_out_squares), after)
+    gained = shares(before, before.ladder[-1], after.ladder[-1], after)
+    alone = shares(before, before.ladder[0], after.ladder[0], after)
     if not _is_enough((*gained, *alone)):
         return None
     parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
@@ -159,23 +159,3 @@ def _calibrated(selection: Selection, sizes: Sequence[Size]) -> dict[str, float]
     for _ in range(2):
         point = descend(task.about(point), point, everything, calibrate.COARSE).point
     return dict(zip(task.parameters, task.values(point).tolist()))
-
-
-def _squares(rung: Rung) -> tuple[np.ndarray, np.ndarray]:
-    """Mean squares (record, channel) of fitted and of held-out records; the latter empty without any."""
-    squares = floor.squares(rung.experiment, rung.frame.all_cleaned(rung.fit.residuals))
-    if rung.check_frame is None:
-        return squares, np.zeros((0, 0))
-    return squares, floor.squares(rung.experiment, rung.check_frame.all_cleaned(rung.check))
-
-
-def _shares(selection: Selection, before: State, now: tuple[np.ndarray, np.ndarray], other: Selection | None = None) -> tuple[float, float]:
-    """Share of the explainable error of a selection that goes from a model of it to one of these squares, fitted and held out (nan
-    without); above the floor of both selections."""
-    first, grounds = selection.ladder[0], (selection.ground, selection.held_out_ground)
-    if other is not None:
-        grounds = tuple(np.minimum(*pair) for pair in zip(grounds, (other.ground, other.held_out_ground)))
-    return (
-        floor.explained_share(before.squares, now[0], first.squares, grounds[0]),
-        floor.explained_share(before.held_out_squares, now[1], first.held_out_squares, grounds[1]) if now[1].size else float("nan"),
-    )

@@ -13,9 +13,9 @@ from .explain import NIL, REPEATS
 from .rung import Rung, begin
 from .select import search
 from .signature import signature
-from .selection import Selection
+from .selection import Selection, shares
 from .shared import is_material
-from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, is_slow, judge, shares, standing, total_shares
+from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, is_slow, judge, standing, total_shares
 
 SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
 """What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""

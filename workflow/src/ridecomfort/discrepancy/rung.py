@@ -36,6 +36,13 @@ class Rung:
     held_out_ground: np.ndarray
     repeats: bool
 
+    def squares(self, fit: Fit, check: Mapping[int, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+        """Mean squares (record, channel) of the fitted records of a fit, and of residuals ``check`` of those held out; without any of
+        these the floor, which has no records either."""
+        squares = floor.squares(self.experiment, self.frame.all_cleaned(fit.residuals))
+        held_out = floor.squares(self.experiment, self.check_frame.all_cleaned(check)) if check else self.held_out_ground
+        return squares, held_out
+
 
 def roles(experiment: Experiment) -> tuple[list[int], list[int]]:
     """Indices of the records that are fitted, and of those held out. Raises InputError when none is fitted."""

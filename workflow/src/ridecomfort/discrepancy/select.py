@@ -144,10 +144,7 @@ class _Search:
         return [*self.rung.experiment.free, *(size for name in self.accepted for size in own_sizes(self.by_name[name], self.shaped))]
 
     def _state(self, name: str, fit: Fit, check) -> State:
-        rung = self.rung
-        squares = floor.squares(rung.experiment, rung.frame.all_cleaned(fit.residuals))
-        held_out = floor.squares(rung.experiment, rung.check_frame.all_cleaned(check)) if check else rung.held_out_ground
-        return State(name, fit, squares, held_out)
+        return State(name, fit, *self.rung.squares(fit, check))
 
     def _probe(self, base: Fit) -> dict[tuple[str, int], dict[str, dict[int, np.ndarray]]]:
         """Change of the residuals per probe of every size of every candidate and shape, in single precision."""

@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from . import floor
 from .experiment import Frame
 from .refit import Fit
+from .rung import Rung
 from .shared import Shared
 
 
@@ -98,3 +100,15 @@ class Selection:
     """Residuals of the records held out with the last model..."""
     check_frame: Frame | None = None
     """...and their frame; none without such records."""
+
+
+def shares(selection: Selection, before: State, after: State, *others: Selection | Rung) -> tuple[float, float]:
+    """Share of the explainable error of a selection by which two models differ, on fitted and on held-out drives (nan without); above the
+    floor of all that are given."""
+    first, given = selection.ladder[0], (selection, *others)
+    ground = np.minimum.reduce([one.ground for one in given])
+    held_out_ground = np.minimum.reduce([one.held_out_ground for one in given])
+    return (
+        floor.explained_share(before.squares, after.squares, first.squares, ground),
+        floor.explained_share(before.held_out_squares, after.held_out_squares, first.held_out_squares, held_out_ground),
+    )

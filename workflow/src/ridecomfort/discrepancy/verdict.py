@@ -7,12 +7,11 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from . import floor
 from .beyond import BeyondBounds
 from .cluster import SAME_PORT
 from .experiment import Candidate, Size
 from .propose import HELD_OUT_Z, LEVEL, SURE
-from .selection import Selection, State
+from .selection import Selection, shares
 
 ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
@@ -106,16 +105,6 @@ class Verdict:
         }[self.verdict]
         begun = (reason if "_" in reason.partition(" ")[0] else f"{reason[0].upper()}{reason[1:]}" for reason in self.reasons)
         return " ".join([first, *(f"{reason}." for reason in begun)])
-
-
-def shares(selection: Selection, before: State, after: State) -> tuple[float, float]:
-    """Share of the explainable error by which two models differ, on fitted and on held-out drives (nan without)."""
-    first = selection.ladder[0]
-    held = (state.held_out_squares for state in (before, after, first))
-    return (
-        floor.explained_share(before.squares, after.squares, first.squares, selection.ground),
-        floor.explained_share(*held, selection.held_out_ground),
-    )
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:
