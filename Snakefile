@@ -3,12 +3,14 @@
 # say which files they read and write. Everything that computes is in workflow/src/ridecomfort.
 import os
 import sys
+from functools import partial
 from pathlib import Path
 
 PROJECT = Path(workflow.basedir)
 sys.path.insert(0, str(PROJECT / "workflow" / "src"))
 
 from ridecomfort import config as configuration
+from ridecomfort import stepsettings
 from ridecomfort.errors import InputError
 from ridecomfort.report import catalogue
 from ridecomfort.schema import read_yaml
@@ -42,6 +44,8 @@ except InputError as problem:
     sys.exit(f"error: {problem}")
 
 progress.follow(workflow)
+
+settings = partial(stepsettings.as_json, study)
 
 
 wildcard_constraints:

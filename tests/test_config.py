@@ -1,12 +1,11 @@
 """The configuration: the paper's defaults, and each mistake answered by name in one line."""
 
-import json
 import shutil
 
 import pytest
 import yaml
 
-from ridecomfort import config, schema
+from ridecomfort import config, schema, stepsettings
 from ridecomfort.errors import InputError
 
 
@@ -116,7 +115,7 @@ def test_effects_name_the_model_in_whatever_order(project, own_effects):
 def test_a_model_without_effects_of_ones_own_does_not_depend_on_their_folder(project, own_effects):
     """So that its results stay when the first one is added. A diagnosis looks among them all."""
     study = config.load({**own_effects, "effects": ["headwind"]}, project)
-    folder = lambda step, model: json.loads(study.config(step, "own", model))["effects_folder"]
+    folder = lambda step, model: stepsettings.of_step(study, step, "own", model)["effects_folder"]
     assert folder("compare", "base") is None and folder("simulate", "base") is None
     assert folder("compare", "headwind") == "mine" and folder("diagnose", "base") == "mine"
 
@@ -138,7 +137,7 @@ def test_thresholds_may_name_their_source(project):
     stated = {"a_x": {"PT": [-1.0, 1.0, "our own"], "ND": [-2, 2], "AG": [-5, 3]}}
     jerk = {"lying": [-0.3, 0.3, "a guess"]}
     study = config.load({"sites": ["own"], "comfort": {"thresholds": stated, "jerk": jerk}}, project)
-    told = json.loads(study.config("thresholds", "own"))
+    told = stepsettings.of_step(study, "thresholds", "own")
     assert told["thresholds"]["a_x"]["PT"] == [-1.0, 1.0, "our own"] and told["jerk"] == jerk
 
 
@@ -146,8 +145,8 @@ def test_thresholds_may_name_their_source(project):
 def test_a_step_is_told_only_what_it_uses(project, step):
     plain = config.load({"sites": ["own"]}, project)
     sharded = config.load({"sites": ["own"], "simulation": {"runs_per_shard": 10, "keep_drives": True}}, project)
-    assert plain.config(step, "own", "base") == sharded.config(step, "own", "base")
-    assert "runs_per_shard" not in plain.config(step, "own", "base")
+    assert stepsettings.as_json(plain, step, "own", "base") == stepsettings.as_json(sharded, step, "own", "base")
+    assert "runs_per_shard" not in stepsettings.as_json(plain, step, "own", "base")
 
 
 def test_another_speed_in_the_study_leaves_the_measured_drives_as_they_are(project):
@@ -158,7 +157,7 @@ def test_another_speed_in_the_study_leaves_the_measured_drives_as_they_are(proje
     changed = {
         step
         for step in ("standin_road", "standin_drives", "road", "measured", "calibrate", "compare", "sample", "simulate")
-        if before.config(step, "ts1", "base") != after.config(step, "ts1", "base")
+        if stepsettings.as_json(before, step, "ts1", "base") != stepsettings.as_json(after, step, "ts1", "base")
     }
     assert changed == {"simulate"}
 
@@ -314,10 +313,10 @@ def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
     (project / "drive.csv").touch()
     write(project, "own", {"road": {"file": "road.crg"}, "drives": [drive]})
     study = config.load({**read(project), "sites": ["own"]}, project)
-    density = json.loads(study.config("compare", "own", "base"))["noise_density"]["drive"]
+    density = stepsettings.of_step(study, "compare", "own", "base")["noise_density"]["drive"]
     assert density == pytest.approx({"accelerometer": 100e-6 * 9.80665, "gyroscope": 0.01 * 3.141592653589793 / 180})
     # Alignment does not depend on it.
-    assert "noise_density" not in study.config("measured", "own")
+    assert "noise_density" not in stepsettings.as_json(study, "measured", "own")
 
 
 def test_the_study_goes_forward_only_where_drives_are_diagnosed_and_is_scored_only_on_stand_ins(project):

@@ -9,7 +9,7 @@ rule calibrate:
     output:
         "results/{site}/{model}/calibration.nc",
     params:
-        config=lambda wildcards: study.config("calibrate", wildcards.site, wildcards.model),
+        config=lambda wildcards: settings("calibrate", wildcards.site, wildcards.model),
     log:
         "results/logs/calibrate/{site}/{model}.log",
     benchmark:

@@ -8,7 +8,7 @@ rule thresholds:
     output:
         "results/{site}/{model}/comfort/thresholds.nc",
     params:
-        config=lambda wildcards: study.config("thresholds", wildcards.site),
+        config=lambda wildcards: settings("thresholds", wildcards.site),
     log:
         "results/logs/thresholds/{site}/{model}.log",
     benchmark:
@@ -27,7 +27,7 @@ rule iso2631:
     output:
         "results/{site}/{model}/comfort/iso2631.nc",
     params:
-        config=lambda wildcards: study.config("iso2631", wildcards.site),
+        config=lambda wildcards: settings("iso2631", wildcards.site),
     log:
         "results/logs/iso2631/{site}/{model}.log",
     benchmark:
@@ -47,7 +47,7 @@ rule iri:
     output:
         "results/{site}/{model}/comfort/iri.nc",
     params:
-        config=lambda wildcards: study.config("iri", wildcards.site),
+        config=lambda wildcards: settings("iri", wildcards.site),
     log:
         "results/logs/iri/{site}/{model}.log",
     benchmark:
@@ -72,7 +72,7 @@ rule agreement:
     output:
         "results/comfort/{model}/agreement.nc",
     params:
-        config=study.config("agreement"),
+        config=settings("agreement"),
     log:
         "results/logs/agreement/{model}.log",
     benchmark:
@@ -97,7 +97,7 @@ rule maps:
     output:
         study.maps("{site}"),
     params:
-        config=lambda wildcards: study.config("maps", wildcards.site),
+        config=lambda wildcards: settings("maps", wildcards.site),
     log:
         f"results/logs/maps/{{site}}/{study.model}.log",
     benchmark:

@@ -14,7 +14,7 @@ rule comparison:
     output:
         "results/{site}/{model}/comparison.nc",
     params:
-        config=lambda wildcards: study.config("compare", wildcards.site, wildcards.model),
+        config=lambda wildcards: settings("compare", wildcards.site, wildcards.model),
     log:
         "results/logs/comparison/{site}/{model}.log",
     benchmark:
@@ -33,7 +33,7 @@ rule critical:
     output:
         "results/{site}/{model}/critical.nc",
     params:
-        config=lambda wildcards: study.config("critical", wildcards.site),
+        config=lambda wildcards: settings("critical", wildcards.site),
     log:
         "results/logs/critical/{site}/{model}.log",
     benchmark:
@@ -96,7 +96,7 @@ rule compared:
             for name, caption in catalogue.difference_figures(study.measured).items()
         ],
     params:
-        config=study.config("compared", model=study.model),
+        config=settings("compared", model=study.model),
     log:
         "results/logs/compared/study.log",
     benchmark:

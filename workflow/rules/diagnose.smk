@@ -16,7 +16,7 @@ checkpoint diagnosis:
         ranking="results/diagnosis/{model}/ranking.nc",
         verdict="results/diagnosis/{model}/verdict.json",
     params:
-        config=lambda wildcards: study.config("diagnose", model=wildcards.model),
+        config=lambda wildcards: settings("diagnose", model=wildcards.model),
     log:
         "results/logs/diagnosis/{model}.log",
     benchmark:
@@ -57,7 +57,7 @@ rule diagnosed:
             for name, caption in catalogue.DIAGNOSIS_FIGURES.items()
         ],
     params:
-        config=study.config("diagnosed", model=study.model),
+        config=settings("diagnosed", model=study.model),
     log:
         "results/logs/diagnosed/study.log",
     benchmark:

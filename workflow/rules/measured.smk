@@ -8,7 +8,7 @@ rule measured:
     output:
         "results/{site}/measured.nc",
     params:
-        config=lambda wildcards: study.config("measured", wildcards.site),
+        config=lambda wildcards: settings("measured", wildcards.site),
     log:
         "results/logs/measured/{site}.log",
     benchmark:

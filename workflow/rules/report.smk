@@ -11,8 +11,8 @@ results = [
     *expand("results/{site}/{model}/calibration.nc", site=study.calibrations, model=study.model),
     *expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
 ]
-tables = catalogue.tables(study.summary())
-figures = catalogue.figures(study.summary())
+tables = catalogue.tables(stepsettings.summaries(study))
+figures = catalogue.figures(stepsettings.summaries(study))
 
 
 rule tables:
@@ -31,7 +31,7 @@ rule tables:
             for name, caption in tables.items()
         ],
     params:
-        config=study.config("tables", model=study.model),
+        config=settings("tables", model=study.model),
     log:
         "results/logs/tables/study.log",
     benchmark:
@@ -57,7 +57,7 @@ rule figures:
             for name, caption in figures.items()
         ],
     params:
-        config=study.config("figures", model=study.model),
+        config=settings("figures", model=study.model),
     log:
         "results/logs/figures/study.log",
     benchmark:
@@ -83,7 +83,7 @@ rule report:
     output:
         "results/report.html",
     params:
-        config=study.config("report", model=study.model),
+        config=settings("report", model=study.model),
     log:
         "results/logs/report/study.log",
     benchmark:

@@ -8,7 +8,7 @@ rule survey:
         crg="results/{site}/road.crg",
         gridded="results/{site}/scan.nc",
     params:
-        config=lambda wildcards: study.config("survey", wildcards.site),
+        config=lambda wildcards: settings("survey", wildcards.site),
     log:
         "results/logs/survey/{site}.log",
     benchmark:
@@ -26,7 +26,7 @@ rule road:
     output:
         "results/{site}/road.nc",
     params:
-        config=lambda wildcards: study.config("road", wildcards.site),
+        config=lambda wildcards: settings("road", wildcards.site),
     log:
         "results/logs/road/{site}.log",
     benchmark:
@@ -46,7 +46,7 @@ rule inspect:
     output:
         "results/{site}/inspection.nc",
     params:
-        config=lambda wildcards: study.config("inspect", wildcards.site),
+        config=lambda wildcards: settings("inspect", wildcards.site),
     log:
         "results/logs/inspect/{site}.log",
     benchmark:

@@ -5,7 +5,7 @@ rule sample:
     output:
         "results/{site}/samples.nc",
     params:
-        config=lambda wildcards: study.config("sample", wildcards.site),
+        config=lambda wildcards: settings("sample", wildcards.site),
     log:
         "results/logs/sample/{site}.log",
     benchmark:

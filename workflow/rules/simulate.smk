@@ -20,7 +20,7 @@ rule simulate:
             else temp("results/{site}/{model}/drives/{runs}.nc")
         ),
     params:
-        config=lambda wildcards: study.config("simulate", wildcards.site, wildcards.model),
+        config=lambda wildcards: settings("simulate", wildcards.site, wildcards.model),
     log:
         "results/logs/simulate/{site}/{model}/{runs}.log",
     benchmark:
@@ -44,7 +44,7 @@ for site in study.sites:
             output:
                 temp(f"results/{site}/{{model}}/drives/{{runs}}.nc"),
             params:
-                config=study.config("handed_in", site),
+                config=settings("handed_in", site),
             log:
                 f"results/logs/handed_in/{site}/{{model}}/{{runs}}.log",
             benchmark:

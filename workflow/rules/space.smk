@@ -7,7 +7,7 @@ rule space:
     output:
         "results/{site}/{model}/space/{runs}.nc",
     params:
-        config=lambda wildcards: study.config("space", wildcards.site),
+        config=lambda wildcards: settings("space", wildcards.site),
     log:
         "results/logs/space/{site}/{model}/{runs}.log",
     benchmark:

@@ -11,7 +11,7 @@ for site in study.made:
             crg=study.true_road(site),
             truth=f"data/{site}/truth/road.json",
         params:
-            config=study.config("standin_road", site),
+            config=settings("standin_road", site),
         log:
             f"results/logs/standin_road/{site}.log",
         benchmark:
@@ -32,7 +32,7 @@ for site in study.made:
                 profiles=study.scan(site)["profiles"],
                 trajectory=study.scan(site)["trajectory"],
             params:
-                config=study.config("standin_scan", site),
+                config=settings("standin_scan", site),
             log:
                 f"results/logs/standin_scan/{site}.log",
             benchmark:
@@ -54,7 +54,7 @@ for site in study.made:
                 drives=study.drives(site),
                 truth=f"data/{site}/truth/drives.json",
             params:
-                config=study.config("standin_drives", site),
+                config=settings("standin_drives", site),
             log:
                 f"results/logs/standin_drives/{site}.log",
             benchmark:
@@ -88,7 +88,7 @@ if study.scored:
                 for name, caption in catalogue.SCORE_TABLES.items()
             ],
         params:
-            config=study.config("standin_score", model=study.model),
+            config=settings("standin_score", model=study.model),
         log:
             "results/logs/standin_score/study.log",
         benchmark:

@@ -2,34 +2,23 @@
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import yaml
 
-from . import stepsettings
 from .comfort import bands
 from .drive import readers, units
 from .effects import library
 from .errors import InputError
 from .schema import read_yaml, validate
+from .study import DATA, NO_CALIBRATION, VEHICLES, Study, has_fit
 from .vehicle import parameters
 from .vocabulary import CALIBRATED
 
 STUDY = Path("config/study.yaml")
 SITES = Path("config/sites")
-VEHICLES = Path("config/vehicles")
 STANDIN = Path("config/standin.yaml")
-DATA = Path("data")
-
-BASE = "base"
-"""Name of the model without effects."""
-
-JOIN = "+"
-"""Between the names of effects in the name of a model."""
 
 TAKEN = frozenset(
     "all compare diagnose report blind survey road inspect measured calibrate sample simulate handed_in space thresholds "
@@ -37,162 +26,6 @@ TAKEN = frozenset(
     "benchmarks bench none".split()
 )
 """Names of targets and of folders in results/, which no site may have."""
-
-METHODS = ("thresholds", "iso2631", "iri")
-"""The comfort methods."""
-
-NO_CALIBRATION = "none"
-"""What a site file's ``calibrated_on`` says to drive the nominal vehicle."""
-
-
-@dataclass(frozen=True)
-class Study:
-    """The configuration of a study, complete and consistent.
-
-    ``settings`` is config/study.yaml with its defaults, ``sites`` the configured sites
-    and those that they are calibrated on, each with its defaults, ``standin`` the
-    content of config/standin.yaml (empty without one). Paths are relative to ``folder``.
-    """
-
-    settings: Mapping
-    sites: Mapping[str, Mapping]
-    standin: Mapping = field(default_factory=dict)
-    folder: Path = Path()
-
-    @property
-    def names(self) -> list[str]:
-        """The configured sites, in their order."""
-        return list(self.settings["sites"])
-
-    @property
-    def model(self) -> str:
-        """Name of the configured model: ``base``, or its effects joined by ``+``."""
-        return JOIN.join(self.effects()) or BASE
-
-    @property
-    def shards(self) -> list[str]:
-        """Runs of each shard, first and last: ``0000-0249``, ``0250-0499``, ..."""
-        runs, size = self.settings["runs"], self.settings["simulation"]["runs_per_shard"]
-        width = max(4, len(str(runs - 1)))
-        return [
-            f"{first:0{width}}-{min(first + size, runs) - 1:0{width}}" for first in range(0, runs, size)
-        ]
-
-    def maps(self, site: str) -> list[str]:
-        """Files of the maps of a site, one a method; those of a model with effects have a folder of its name."""
-        folder = "results/maps" if self.model == BASE else f"results/maps/{self.model}"
-        return [f"{folder}/{site}_{method}.geojson" for method in METHODS]
-
-    def effects(self, model: str | None = None) -> dict[str, dict]:
-        """The effects of a model by name, each with the values set for it; default is the configured model."""
-        configured = {}
-        for entry in self.settings["effects"]:
-            configured.update({entry: {}} if isinstance(entry, str) else entry)
-        if model is None:
-            return dict(sorted(configured.items()))
-        return {} if model == BASE else {name: configured.get(name, {}) for name in model.split(JOIN)}
-
-    def has_own_effects(self, model: str | None = None) -> bool:
-        """Whether a model has effects that are not in the library."""
-        return not set(self.effects(model)) <= set(effect_files())
-
-    def effect_files(self, model: str) -> list[str]:
-        """The files of a model's effects."""
-        known = effect_files(self.effects_folder)
-        return [os.path.relpath(known[name], self.folder) for name in self.effects(model) if name in known]
-
-    def vehicle(self, site: str) -> str:
-        """File of the vehicle that drives on a site."""
-        return str(VEHICLES / f"{self.sites[site].get('vehicle', self.settings['vehicle'])}.yaml")
-
-    def calibrated_on(self, site: str) -> str | None:
-        """Site on whose drives the vehicle of this site is calibrated, None for the nominal vehicle."""
-        named = self.sites[site].get("calibrated_on")
-        if named is None:
-            return site if _has_fit(self.sites[site]) else None
-        return None if named == NO_CALIBRATION else named
-
-    def road(self, site: str) -> str:
-        """File of a site's road; of a scanned one the file that the scan becomes."""
-        return self.sites[site]["road"].get("file", f"results/{site}/road.crg")
-
-    def scan(self, site: str) -> Mapping | None:
-        """The scan that a site's road is made from, None where it has a file."""
-        return self.sites[site]["road"].get("scan")
-
-    def gridded(self, site: str) -> list[str]:
-        """File of a scanned road before it was cleaned, none where the road has a file."""
-        return [f"results/{site}/scan.nc"] if self.scan(site) else []
-
-    def true_road(self, site: str) -> str:
-        """File of a stand-in road as it is made; what is made of it by a scan, the study must find out."""
-        return f"{DATA.as_posix()}/{site}/truth/road.crg" if self.scan(site) else self.road(site)
-
-    def drives(self, site: str) -> list[str]:
-        """Files of the drives measured on a site."""
-        return [drive["file"] for drive in self.sites[site]["drives"]]
-
-    def handed_in(self, site: str) -> list[str]:
-        """Files of the drives that another simulator made for a site, one a run; none where the study's own drives."""
-        folder = self.sites[site].get("simulated")
-        if folder is None:
-            return []
-        suffixes = readers.suffixes()
-        return [f"{folder}/{path.name}" for path in sorted((self.folder / folder).iterdir()) if path.suffix in suffixes]
-
-    @property
-    def measured(self) -> list[str]:
-        """The configured sites with measured drives."""
-        return [site for site in self.names if self.sites[site]["drives"]]
-
-    @property
-    def calibrations(self) -> list[str]:
-        """The sites on whose drives some configured site is calibrated."""
-        found = (self.calibrated_on(site) for site in self.names)
-        return list(dict.fromkeys(site for site in found if site))
-
-    @property
-    def diagnosed(self) -> list[str]:
-        """The sites whose drives are searched for missing effects: those of the vehicle that is calibrated first.
-
-        The site that it is calibrated on comes first; without any calibration, all sites with drives.
-        """
-        first = self.calibrations[:1]
-        same = [site for site in self.measured if [self.calibrated_on(site)] == first and site not in first]
-        return [*first, *same] or self.measured
-
-    def library_files(self) -> list[str]:
-        """The file of every effect that may be missing."""
-        return [os.path.relpath(path, self.folder) for path in effect_files(self.effects_folder).values()]
-
-    @property
-    def made(self) -> list[str]:
-        """The sites whose road and drives are made from seeds."""
-        return [site for site in self.sites if self.sites[site]["standin"]]
-
-    @property
-    def forward(self) -> bool:
-        """Whether the study goes on with the effects that its diagnosis names."""
-        return bool(self.diagnosed) and self.settings["diagnosis"]["forward"]
-
-    @property
-    def scored(self) -> bool:
-        """Whether the truth is known of all drives that are diagnosed, and the whole study scores the verdict against it."""
-        return self.forward and all(self.sites[site]["standin"] for site in self.diagnosed)
-
-    @property
-    def effects_folder(self) -> Path | None:
-        """Folder with effects of the user's own, None without one."""
-        named = self.settings["effects_folder"]
-        return None if named is None else self.folder / named
-
-    def config(self, step: str, site: str | None = None, model: str | None = None) -> str:
-        """Exactly the settings that a step uses, as JSON: when they change, and only then, it runs again."""
-        return json.dumps(stepsettings.of_step(self, step, site, model))
-
-    def summary(self) -> dict[str, dict]:
-        """What tables and figures say of each configured site."""
-        return {site: stepsettings.summary(self, site) for site in self.names}
 
 
 def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ()) -> Study:
@@ -230,14 +63,6 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
     _check_handed_in(study)
     _check_columns(study)
     return study
-
-
-def effect_files(folder: Path | None = None) -> dict[str, Path]:
-    """The file of every effect there is, by name: those of the library and those of a user's folder."""
-    files = [path for path in library.FOLDER.glob("*.py") if path.stem not in library.HOUSE]
-    if folder is not None:
-        files += [path for path in folder.glob("*.py") if not path.stem.startswith("_")]
-    return {path.stem: path for path in sorted(files)}
 
 
 def _typed(value):
@@ -330,10 +155,6 @@ def _files(site: Mapping) -> list[tuple[str, str]]:
     return [*road.items(), *drives]
 
 
-def _has_fit(site: Mapping) -> bool:
-    return any(drive["role"] == "fit" for drive in site["drives"])
-
-
 def _check_effects(study: Study, given: list[str]) -> None:
     folder = study.effects_folder
     if folder is not None and not folder.is_dir():
@@ -405,7 +226,7 @@ def _check_calibrations(study: Study) -> None:
         if other is None:
             continue
         file, place = SITES / f"{name}.yaml", "calibrated_on"
-        if not _has_fit(study.sites[other]):
+        if not has_fit(study.sites[other]):
             raise InputError(f"site {other!r} has no measured drives to fit", file=file, place=place)
         if study.vehicle(other) != study.vehicle(name):
             raise InputError(f"site {other!r} has another vehicle", file=file, place=place)

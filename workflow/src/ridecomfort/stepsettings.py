@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
 
+from .study import Study
 from .vocabulary import CALIBRATED, STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    from .config import Study
 
 
 def of_step(study: Study, step: str, site: str | None = None, model: str | None = None) -> dict:
@@ -113,7 +111,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored} if step == "report" else {}
             return {
                 **simulated,
-                "sites": study.summary(),
+                "sites": summaries(study),
                 "model": model,
                 **{key: chosen[key] for key in keys},
                 **loop,
@@ -121,7 +119,17 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
     raise KeyError(step)
 
 
-def summary(study: Study, site: str) -> dict:
+def as_json(study: Study, step: str, site: str | None = None, model: str | None = None) -> str:
+    """The settings of a step as the JSON that it is called with."""
+    return json.dumps(of_step(study, step, site, model))
+
+
+def summaries(study: Study) -> dict[str, dict]:
+    """What tables and figures say of each configured site."""
+    return {site: _summary(study, site) for site in study.names}
+
+
+def _summary(study: Study, site: str) -> dict:
     """What tables and figures say of a site."""
     own = study.sites[site]
     return {
@@ -137,7 +145,7 @@ def summary(study: Study, site: str) -> dict:
 
 def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:
     """What tables and figures of measured drives say of these sites."""
-    return {site: {key: summary(study, site)[key] for key in ("title", "standin", "has_drives", "calibrated_on")} for site in sites}
+    return {site: {key: _summary(study, site)[key] for key in ("title", "standin", "has_drives", "calibrated_on")} for site in sites}
 
 
 def _noise_densities(drives: Iterable[Mapping]) -> dict[str, dict[str, float]]:

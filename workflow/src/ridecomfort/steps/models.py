@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..config import BASE, JOIN, Study, effect_files
+from ..study import BASE, JOIN, Study, effect_files
 
 FOLLOWED = ("named", "cluster")
 """Verdicts whose effects are added; of a cluster the first of each, called by all of its names."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...discrepancy.verdict import LITTLE
 from ...effects.contract import PORTS
-from ...config import BASE, JOIN
+from ...study import BASE, JOIN
 from .. import catalogue
 from ..notation import unit, words
 from ..study import Diagnosis
