@@ -22,8 +22,8 @@ def measured(car, wrong, effects=None, seed=41):
     return trials.make(seed, true, effects or {}, 1.0).measured
 
 
-def selected(drives, car):
-    experiment = cars.car(cars.sites_of(drives), car, library_names=["crosswind"])
+def selected(drives, car, library="crosswind"):
+    experiment = cars.car(cars.sites_of(drives), car, library_names=[library])
     return select.search(rung.begin(experiment, cars.start_values(experiment)), most=1)
 
 
@@ -41,6 +41,16 @@ def test_a_bar_twice_as_stiff_and_an_inertia_of_seven_tenths_are_told_with_what_
 
 def test_nothing_is_told_of_a_car_that_is_within_its_bounds(car):
     assert beyond.beyond_bounds(selected(measured(car, {"anti_roll_stiffness_rear": 1.1}), car)) is None
+
+
+def test_a_bar_of_half_the_stiffness_takes_the_place_of_an_effect_that_stands_in_for_it(car):
+    stand_in = selected(measured(car, {"anti_roll_stiffness_front": 0.54}), car, "tyre_pressure_loss")
+    assert stand_in.accepted
+    right = beyond.before_effects(stand_in)
+    told = beyond.searched(stand_in, select.search(right, most=1))
+    (bar,) = told.parameters
+    assert bar.parameter == "anti_roll_stiffness_front" and holds(bar, 0.54 * car["anti_roll_stiffness_front"])
+    assert told.is_first and told.held_out_share > 0.5
 
 
 def test_an_effect_that_is_missing_beside_a_wrong_file_is_named_alone(car):

@@ -83,8 +83,17 @@ def test_parameters_beyond_their_bounds_are_a_reason_more():
 
 def test_where_they_are_all_that_is_missing_it_is_no_effect_of_the_library():
     assert with_parameters(NOTHING, beyond(is_first=True)).verdict == "outside"
-    first = with_parameters(replace(NOTHING, verdict="named"), beyond(is_first=True))
+    first = with_parameters(replace(NOTHING, verdict="named", effects=(FOUND,), held_out_share=0.6), beyond(is_first=True))
     assert first.verdict == "named" and first.reasons[-1].endswith("other shares are of what they leave")
+
+
+def test_an_effect_beside_them_that_drives_held_out_hardly_confirm_may_be_what_they_leave():
+    named = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.49, held_out_share=0.09)
+    said = with_parameters(named, beyond(is_first=True))
+    assert said.verdict == "outside" and not said.effects and said.reasons[-1].startswith("friction may be what these leave")
+    unknown = replace(named, held_out_share=float("nan"))
+    for other in (with_parameters(named, beyond()), with_parameters(unknown, beyond(is_first=True))):
+        assert other.verdict == "named" and other.effects == (FOUND,)
 
 
 FOUND = Named("friction", (), "", 0.001, 0.3, 0.3, 0.0, (), {})

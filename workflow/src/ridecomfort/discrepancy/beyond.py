@@ -30,6 +30,10 @@ LEAST_SHARE = 0.05
 """Share of the explainable error that must go for them to be worth a word."""
 
 
+LEFT = 0.75
+"""Share of what effects leave of the explainable error that parameters alone may leave at most to take their place."""
+
+
 @dataclass(frozen=True)
 class Beyond:
     """A parameter of the vehicle: its ``given`` value with the ``bounds`` it was kept in, and the ``value`` it has within ``wider`` ones,
@@ -72,26 +76,23 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
     with all drives like every model of the selection: that fit alone, whose error makes itself white, does not find its way so far. It is
     sure with HELD_OUT_Z on drives held out, of parameters whose 90 % interval lies beyond the bounds.
     """
-    experiment, fit = selection.frame.experiment, selection.ladder[-1].fit
-    own = [size for size in experiment.free if size.key in PARAMETERS]
-    if all(refit.is_within(size, fit.values) for size in own):
+    last = selection.ladder[-1]
+    sizes = _wider(selection, last)
+    rung = _wide(selection, last, sizes, each)
+    if rung is None:
         return None
-    wider = {size.key: _wider(size) for size in own}
-    free = tuple(wider.get(size.key, size) for size in experiment.free)
-    known = {size.key: size for candidate in experiment.candidates for size in (*candidate.sizes, *candidate.shaping)}
-    sizes = [*free, *(known[key] for key in fit.keys if key in known)]
-    try:
-        start = {**fit.values, **_calibrated(selection, sizes)}
-        rung = climb(replace(experiment, free=free), start, sizes, each)
-    except (InputError, ValueError):  # a vehicle that cannot be driven
-        return None
-    wide = State("", rung.fit, *rung.squares(rung.fit, rung.check))
-    gone = shares(selection, selection.ladder[-1], wide, rung)
-    if not _is_enough(gone):
-        return None
+    gone = shares(selection, last, _state(rung), rung)
     is_sure = rung.check_frame is None or refit.advantage(rung.check_frame, rung.check, selection.check)[1] > HELD_OUT_Z
-    parameters = _beyond(experiment, rung.experiment, rung.fit.values, refit.intervals(rung.fit, rung.frame, sizes)) if is_sure else ()
+    intervals = refit.intervals(rung.fit, rung.frame, sizes) if is_sure else {}
+    parameters = _beyond(selection.frame.experiment, rung.experiment, rung.fit.values, intervals) if is_sure else ()
     return (BeyondBounds(parameters, *gone) if parameters else None), rung
+
+
+def before_effects(selection: Selection, each: Callable = map) -> Rung | None:
+    """The rung of the first model of a selection with parameters beyond the bounds that it ends at, where that alone is better: effects may
+    stand in for them, beside which none is at its bound. None where none ends there, or going beyond is no better."""
+    first = selection.ladder[0]
+    return _wide(selection, first, _wider(selection, first), each) if len(selection.ladder) > 1 else None
 
 
 def without_effects(rung: Rung, each: Callable = map) -> Rung | None:
@@ -106,13 +107,47 @@ def without_effects(rung: Rung, each: Callable = map) -> Rung | None:
 
 def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     """Parameters beyond their bounds in a search of its own, ``after``, whose model is better than that of the search ``before``, which
-    kept to the bounds, as are the parameters alone; None where one is not, or none lies beyond."""
+    kept to the bounds, as are the parameters alone; None where one is not, or none lies beyond.
+
+    It is better by a share that is worth a word, or where the parameters alone leave LEFT of what all effects did.
+    """
     gained = shares(before, before.ladder[-1], after.ladder[-1], after)
     alone = shares(before, before.ladder[0], after.ladder[0], after)
-    if not _is_enough((*gained, *alone)):
+    effects = shares(before, before.ladder[0], before.ladder[-1], after)
+    is_simpler = not any(1.0 - ours > LEFT * (1.0 - theirs) for ours, theirs in zip(alone, effects))
+    if not _is_enough(alone) or not (_is_enough(gained) or is_simpler):
         return None
     parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
     return BeyondBounds(parameters, *alone, is_first=True) if parameters else None
+
+
+def _wider(selection: Selection, state: State) -> list[Size]:
+    """What a model of a selection fits, its vehicle's parameters with bounds WIDER than their own; empty where none of these ends at one."""
+    experiment, fit = selection.frame.experiment, state.fit
+    if all(refit.is_within(size, fit.values) for size in experiment.free if size.key in PARAMETERS):
+        return []
+    known = {size.key: size for candidate in experiment.candidates for size in (*candidate.sizes, *candidate.shaping)}
+    free = [_with_wider_bounds(size) if size.key in PARAMETERS else size for size in experiment.free]
+    return [*free, *(known[key] for key in fit.keys if key in known)]
+
+
+def _wide(selection: Selection, state: State, sizes: Sequence[Size], each: Callable) -> Rung | None:
+    """The rung of a model of a selection with these sizes; None without any, where that vehicle cannot be driven, or where too little of the
+    explainable error goes with it."""
+    if not sizes:
+        return None
+    experiment, own = selection.frame.experiment, {size.key: size for size in sizes}
+    try:
+        start = {**state.fit.values, **_calibrated(selection, state, sizes)}
+        free = tuple(own[size.key] for size in experiment.free)
+        rung = climb(replace(experiment, free=free), start, sizes, each)
+    except (InputError, ValueError):  # a vehicle that cannot be driven
+        return None
+    return rung if _is_enough(shares(selection, state, _state(rung), rung)) else None
+
+
+def _state(rung: Rung) -> State:
+    return State("", rung.fit, *rung.squares(rung.fit, rung.check))
 
 
 def _beyond(before: Car, after: Car, values: Mapping[str, float], intervals: Mapping[str, tuple[float, float]]) -> tuple[Beyond, ...]:
@@ -137,25 +172,25 @@ def _rounded(value: float) -> float:
     return float(f"{value:.3g}")
 
 
-def _wider(size: Size) -> Size:
+def _with_wider_bounds(size: Size) -> Size:
     """With bounds WIDER than its own."""
     span, times = PARAMETERS[size.key], WIDER.get(size.unit, ANY)
     return replace(size, lower=max(min(size.lower, size.lower / times), span.lower), upper=min(max(size.upper, size.upper * times), span.upper))
 
 
-def _calibrated(selection: Selection, sizes: Sequence[Size]) -> dict[str, float]:
-    """Values of ``sizes`` by least squares of what is calibrated, every signal in units of the error that is left of it."""
-    experiment, last = selection.frame.experiment, selection.ladder[-1]
+def _calibrated(selection: Selection, state: State, sizes: Sequence[Size]) -> dict[str, float]:
+    """Values of ``sizes`` by least squares of what is calibrated, every signal in units of the error that ``state`` leaves of it."""
+    experiment = selection.frame.experiment
     chosen = {experiment.records[index].condition: index for index in reversed(selection.frame.indices)}
     replays = [experiment.replays[index] for index in sorted(chosen.values())]
-    vehicle, effects = with_values(experiment.vehicle, experiment.effects, last.fit.values)
+    vehicle, effects = with_values(experiment.vehicle, experiment.effects, state.fit.values)
     limits = {size.key: (size.lower, size.upper) for size in sizes}
     task = calibrate.problem(
         [again.drive.assign_attrs(role="fit") for again in replays], [again.road for again in replays], vehicle,
         parameters=[key for key in limits if key in PARAMETERS], bounds=limits, effects=effects, options=replays[0].options,
-        scales=np.sqrt(last.squares.mean(axis=0)),
+        scales=np.sqrt(state.squares.mean(axis=0)),
     )  # fmt: skip
-    point, everything = task.point([last.fit.values[key] for key in task.parameters]), list(range(len(limits)))
+    point, everything = task.point([state.fit.values[key] for key in task.parameters]), list(range(len(limits)))
     for _ in range(2):
         point = descend(task.about(point), point, everything, calibrate.COARSE).point
     return dict(zip(task.parameters, task.values(point).tolist()))

@@ -10,7 +10,7 @@ import xarray as xr
 
 from . import car as cars
 from . import pool
-from .beyond import BeyondBounds, beyond_bounds, searched, without_effects
+from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, without_effects
 from .discover import Discovery, discovered
 from .explain import REPEATS
 from .propose import SURE
@@ -69,7 +69,7 @@ def _with_vehicle_right(
     rung it begins at, if that is the better one and leaves nothing out."""
     common["say"]("trying parameters of the vehicle beyond their bounds")
     found, wide = beyond_bounds(selection, common["each"]) or (None, None)
-    rung = wide and without_effects(wide, common["each"])
+    rung = without_effects(wide, common["each"]) if wide else before_effects(selection, common["each"])
     if rung is None:
         return found, None
     common["say"]("searching again with those parameters put right")

@@ -116,6 +116,16 @@ def _on_spring(
     return Term(f"{base} + {against}", unit, result, WHOLE, states, (frequency, damping), ahead)
 
 
+def _swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
+    """What follows ``base`` (typically ``typical``) as a mass on a spring does: ``way``, in units of it."""
+    frequency = _setting("frequency", "Hz", 8.0, 3.0, 25.0, "frequency at which it swings")
+    damping = _setting("damping_ratio", "1", 0.2, 0.05, 0.8, "share of critical damping")
+    turns = f"{2 * pi:.4f} * frequency"
+    slope = f"({turns})**2 * ({base} - way) - 2.0 * damping_ratio * {turns} * rate"
+    states = State("way", "rate", typical), State("rate", slope, 2 * pi * frequency.typical * typical)
+    return Term(expression, unit, result, parts, states, (frequency, damping), beside=beside)
+
+
 KNEE = _setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
 
 ANGLE = _setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
@@ -157,6 +167,7 @@ PLACES: Mapping[str, Place] = {
             "sliding_direction": _sliding("strain", "N", "velocity"),
             "sliding_damping": _sliding("abs(velocity) * strain", "N s/m", "velocity"),
             "slow_velocity": _below("velocity"),
+            "swinging_deflection": _swinging("deflection", 0.006, "deflection - way", "N/m", "force", AXLES, "deflection"),
         },
     ),
     "tyre": Place(
@@ -176,6 +187,7 @@ PLACES: Mapping[str, Place] = {
             "once_a_turn": Term("1.0", "N", parts=TURNING, turn="rotation"),
             "once_a_turn_by_spin": Term("spin**2", "kg m", parts=TURNING, turn="rotation"),
             "twice_a_turn": Term("1.0", "N", parts=TURNING, turn="2.0 * rotation"),
+            "thrice_a_turn": Term("1.0", "N", parts=TURNING, turn="3.0 * rotation"),
             "sliding_direction": _sliding("strain", "N", "velocity"),
             "slow_velocity": _below("velocity"),
         },
@@ -189,6 +201,7 @@ PLACES: Mapping[str, Place] = {
             "pull_of_load_on_sides": Term(f"load * {SIDE}", "1", "pull"),
             "pull_of_load_and_speed": Term("load * speed**2", "s2/m2", "pull"),
             "pull_of_slope": Term("load * slope", "1", "pull"),
+            "pull_of_slope_size": Term("load * abs(slope)", "1", "pull"),
             "slip_of_load": Term("load", "1/N", "slip_x", beside="slip_x"),
             "side_slip_of_load": Term("slip_y * load", "1/N", "slip_y", beside="slip_y"),
             "side_slip_of_load_on_sides": Term(f"load * {SIDE}", "1/N", "slip_y", beside=SIDE),
@@ -236,6 +249,8 @@ PLACES: Mapping[str, Place] = {
             },
             "sway_rear": _on_spring("motion.speed * motion.yaw_rate", 1.0, "kg", "force_y", "motion.rear", (1.2, 0.4, 6.0)),
             "roll_resonance": _on_spring("motion.roll_acceleration", 0.4, "kg m2", "moment_x"),
+            "pitch_resonance": _on_spring("motion.pitch_acceleration", 0.3, "kg m2", "moment_y", frequencies=(8.0, 3.0, 25.0)),
+            "surge_above": _on_spring("motion.pitch_acceleration", 0.3, "kg m", "force_x", frequencies=(8.0, 3.0, 25.0)),
         },
         ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
     ),
@@ -254,6 +269,7 @@ PLACES: Mapping[str, Place] = {
                 (_setting("play", "rad", 0.001, 0.0001, 0.01, "angle to either side by which it does not follow"),),
             ),
             "angle_of_force": Term("force_y", "rad/N", "angle", WHOLE),
+            "angle_swinging_with_force": _swinging("force_y", 1000.0, "way", "rad/N", "angle", WHOLE),
             "angle_cube": Term("angle**3", "1/rad2", "angle", WHOLE, beside="angle"),
         },
         ("angle",),

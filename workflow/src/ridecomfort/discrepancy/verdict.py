@@ -219,11 +219,16 @@ def judge(
 
 def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
     """A verdict with the parameters of the vehicle that explain more beyond their bounds, if any: a reason more. Where they came first and
-    nothing else is missing, what is missing is no effect of the library."""
+    nothing else is missing, or nothing that drives held out confirm, what is missing is no effect of the library."""
     if found is None:
         return verdict
+    reasons = (*verdict.reasons, found.words())
+    if found.is_first and verdict.verdict in ("named", "cluster") and verdict.held_out_share < CONFIRMED:
+        names = ", ".join(effect.name for effect in verdict.effects)
+        reasons = (*reasons, f"{names} may be what these leave: too little on drives held out to be what is missing")
+        return replace(verdict, verdict="outside", effects=(), reasons=reasons, share=0.0, held_out_share=0.0, beyond_bounds=found)
     kind = "outside" if found.is_first and verdict.verdict == "nothing" else verdict.verdict
-    return replace(verdict, verdict=kind, reasons=(*verdict.reasons, found.words()), beyond_bounds=found)
+    return replace(verdict, verdict=kind, reasons=reasons, beyond_bounds=found)
 
 
 def _removed(balance: _Balance) -> list[str]:
