@@ -101,7 +101,7 @@ def run(
 
     Accelerations are those of the sensor in body axes without gravity. They and the rates are band-limited below
     half the rate before they are sampled, as an instrument does it: of a roll rate on a rough road some percent of what is
-    sampled at 25 to 40 Hz would else be folded down from above 50 Hz.
+    sampled at 25 to 40 Hz would else be folded down from above 50 Hz. What an instrument gets wrong, it does before that.
     """
     course = road if isinstance(road, Course) else prepare(road)
     chosen = library.choose(effects, effects_folder)
@@ -115,18 +115,20 @@ def run(
     for entry, sizes in chosen:
         if entry.effect.port == "path":
             driven = entry.act(driven, course.u, **sizes)
-    record = _record(course, changed, course.on_u(speed, "speed"), driven, friction, chosen, fixed, start, end, step, rate)
+    every = _every(step, rate)
+    sensing = [(entry.act, sizes) for entry, sizes in chosen if entry.effect.port == "sensor"]
+    own = 1 if sensing else every
+    record = _record(course, changed, course.on_u(speed, "speed"), driven, friction, chosen, fixed, start, end, step, own)
     if driven is not believed:
         record[:, COLUMNS.index("e")] -= np.interp(record[:, COLUMNS.index("s")], course.u, driven - believed)
     drive = xr.Dataset(
         {name: ("time", column) for name, column in zip(COLUMNS, record.T, strict=True)},
-        coords={"time": np.arange(len(record)) / rate},
+        coords={"time": np.arange(len(record)) * own / (every * rate)},
         attrs={"sensor_x": sensor[0], "sensor_y": sensor[1], "sensor_z": sensor[2], "vehicle": vehicle.name},
     )
-    for entry, sizes in chosen:
-        if entry.effect.port == "sensor":
-            drive = entry.act(drive, **sizes)
-    return describe(drive)
+    for act, sizes in sensing:
+        drive = act(drive, **sizes)
+    return describe(_sampled(drive, every) if own < every else drive)
 
 
 def runs(
@@ -182,11 +184,26 @@ def _on_body(sensor, before: Vehicle, after: Vehicle) -> tuple[float, float, flo
     return x + back, y, z - (after["cg_height"] - before["cg_height"])
 
 
-def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, end, step, rate) -> np.ndarray:
-    """Columns of COLUMNS at the rate of the records, shape (records, columns)."""
+def _every(step: float, rate: float) -> int:
+    """Steps between records."""
     every = round(1.0 / (rate * step))
     if every < 1 or abs(every * rate * step - 1.0) > 1e-9:
         raise InputError(f"{step!r} s does not divide the interval of {1 / rate:g} s between records", place="step")
+    return every
+
+
+def _sampled(drive: xr.Dataset, every: int) -> xr.Dataset:
+    """Every so many records of a drive, its signals through the low pass before that."""
+    names = [COLUMNS[k] for k in range(len(COLUMNS))[SENSED]]
+    values = np.ascontiguousarray([drive[name].values for name in names])
+    sampled = drive.isel(time=slice(None, None, every)).copy()
+    filtered = np.empty((sampled.sizes["time"], len(names)))
+    _low_pass(values, values.shape[1], _taps(every), every, filtered)
+    return sampled.assign({name: ("time", column) for name, column in zip(names, filtered.T)})
+
+
+def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, end, step, every) -> np.ndarray:
+    """Columns of COLUMNS after every so many steps, shape (records, columns)."""
     if not friction > 0:
         raise InputError(f"{friction!r}, expected a positive number", place="friction")
     front = vehicle["cg_to_front_axle"]
@@ -218,7 +235,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
             "the simulated drive did not stay finite; is a parameter or an effect out of reason?",
             place=f"vehicle {vehicle.name}",
         )
-    if record[-1, 0] < end - 2.0 * rear - targets[:, 0].max() / rate:
+    if record[-1, 0] < end - 2.0 * rear - targets[:, 0].max() * every * step:
         raise InputError(
             f"the drive came to a stand at {record[-1, 0]:.0f} m of {end:.0f} m; "
             "is the friction too low for the grade or the bend?",

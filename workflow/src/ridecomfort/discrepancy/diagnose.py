@@ -51,10 +51,11 @@ def diagnose(
             table, verdict, rung = again
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     is_road_alone = table.attrs["suspected"] == "road"
+    is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
     proposal = None
-    if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone:
+    if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
         proposal = discovered(rung, name=name, **common)
-        verdict = reconsidered(verdict, proposal, is_road_open)
+        verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone)
         proposal = proposal if verdict.verdict == "outside" else None
     if proposal is not None and found is not None and not found.is_first and proposal.share > verdict.share + found.share:
         found = None
@@ -85,7 +86,7 @@ def _is_doubtful(verdict: Verdict) -> bool:
     return verdict.verdict in ("named", "cluster") and verdict.share < most
 
 
-def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = False) -> Verdict:
+def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = False, is_error_alone: bool = False) -> Verdict:
     """A verdict in the light of a force of any form.
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
@@ -94,12 +95,13 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     beside what is named, more of the first and not much less of the others will do, or, where little is left, HALF of that. Where the
     road may be another than that of its file, by noise of its points or by what lies between them (``is_road_open``), which repeats share
     as well, "outside" becomes what the library has unless such a force explains more ("suspect" where that is little), and "suspect" for
-    that becomes "outside" if such a force explains more than noise could.
+    that becomes "outside" if such a force explains more than noise could. Where an error of the measurement was found and nothing else
+    speaks against the data (``is_error_alone``), it gives way to such a force like a name.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
     # Beside noise of the road, which weighs more the weaker an effect is, any fall on drives held out will do.
     is_more_than_noise = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > LITTLE and proposal.held_out_share > 0
-    if verdict.verdict == "nothing" and is_sure(proposal) or verdict.verdict == "suspect" and is_more_than_noise:
+    if verdict.verdict == "nothing" and is_sure(proposal) or verdict.verdict == "suspect" and not is_error_alone and is_more_than_noise:
         return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     more = is_sure(proposal) and proposal.share > BETTER * verdict.share
@@ -108,7 +110,8 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     else:
         is_better = more and not proposal.held_out_share < held_out
         is_better = is_better or verdict.is_shared and is_sure(proposal) and _leaves_less(verdict, proposal)
-    if verdict.verdict in ("named", "cluster") and is_better:
+    is_error_worse = is_error_alone and is_sure(proposal) and (is_better or _leaves_less(verdict, proposal))
+    if verdict.verdict in ("named", "cluster") and is_better or is_error_worse:
         return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_road_open and not more:

@@ -1,4 +1,4 @@
-"""An instrument that follows fast motion late and weakly."""
+"""An instrument that follows fast motion weakly."""
 
 import numpy as np
 
@@ -7,7 +7,10 @@ from ridecomfort.vocabulary import SIGNALS
 
 effect = Effect(
     name="sensor_bandwidth",
-    sentence="The instrument is a low pass of first order: what is faster than its bandwidth comes late and weakened.",
+    sentence=(
+        "The instrument is a low pass of first order: what is faster than its bandwidth comes weakened. Slow motion it shows in time: its "
+        "delay there is one of the clock (clock_offset), which alignment takes out."
+    ),
     source="Titterton and Weston (2004), Strapdown Inertial Navigation Technology: bandwidth of inertial sensors",
     port="sensor",
     parameters=(
@@ -19,16 +22,20 @@ effect = Effect(
 def act(drive, time):
     if time == 0.0:
         return drive
-    from scipy.signal import lfilter  # here: it takes half a second, and the library is read at every start
+    from scipy.interpolate import CubicSpline  # here: they take half a second, and the library is read at every start
+    from scipy.signal import lfilter
 
-    interval = float(drive.time[1] - drive.time[0])
+    clock = drive.time.values
+    interval = float(clock[1] - clock[0])
     kept = np.exp(-interval / time)
     mean = time / interval * (1.0 - kept)
     # The exact answer to a signal that is straight between its samples.
     now, before = 1.0 - mean, mean - kept
-    late = {}
+    in_time = np.minimum(clock + time, clock[-1])
+    weak = {}
     for name in SIGNALS:
         values = drive[name].values
         state = [(before + kept) * values[0]]
-        late[name] = drive[name].copy(data=lfilter([now, before], [1.0, -kept], values, zi=state)[0])
-    return drive.assign(late)
+        late = lfilter([now, before], [1.0, -kept], values, zi=state)[0]
+        weak[name] = drive[name].copy(data=CubicSpline(clock, late)(in_time))
+    return drive.assign(weak)
