@@ -26,12 +26,18 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "stroke_dependent_damper", "subframe_resonance", "tank_slosh", "toe_angle",
            "adaptive_damper", "air_spring_volume", "antiroll_bar_slack", "bump_steer", "damper_foaming", "link_inertance",
            "loose_cargo", "panhard_jacking", "pulsing_brake_drag", "roll_centre_migration", "sidewall_bottoming", "steering_play",
-           "trailer_sway", "tyre_payne", "tyre_sealant", "upper_body_racking", "wet_film", "wheel_wobble")  # fmt: skip
+           "trailer_sway", "tyre_payne", "tyre_sealant", "upper_body_racking", "wet_film", "wheel_wobble",
+           "active_body_damping", "broken_coil", "engine_misfire", "force_toe", "hydraulic_bushing", "inertia_valve",
+           "instrument_post", "machine_hum", "polygonised_tyre", "roof_load", "rough_road_drag", "steering_resonance",
+           "tender_spring", "tyre_bridging", "tyre_relaxing_rubber")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
           "breakaway_friction": "suspension_friction", "tyre_flat_spot": "tyre_runout"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
+
+OF_MEASUREMENT = ("imu_lever_arm", "road_bank", "road_grade", "sensor_bandwidth")
+"""Effects that are errors of an instrument or of the road's file, and that alignment does not take out."""
 
 
 @dataclass(frozen=True)
@@ -122,6 +128,11 @@ def _wrong_file(rng, names, number) -> Draw:
     return Draw(hidden, float(rng.choice(STRONG)) if hidden else 0.0, frozenset(hidden), wrong=wrong)
 
 
+def _of_measurement(rng, names, number) -> Draw:
+    name = OF_MEASUREMENT[number % len(OF_MEASUREMENT)]
+    return Draw((name,), float(rng.choice(STRONG[:2])), frozenset({name}), spoilt={"aligned": True})
+
+
 def _null(**spoilt) -> Callable:
     return lambda rng, names, number: Draw((), 0.0, frozenset(), spoilt=spoilt)
 
@@ -143,6 +154,7 @@ KINDS: Mapping[str, Callable] = {
     "another interpolation": _null(interpolation="linear"),
     "another setting": _set_otherwise,
     "wrong file": _wrong_file,
+    "measurement": _of_measurement,
 }
 
 SUSPECT = ("clock error, left", "gain error", "scanner noise")

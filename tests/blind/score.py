@@ -118,6 +118,8 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %", of("wrong file"), lambda row: row["told"] == row["wrong"])
     for kind in SUSPECT:
         line(f"suspect data flagged: {kind}", of(kind), lambda row: row["verdict"] == "suspect")
+    flagged = lambda row: row["verdict"] == "suspect" and row["first_right"]
+    line("suspect data flagged, by name: another error of the measurement, kappa >= 0.3", single("measurement", strong), flagged)
     for what, chosen in (("messy", single("messy", seen)), ("others", [row for row in seen if row["kind"] != "messy"])):
         covered, sizes = (sum(row[key] for row in chosen) for key in ("covered", "sizes"))
         lines.append(f"| 90 % interval of a size covers the truth, {what} | {100 * covered / max(sizes, 1):.0f} % | {sizes} sizes |")

@@ -1,4 +1,4 @@
-"""What comes back with the way is heard at any angle it begins at, and told from noise and from a road that is another."""
+"""What comes back with the way or the time is heard at any angle it begins at, and told from noise and from a road that is another."""
 
 from __future__ import annotations
 
@@ -48,10 +48,18 @@ def test_noise_is_not_even_where_it_is_that_of_one_road(common):
         assert turns.line(*frame([22.0, 22.3, 21.8], rng, common=common), *frame([16.0], rng, common=common)) is None
 
 
-def test_what_turns_only_on_the_fitted_drives_is_not_it():
-    """A hum of 20 Hz comes back every 1.1 m at one speed, and every 0.8 m at another."""
+def test_a_hum_is_told_from_what_turns_by_the_drive_at_another_speed():
+    """One of 20 Hz comes back every 1.1 m at one speed, and every 0.8 m at another."""
     rng = np.random.default_rng(2)
-    assert turns.line(*frame([22.0, 22.0, 22.0], rng, hum=0.5), *frame([16.0], rng, hum=0.5)) is None
+    hum = turns.line(*frame([22.0, 22.0, 22.0], rng, hum=0.5), *frame([16.0], rng, hum=0.5))
+    assert hum.unit == "s" and hum.period == pytest.approx(0.05, rel=0.002) and "20 Hz" in hum.words(RADIUS)
+    turning = turns.line(*frame([22.0, 22.0, 22.0], rng, line=0.5, period=1.1), *frame([16.0], rng, line=0.5, period=1.1))
+    assert turning.unit == "m" and turning.period == pytest.approx(1.1, rel=0.002)
+
+
+def test_what_comes_back_only_on_the_fitted_drives_is_not_it():
+    rng = np.random.default_rng(2)
+    assert turns.line(*frame([22.0, 22.0, 22.0], rng, hum=0.5), *frame([16.0], rng)) is None
     assert turns.line(*frame([22.0, 22.0, 22.0], rng, hum=0.5), None, {}) is not None
 
 

@@ -122,13 +122,12 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
 
 
 def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
-    """A verdict with what comes back with the way, in words, if anything: a reason more, and by itself enough for "outside" where nothing
+    """A verdict with what comes back with the way or the time, in words, if anything: a reason more, and by itself enough for "outside" where nothing
     was found, or noise of the road alone was suspected, which has no period."""
     if not turns:
         return verdict
     is_silent = verdict.verdict == "nothing" or verdict.verdict == "suspect" and is_road_alone
-    why = "something turns with the wheels, or the road repeats itself"
-    return _said(verdict, "outside" if is_silent else verdict.verdict, f"{turns}: {why}")
+    return _said(verdict, "outside" if is_silent else verdict.verdict, turns)
 
 
 def _leaves_less(verdict: Verdict, proposal: Discovery) -> bool:

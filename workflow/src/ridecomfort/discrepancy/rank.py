@@ -53,8 +53,8 @@ def rank(
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
     their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``); and what
     ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, if that may be all that
-    repeats share, ``suspected`` whether the "data" are or the "road" alone, and ``turns`` what comes back with the way
-    (``turns.line``). Raises InputError.
+    repeats share, ``suspected`` whether the "data" are or the "road" alone, and ``turns`` what comes back with the
+    way or the time (``turns.line``). Raises InputError.
     """
     experiment = cars.opened(
         measured, vehicle, calibration=calibration, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,

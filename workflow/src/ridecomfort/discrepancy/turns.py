@@ -1,8 +1,8 @@
-"""An error that comes back after the same way again and again: order analysis of what a model leaves.
+"""An error that comes back after the same way, or the same time, again and again: order analysis of what a model leaves.
 
 A wheel, a shaft or a slab of the road makes a line in the spectrum over the way driven, at every speed in the same
-place, whatever the angle at which it began to turn in each drive. Neither what repeats share nor a force with one phase for
-all drives shows it.
+place, whatever the angle at which it began to turn in each drive; a fan, an engine that idles or an instrument that hums makes one over
+time. Neither what repeats share nor a force with one phase for all drives shows it.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from scipy.ndimage import median_filter
 from .experiment import Frame, Record
 from .propose import LEVEL, SURE
 
-LONGEST = 7.0
-"""m of way above which a period is none of these, but a bend or a driver."""
+LONGEST = {"m": 7.0, "s": 0.33}
+"""Periods of way and of time above which it is none of these, but a bend, a driver or the body on its springs."""
 
 AROUND = 101
 """Bins of the spectrum whose median a line is held against."""
@@ -25,19 +25,24 @@ AROUND = 101
 
 @dataclass(frozen=True)
 class Line:
-    """What comes back every ``period`` m in a ``channel``: how often its power is that of its neighbourhood on the fitted records, and on
-    those held out (nan without), and the probability that any line of noise is so strong."""
+    """What comes back every ``period`` in a ``channel``, in ``unit`` m of way or s of time: how often its power is that of its neighbourhood
+    on the fitted records, and on those held out (nan without), and the probability that any line of noise is so strong."""
 
     channel: str
     period: float
+    unit: str
     strength: float
     held_out_strength: float
     p_value: float
 
     def words(self, radius: float) -> str:
         """The line in words; ``radius`` of the wheels in m."""
-        order = f"{2.0 * np.pi * radius / self.period:.2f} times a turn of the wheels"
-        return f"an error of {self.channel} comes back every {self.period:.3g} m of way, {order} (p = {self.p_value:.1g})"
+        if self.unit == "s":
+            how, what = f"s at any speed, {1.0 / self.period:.3g} Hz", "a machine that runs evenly, or the instrument hums"
+        else:
+            how = f"m of way, {2.0 * np.pi * radius / self.period:.2f} times a turn of the wheels"
+            what = "something turns with the wheels, or the road repeats itself"
+        return f"an error of {self.channel} comes back every {self.period:.3g} {how} (p = {self.p_value:.1g}): {what}"
 
 
 def line(
@@ -49,25 +54,28 @@ def line(
     though it is a mean over repeats; so it is taken to be.
     """
     channels = frame.experiment.channels
-    best, count = (0.0, 0, 0.0), 0
-    for indices in _by_site(frame).values():
-        records = [frame.experiment.records[i] for i in indices]
-        wavenumber, strength = _strength(records, [_white(frame, i, residuals) for i in indices])
-        seen = (wavenumber > 1.0 / LONGEST) & np.all([_heard(record, wavenumber) for record in records], axis=0)
-        count += strength.shape[0] * int(seen.sum())
-        strength = np.where(seen, strength, 0.0)
-        channel, k = np.unravel_index(np.argmax(strength), strength.shape)
-        best = max(best, (float(strength[channel, k]), int(channel), float(wavenumber[k])))
-    found, channel, place = best
-    p_value = min(1.0, count * float(np.exp(-found)))
-    if p_value > SURE:
-        return None
-    held_out = [] if check_frame is None else [_at(check_frame, i, check, channel, place) for i in check_frame.indices]
-    held_out = [strength for strength in held_out if np.isfinite(strength)]
-    mean = float(np.mean(held_out)) if held_out else float("nan")
-    if held_out and 3.0 * np.exp(-mean) > LEVEL:  # the strongest of three bins
-        return None
-    return Line(channels[channel], 1.0 / place, found, mean, p_value)
+    found, count = [], 0
+    for unit, longest in LONGEST.items():
+        best = (0.0, 0, 0.0)
+        for indices in _by_site(frame).values():
+            records = [frame.experiment.records[i] for i in indices]
+            often, strength = _strength(records, [_white(frame, i, residuals) for i in indices], unit)
+            seen = (often > 1.0 / longest) & np.all([_heard(record, often, unit) for record in records], axis=0)
+            count += strength.shape[0] * int(seen.sum())
+            strength = np.where(seen, strength, 0.0)
+            channel, k = np.unravel_index(np.argmax(strength), strength.shape)
+            best = max(best, (float(strength[channel, k]), int(channel), float(often[k])))
+        found.append((*best, unit))
+    for strength, channel, often, unit in sorted(found, reverse=True):
+        p_value = min(1.0, count * float(np.exp(-strength)))
+        if p_value > SURE:
+            return None
+        held_out = [] if check_frame is None else [_at(check_frame, i, check, channel, often, unit) for i in check_frame.indices]
+        held_out = [own for own in held_out if np.isfinite(own)]
+        mean = float(np.mean(held_out)) if held_out else float("nan")
+        if not held_out or 3.0 * np.exp(-mean) <= LEVEL:  # the strongest of three bins
+            return Line(channels[channel], 1.0 / often, unit, strength, mean, p_value)
+    return None
 
 
 def _by_site(frame: Frame) -> dict[str, list[int]]:
@@ -81,30 +89,32 @@ def _white(frame: Frame, index: int, residuals: Mapping[int, np.ndarray]) -> np.
     return frame.flat_of(index, residuals[index]).reshape(len(frame.experiment.channels), -1)
 
 
-def _heard(record: Record, wavenumber: np.ndarray) -> np.ndarray:
-    """Whether what comes back so often (1/m) lies in the band of a record."""
-    speed = float(np.ptp(record.place)) * record.rate / max(len(record.place) - 1, 1)
-    return (wavenumber * speed > record.band[0]) & (wavenumber * speed < record.band[1])
+def _heard(record: Record, often: np.ndarray, unit: str) -> np.ndarray:
+    """Whether what comes back so often (1/m or 1/s, by ``unit``) lies in the band of a record."""
+    speed = float(np.ptp(record.place)) * record.rate / max(len(record.place) - 1, 1) if unit == "m" else 1.0
+    return (often * speed > record.band[0]) & (often * speed < record.band[1])
 
 
-def _strength(records: Sequence[Record], white: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Wavenumbers (1/m), and the power over the way that records have in common against that around it, mean over them, (channel, bin)."""
-    first, last = max(record.place[0] for record in records), min(record.place[-1] for record in records)
-    spacing = min(float(np.median(np.diff(record.place))) for record in records)
-    way = np.arange(first, last, spacing)
+def _strength(records: Sequence[Record], white: Sequence[np.ndarray], unit: str) -> tuple[np.ndarray, np.ndarray]:
+    """How often (1/m or 1/s, by ``unit``), and the power that comes back so often against that around it, mean over records,
+    (channel, bin); over the way, or the time from the start, that these have in common."""
+    axes = [record.place if unit == "m" else np.arange(len(record.place)) / record.rate for record in records]
+    first, last = max(axis[0] for axis in axes), min(axis[-1] for axis in axes)
+    spacing = min(float(np.median(np.diff(axis))) for axis in axes)
+    even = np.arange(first, last, spacing)
     power = 0.0
-    for record, series in zip(records, white):
-        even = np.stack([np.interp(way, record.place, row) for row in series])
-        power = power + np.abs(np.fft.rfft(even * np.hanning(way.size), axis=1)) ** 2
+    for axis, series in zip(axes, white):
+        there = np.stack([np.interp(even, axis, row) for row in series])
+        power = power + np.abs(np.fft.rfft(there * np.hanning(even.size), axis=1)) ** 2
     around = median_filter(power, size=(1, AROUND), mode="nearest") / np.log(2.0)
-    return np.fft.rfftfreq(way.size, spacing), power / np.where(around > 0, around, np.inf)
+    return np.fft.rfftfreq(even.size, spacing), power / np.where(around > 0, around, np.inf)
 
 
-def _at(frame: Frame, index: int, residuals: Mapping[int, np.ndarray], channel: int, place: float) -> float:
-    """Strength of a line at a wavenumber (1/m) in a record, the largest of three bins; nan where the record does not hear it."""
+def _at(frame: Frame, index: int, residuals: Mapping[int, np.ndarray], channel: int, often: float, unit: str) -> float:
+    """Strength in a record of a line that comes back so often, the largest of three bins; nan where the record does not hear it."""
     record = frame.experiment.records[index]
-    if not _heard(record, np.array([place]))[0]:
+    if not _heard(record, np.array([often]), unit)[0]:
         return float("nan")
-    wavenumber, strength = _strength([record], [_white(frame, index, residuals)])
-    k = int(np.argmin(np.abs(wavenumber - place)))
+    every, strength = _strength([record], [_white(frame, index, residuals)], unit)
+    k = int(np.argmin(np.abs(every - often)))
     return float(strength[channel, max(k - 1, 0) : k + 2].max())
