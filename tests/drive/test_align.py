@@ -88,6 +88,11 @@ def test_the_path_is_found_where_none_is_recorded(drive, road, nominal):
     assert found.attrs["lateral_position"] == pytest.approx(LATERAL, abs=0.02)
 
 
+def test_a_path_that_was_recorded_far_from_where_it_was_is_found(drive, road, nominal):
+    found = aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL - 0.7), road, nominal)
+    assert found.attrs["lateral_position"] == pytest.approx(LATERAL, abs=0.02)
+
+
 def test_a_wandering_path_and_place_are_followed(road, truth, nominal):
     drive = driven(road, truth, aside=0.08, along=0.05)
     found = aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL), road, nominal)

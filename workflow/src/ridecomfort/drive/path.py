@@ -16,7 +16,7 @@ STEP = 0.1
 """m; the roughness under a tyre is another one a tenth of a metre aside."""
 
 KNOWN, UNKNOWN = 0.4, 1.2
-"""m searched to both sides of the recorded path, or of the reference line where none is recorded."""
+"""m searched to both sides of the recorded path, and of the reference line where none is recorded or the path is none of those."""
 
 SEARCHED = 45.0
 """s of a drive that its path is looked for with."""
@@ -55,19 +55,21 @@ def find_offset(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> 
         lowest, highest = float(work["e"].min()), float(work["e"].max())
     else:
         lowest = highest = float(np.nan_to_num(work.attrs["lateral_position"]))
-    reach = KNOWN if known else UNKNOWN
     left = float(surface["v"][-1]) - HALF_VEHICLE - highest
     right = float(surface["v"][0]) + HALF_VEHICLE - lowest
-    trials = np.arange(-round(reach / STEP), round(reach / STEP) + 1) * STEP
-    trials = trials[(trials >= right) & (trials <= left)]
-    if trials.size < 3:
-        return 0.0
 
     def misfit(lateral: float) -> float:
         again = replay(work, road, simulate, lateral_correction=float(lateral), options=options)
         return place.misfit(again, again(vehicle))
 
-    best = trials[int(np.argmin([misfit(trial) for trial in trials]))]
+    for reach in (KNOWN, UNKNOWN) if known else (UNKNOWN,):
+        trials = np.arange(-round(reach / STEP), round(reach / STEP) + 1) * STEP
+        trials = trials[(trials >= right) & (trials <= left)]
+        if trials.size < 3:
+            return 0.0
+        best = trials[int(np.argmin([misfit(trial) for trial in trials]))]
+        if trials[0] < best < trials[-1]:
+            break
     bounds = max(best - STEP, trials[0]), min(best + STEP, trials[-1])
     return float(minimize_scalar(misfit, bounds=bounds, method="bounded", options={"xatol": 5e-3}).x)
 
