@@ -52,6 +52,9 @@ def diagnose(
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
     is_road_alone = table.attrs["suspected"] == "road"
     is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
+    turns = table.attrs["turns"]
+    if turns and verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL:
+        verdict, turns, is_road_open = _said(verdict, "outside", turns), "", False
     proposal = None
     if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
         proposal = discovered(rung, name=name, **common)
@@ -60,7 +63,7 @@ def diagnose(
     if proposal is not None and found is not None and not found.is_first and proposal.share > verdict.share + found.share:
         found = None
     verdict = with_parameters(verdict, found)
-    return table, heard(verdict, table.attrs["turns"], is_road_alone), proposal
+    return table, heard(verdict, turns, is_road_alone), proposal
 
 
 def _with_vehicle_right(

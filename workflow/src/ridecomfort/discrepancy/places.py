@@ -81,11 +81,12 @@ class Place:
     worth: Mapping[str, float] = field(default_factory=dict)
 
 
-def _below(beside: str) -> Term:
-    """Velocity through a low-pass of first order: what gives way in series with a damper, or creeps beside a spring."""
-    frequency = _setting("frequency", "Hz", 10.0, 1.0, 60.0, "frequency that it follows up to")
+def _below(expression: str, beside: str = "") -> Term:
+    """Velocity through a low-pass of first order, ``slow``: what creeps beside a spring; without the velocity itself, what gives way in
+    series with a damper."""
+    frequency = _setting("frequency", "Hz", 10.0, 1.0, 150.0, "frequency that it follows up to")
     return Term(
-        "slow", "N s/m", states=(State("slow", f"{2 * pi:.4f} * frequency * (velocity - slow)", 0.1),), settings=(frequency,), beside=beside
+        expression, "N s/m", states=(State("slow", f"{2 * pi:.4f} * frequency * (velocity - slow)", 0.1),), settings=(frequency,), beside=beside
     )
 
 
@@ -166,7 +167,8 @@ PLACES: Mapping[str, Place] = {
             "forward_force_size_times_direction": Term("abs(force_x) * tanh(velocity / 0.005)", "1", beside="velocity"),
             "sliding_direction": _sliding("strain", "N", "velocity"),
             "sliding_damping": _sliding("abs(velocity) * strain", "N s/m", "velocity"),
-            "slow_velocity": _below("velocity"),
+            "slow_velocity": _below("slow", "velocity"),
+            "late_velocity": _below("slow - velocity"),
             "swinging_deflection": _swinging("deflection", 0.006, "deflection - way", "N/m", "force", AXLES, "deflection"),
         },
     ),
@@ -189,7 +191,7 @@ PLACES: Mapping[str, Place] = {
             "twice_a_turn": Term("1.0", "N", parts=TURNING, turn="2.0 * rotation"),
             "thrice_a_turn": Term("1.0", "N", parts=TURNING, turn="3.0 * rotation"),
             "sliding_direction": _sliding("strain", "N", "velocity"),
-            "slow_velocity": _below("velocity"),
+            "slow_velocity": _below("slow", "velocity"),
         },
     ),
     "contact": Place(

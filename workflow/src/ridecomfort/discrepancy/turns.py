@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import median_filter
+from scipy.ndimage import binary_erosion, median_filter
 
 from .experiment import Frame, Record
 from .propose import LEVEL, SURE
@@ -60,7 +60,8 @@ def line(
         for indices in _by_site(frame).values():
             records = [frame.experiment.records[i] for i in indices]
             often, strength = _strength(records, [_white(frame, i, residuals) for i in indices], unit)
-            seen = (often > 1.0 / longest) & np.all([_heard(record, often, unit) for record in records], axis=0)
+            heard = np.all([_heard(record, often, unit) for record in records], axis=0)
+            seen = (often > 1.0 / longest) & binary_erosion(heard, iterations=AROUND // 2)  # beyond the band there is nothing to compare with
             count += strength.shape[0] * int(seen.sum())
             strength = np.where(seen, strength, 0.0)
             channel, k = np.unravel_index(np.argmax(strength), strength.shape)
