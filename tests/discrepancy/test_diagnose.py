@@ -66,6 +66,18 @@ def test_a_name_that_leaves_little_but_that_for_certain_gives_way_to_a_force_tha
     assert reconsidered(hardly, replace(exact, share=0.995, held_out_share=0.995)) is hardly
 
 
+def test_an_error_of_the_measurement_alone_gives_way_to_a_force_that_explains_more_or_as_much_by_fewer_sizes():
+    tilted = replace(FOUND, name="road_bank", sizes=({}, {}))
+    error = replace(NOTHING, verdict="suspect", effects=(tilted,), share=0.6, held_out_share=0.5)
+    assert reconsidered(error, SURE, is_error_alone=True).verdict == "outside"
+    as_much = replace(SURE, share=0.59, held_out_share=0.49)
+    assert "fewer sizes" in reconsidered(error, as_much, is_error_alone=True).reasons[-1]
+    one_size = replace(error, effects=(replace(tilted, sizes=({},)),))
+    assert reconsidered(one_size, as_much, is_error_alone=True) is one_size
+    assert reconsidered(error, replace(as_much, held_out_share=0.4), is_error_alone=True) is error
+    assert reconsidered(error, replace(SURE, p_value=0.03), is_error_alone=True) is error
+
+
 def beyond(share=0.3, held_out_share=0.2, is_first=False):
     inertia = Beyond("roll_inertia", "kg m2", 572.0, (515.0, 629.0), (257.0, 1258.0), 390.0, (380.0, 400.0))
     return BeyondBounds((inertia,), share, held_out_share, is_first)

@@ -30,6 +30,10 @@ HALF, WORTH = 0.5, 0.05
 explainable error by which it must be better then."""
 
 
+EQUAL = 0.02
+"""Share of the explainable error by which two explanations that count as equal may differ."""
+
+
 def diagnose(
     measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0, name: str = "discovered",
     workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,
@@ -99,7 +103,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     road may be another than that of its file, by noise of its points or by what lies between them (``is_road_open``), which repeats share
     as well, "outside" becomes what the library has unless such a force explains more ("suspect" where that is little), and "suspect" for
     that becomes "outside" if such a force explains more than noise could. Where an error of the measurement was found and nothing else
-    speaks against the data (``is_error_alone``), it gives way to such a force like a name.
+    speaks against the data (``is_error_alone``), it gives way to such a force like a name, and to one that explains as much by fewer sizes.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
     # Beside noise of the road, which weighs more the weaker an effect is, any fall on drives held out will do.
@@ -113,9 +117,12 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     else:
         is_better = more and not proposal.held_out_share < held_out
         is_better = is_better or verdict.is_shared and is_sure(proposal) and _leaves_less(verdict, proposal)
+    explains = f"{100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})"
     is_error_worse = is_error_alone and is_sure(proposal) and (is_better or _leaves_less(verdict, proposal))
     if verdict.verdict in ("named", "cluster") and is_better or is_error_worse:
-        return _said(verdict, "outside", f"{said} explains more: {100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})")
+        return _said(verdict, "outside", f"{said} explains more: {explains}")
+    if is_error_alone and is_sure(proposal) and _is_simpler(verdict, proposal):
+        return _said(verdict, "outside", f"{said} explains as much by fewer sizes: {explains}")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_road_open and not more:
         if not verdict.share >= LITTLE:
@@ -137,6 +144,12 @@ def _leaves_less(verdict: Verdict, proposal: Discovery) -> bool:
     """Whether a force leaves hardly half of what the library does, on fitted drives and on those held out, if any."""
     better = proposal.share - verdict.share > WORTH and 1.0 - proposal.share < HALF * (1.0 - verdict.share)
     return better and not 1.0 - proposal.held_out_share > HALF * (1.0 - verdict.held_out_share)
+
+
+def _is_simpler(verdict: Verdict, proposal: Discovery) -> bool:
+    """Whether a force of fewer sizes explains as much as what was found, on fitted drives and on those held out, if any."""
+    fewer = sum(map(len, proposal.terms.values())) < sum(len(effect.sizes) for effect in verdict.effects)
+    return fewer and proposal.share > verdict.share - EQUAL and not proposal.held_out_share < verdict.held_out_share - EQUAL
 
 
 def _said(verdict: Verdict, kind: str, reason: str) -> Verdict:
