@@ -53,6 +53,15 @@ def test_a_bar_of_half_the_stiffness_takes_the_place_of_an_effect_that_stands_in
     assert told.is_first and told.held_out_share > 0.5
 
 
+def test_a_clock_that_is_off_is_seen_beside_a_wrong_file(car):
+    """The first search, which leaves too much, cannot tell it."""
+    true = car.replace(anti_roll_stiffness_rear=2.0 * car["anti_roll_stiffness_rear"], roll_inertia=0.7 * car["roll_inertia"])
+    drives = trials.make(41, true, {}, clock=0.008).measured
+    table, verdict, _ = diagnose(drives, car, among=["crosswind"], workers=1)
+    assert verdict.verdict == "suspect" and any("clock" in reason for reason in verdict.reasons)
+    assert {one.parameter for one in verdict.beyond_bounds.parameters} >= {"anti_roll_stiffness_rear", "roll_inertia"}
+
+
 def test_an_effect_that_is_missing_beside_a_wrong_file_is_named_alone(car):
     """Without the damping put right, friction of the struts would stand in for it."""
     hidden = {"top_mount": library.find()["top_mount"].effect.values()}

@@ -27,6 +27,13 @@ def aside(made, again, values) -> float:
     return float(np.sqrt(np.mean(again.astray(again.run(vehicle, effects))["lateral"][again.compared] ** 2)))
 
 
+def test_what_a_vehicle_has_not_is_no_size_of_it(made):
+    without = made.vehicle.replace(anti_roll_stiffness_rear=0.0)
+    drives = [again.drive for again in made.replays[:1]]
+    free = cars.car([cars.Site("trial", made.replays[0].road, drives)], without, library_names=["crosswind"]).free
+    assert {"anti_roll_stiffness_rear"} == {size.key for size in made.free} - {size.key for size in free}
+
+
 def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):
     values = {**cars.start_values(made), "crosswind.wind": 10.0}
     blown = aside(made, made.replays[0], values)

@@ -31,6 +31,13 @@ def test_a_doubtful_one_changes_nothing(doubt):
     assert reconsidered(NOTHING, replace(SURE, **doubt)) is NOTHING
 
 
+@pytest.mark.parametrize("held_out_share", [0.1, float("nan")])
+def test_noise_of_the_road_alone_gives_way_to_a_force_that_is_more_than_noise_and_that_no_drive_held_out_refutes(held_out_share):
+    suspect = replace(NOTHING, verdict="suspect")
+    assert reconsidered(suspect, replace(SURE, share=0.4, held_out_share=held_out_share), True).verdict == "outside"
+    assert reconsidered(suspect, replace(SURE, share=0.4, held_out_share=-0.1), True) is suspect
+
+
 @pytest.mark.parametrize("is_road_open", [False, True])
 def test_outside_stays_where_such_a_force_explains_more(is_road_open):
     other = replace(NOTHING, verdict="outside")
@@ -75,6 +82,8 @@ def test_an_error_of_the_measurement_alone_gives_way_to_a_force_that_explains_mo
     one_size = replace(error, effects=(replace(tilted, sizes=({},)),))
     assert reconsidered(one_size, as_much, is_error_alone=True) is one_size
     assert reconsidered(error, replace(as_much, held_out_share=0.4), is_error_alone=True) is error
+    fitted = replace(as_much, place="strut", terms={"slow_velocity": {"front": 900.0}}, settings={"slow_velocity": {"frequency": 7.0, "linear": 0.2}})
+    assert reconsidered(error, fitted, is_error_alone=True) is error
     assert reconsidered(error, replace(SURE, p_value=0.03), is_error_alone=True) is error
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -63,11 +64,21 @@ def test_what_comes_back_only_on_the_fitted_drives_is_not_it():
     assert turns.line(*frame([22.0, 22.0, 22.0], rng, hum=0.5), None, {}) is not None
 
 
+@pytest.mark.parametrize("band", [(0.8, 3.8), (0.8, 42.0)])
+def test_of_records_that_are_too_slow_or_too_short_nothing_is_asked(band):
+    rng = np.random.default_rng(3)
+    one, residuals = frame([22.0, 22.3], rng, line=0.5)
+    length = 6001 if band[1] < 10 else 150
+    one.experiment.records = [replace(record, band=band, place=record.place[:length]) for record in one.experiment.records]
+    assert turns.line(one, {index: part[:, :length] for index, part in residuals.items()}, None, {}) is None
+
+
 def test_a_line_makes_outside_of_nothing_and_of_a_road_alone_and_is_said_beside_a_name():
-    of = lambda kind: Verdict(kind, (), (), 0.0, 0.0)
+    of = lambda kind, share=0.9: Verdict(kind, (), (), share, share)
     assert heard(of("nothing"), "an error comes back", False).verdict == "outside"
     assert heard(of("suspect"), "an error comes back", True).verdict == "outside"
     assert heard(of("suspect"), "an error comes back", False).verdict == "suspect"
     assert heard(of("named"), "an error comes back", False).verdict == "named"
     assert "comes back" in heard(of("named"), "an error comes back", False).reasons[-1]
+    assert heard(of("named", 0.7), "an error comes back", False).verdict == "outside"
     assert heard(of("nothing"), "", False) == of("nothing")

@@ -29,7 +29,6 @@ ANY = 3.0
 LEAST_SHARE = 0.05
 """Share of the explainable error that must go for them to be worth a word."""
 
-
 LEFT = 0.75
 """Share of what effects leave of the explainable error that parameters alone may leave at most to take their place."""
 
@@ -183,10 +182,11 @@ def _calibrated(selection: Selection, state: State, sizes: Sequence[Size]) -> di
     experiment = selection.frame.experiment
     chosen = {experiment.records[index].condition: index for index in reversed(selection.frame.indices)}
     replays = [experiment.replays[index] for index in sorted(chosen.values())]
+    placed = [again.drive.assign(s=("time", again.place)).assign_attrs(role="fit") for again in replays]  # as they are aligned by now
     vehicle, effects = with_values(experiment.vehicle, experiment.effects, state.fit.values)
     limits = {size.key: (size.lower, size.upper) for size in sizes}
     task = calibrate.problem(
-        [again.drive.assign_attrs(role="fit") for again in replays], [again.road for again in replays], vehicle,
+        placed, [again.road for again in replays], vehicle,
         parameters=[key for key in limits if key in PARAMETERS], bounds=limits, effects=effects, options=replays[0].options,
         scales=np.sqrt(state.squares.mean(axis=0)),
     )  # fmt: skip

@@ -21,16 +21,11 @@ from ..vocabulary import SIGNALS, STANDARD_GRAVITY, VARIABLES
 from . import pool
 from .candidates import candidate
 from .experiment import Candidate, Record, Size
-from .explain import INSTRUMENT
+from .explain import INSTRUMENT, SAME_SPEED
+from .judged import LOWEST, LOWEST_OF_DRIVER
 
 CALIBRATION_PROBE = 0.02
 """Share of the bounds' width that a calibrated parameter is probed with."""
-
-LOWEST = 0.8
-"""Hz; slower errors are drifts of instruments and what the driver makes of the path."""
-
-LOWEST_OF_DRIVER = {"a_x": 1.5, "yaw_rate": 1.5}
-"""Hz; what is slower in these the driver makes, whose foot and hands no record holds."""
 
 HIGHEST = 0.85
 """Share of the records' own cut-off up to which errors are judged."""
@@ -48,9 +43,6 @@ CLOCK, PATH, OTHERWISE, GAIN, TILT, BIAS = 0.002, 0.05, 0.7, 0.02, 0.02, (0.1, 0
 
 ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
 """m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected, and how often that is done."""
-
-SAME_SPEED = 0.05
-"""Relative difference of mean speeds within which drives repeat one another."""
 
 SETTLING = 1.5
 """s after the run-in that are left out too: at rest on level ground a vehicle with an effect stands otherwise."""
@@ -304,7 +296,8 @@ def car(
     for name, share in (UNCERTAIN if uncertain is None else uncertain).items():
         span = PARAMETERS[name]
         lower, upper = (min(max(vehicle[name] * factor, span.lower), span.upper) for factor in (1 - share, 1 + share))
-        free.append(_calibrated(name, vehicle[name], (lower, upper)))
+        if lower < upper:  # what a vehicle has not, as a bar, is no size of it
+            free.append(_calibrated(name, vehicle[name], (lower, upper)))
     for entry in chosen:
         own = candidate(entry.effect)
         free += [replace(size, neutral=effects[entry.effect.name][size.key.partition(".")[2]]) for size in own.sizes]

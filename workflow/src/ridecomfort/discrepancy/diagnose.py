@@ -13,6 +13,7 @@ from . import pool
 from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, without_effects
 from .discover import Discovery, discovered
 from .explain import REPEATS
+from .places import settings as shaping
 from .propose import SURE
 from .rank import ranked
 from .rung import Rung, begin
@@ -29,7 +30,6 @@ HALF, WORTH = 0.5, 0.05
 """Share of what the library leaves, where that is little, which a force of any form may leave at most to do so, and share of the
 explainable error by which it must be better then."""
 
-
 EQUAL = 0.02
 """Share of the explainable error by which two explanations that count as equal may differ."""
 
@@ -38,10 +38,10 @@ def diagnose(
     measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0, name: str = "discovered",
     workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,
 ) -> tuple[xr.Dataset, Verdict, Discovery | None]:  # fmt: skip
-    """The evidence, the verdict and the form that is proposed where the library does not explain the drives, else None.
+    """The evidence, the verdict, and where that is "outside" the search for a form, else None.
 
     Where parameters of the vehicle beyond their bounds explain more, all of that is what a second search says, which allows them
-    (``beyond``). Arguments as for ``rank``; ``name``: of the effect that is proposed.
+    (``beyond``). Arguments as for ``rank``, but ``most``; ``name``: of the effect that is proposed.
     """
     experiment = cars.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
     common = {"effects_folder": effects_folder, "seed": seed, "say": say}
@@ -50,15 +50,13 @@ def diagnose(
     table, verdict, selection = ranked(experiment, rung, signatures=signatures, **common)
     found = None
     if not table.attrs["suspected"] and verdict.verdict != "nothing" and not verdict.share > NEARLY_ALL:
-        found, again = _with_vehicle_right(selection, signatures, common)
+        found, again = _with_vehicle_right(experiment, selection, signatures, common)
         if again is not None:
             table, verdict, rung = again
-    is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"])
-    is_road_alone = table.attrs["suspected"] == "road"
+    verdict = heard(verdict, table.attrs["turns"], table.attrs["suspected"] == "road")
+    is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"]) and not table.attrs["turns"]
     is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
-    turns = table.attrs["turns"]
-    if turns and verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL:
-        verdict, turns, is_road_open = _said(verdict, "outside", turns), "", False
+    is_road_alone = verdict.verdict == "suspect" and table.attrs["suspected"] == "road"
     proposal = None
     if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
         proposal = discovered(rung, name=name, **common)
@@ -66,24 +64,24 @@ def diagnose(
         proposal = proposal if verdict.verdict == "outside" else None
     if proposal is not None and found is not None and not found.is_first and proposal.share > verdict.share + found.share:
         found = None
-    verdict = with_parameters(verdict, found)
-    return table, heard(verdict, turns, is_road_alone), proposal
+    return table, with_parameters(verdict, found), proposal
 
 
 def _with_vehicle_right(
-    selection: Selection, signatures: bool, common: Mapping
+    experiment: cars.Car, selection: Selection, signatures: bool, common: Mapping
 ) -> tuple[BeyondBounds | None, tuple[xr.Dataset, Verdict, Rung] | None]:
     """Parameters of the vehicle beyond their bounds, if they explain more, and what a search says that begins with them put right, with the
-    rung it begins at, if that is the better one and leaves nothing out."""
+    rung it begins at, if that is the better one and leaves nothing out, or sees that the data are wrong. ``experiment``: as its drives came."""
     common["say"]("trying parameters of the vehicle beyond their bounds")
     found, wide = beyond_bounds(selection, common["each"]) or (None, None)
     rung = without_effects(wide, common["each"]) if wide else before_effects(selection, common["each"])
     if rung is None:
         return found, None
     common["say"]("searching again with those parameters put right")
-    table, verdict, again = ranked(rung.experiment, rung, signatures=signatures, **common)
+    came = replace(experiment, free=rung.experiment.free)
+    table, verdict, again = ranked(came, rung, signatures=signatures, **common)
     first = searched(selection, again)
-    is_explained = verdict.verdict in ("named", "cluster", "nothing")
+    is_explained = verdict.verdict in ("named", "cluster", "nothing") or table.attrs["suspected"] == "data"
     return (first, (table, verdict, rung)) if is_explained and first is not None else (found, None)
 
 
@@ -107,7 +105,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     """
     said = f"a force at the {proposal.place} that the library does not hold"
     # Beside noise of the road, which weighs more the weaker an effect is, any fall on drives held out will do.
-    is_more_than_noise = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > LITTLE and proposal.held_out_share > 0
+    is_more_than_noise = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > LITTLE and not proposal.held_out_share <= 0
     if verdict.verdict == "nothing" and is_sure(proposal) or verdict.verdict == "suspect" and not is_error_alone and is_more_than_noise:
         return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
@@ -132,12 +130,13 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
 
 
 def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
-    """A verdict with what comes back with the way or the time, in words, if anything: a reason more, and by itself enough for "outside" where nothing
-    was found, or noise of the road alone was suspected, which has no period."""
+    """A verdict with what comes back with the way or the time, in words, if anything: a reason more, and enough for "outside" where nothing
+    was found, where noise of the road alone was suspected, which has no period, and where what is named is DOUBTFUL."""
     if not turns:
         return verdict
     is_silent = verdict.verdict == "nothing" or verdict.verdict == "suspect" and is_road_alone
-    return _said(verdict, "outside" if is_silent else verdict.verdict, turns)
+    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL
+    return _said(verdict, "outside" if is_silent or is_doubtful else verdict.verdict, turns)
 
 
 def _leaves_less(verdict: Verdict, proposal: Discovery) -> bool:
@@ -147,8 +146,11 @@ def _leaves_less(verdict: Verdict, proposal: Discovery) -> bool:
 
 
 def _is_simpler(verdict: Verdict, proposal: Discovery) -> bool:
-    """Whether a force of fewer sizes explains as much as what was found, on fitted drives and on those held out, if any."""
-    fewer = sum(map(len, proposal.terms.values())) < sum(len(effect.sizes) for effect in verdict.effects)
+    """Whether a force of fewer fitted numbers explains as much as what was found, on fitted drives and on those held out, if any."""
+    numbers = sum(map(len, proposal.terms.values()))
+    for term, values in proposal.settings.items():
+        numbers += sum(values[own.name] != own.typical for own in shaping(proposal.place, term) if own.name in values)
+    fewer = numbers < sum(len(effect.sizes) for effect in verdict.effects)
     return fewer and proposal.share > verdict.share - EQUAL and not proposal.held_out_share < verdict.held_out_share - EQUAL
 
 

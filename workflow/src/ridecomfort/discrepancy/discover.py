@@ -65,6 +65,7 @@ def discover(
     uncertain: Mapping[str, float] | None = None,
     most: int = 2,
     seed: int = 0,
+    noise_density: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
     workers: int | None = None,
     options: Mapping | None = None,
     say: Callable[[str], None] = lambda words: None,
@@ -75,7 +76,7 @@ def discover(
     """
     experiment = cars.opened(
         measured, vehicle, calibration=calibration, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
-        bounds=bounds, uncertain=uncertain, among=(), workers=workers, options=options,
+        bounds=bounds, uncertain=uncertain, among=(), noise_density=noise_density, workers=workers, options=options,
     )  # fmt: skip
     each = pool.mapped(pool.workers() if workers is None else workers)
     rung = begin(experiment, cars.start_values(experiment), each)

@@ -26,7 +26,7 @@ SEEN = 1e-3
 class Evidence:
     """Per candidate column: ``statistic`` (studentised score), ``gain`` (fall of the white sum of squares), ``size``
     in units of the column with its standard ``error``, and the share ``absorbed`` by what is free anyway.
-    Per group: ``p_value`` over the whole library, ``p_alone``, and ``group_gain`` of all its columns together."""
+    Per group: ``p_value`` over the whole library, and ``group_gain`` of all its columns together."""
 
     statistic: np.ndarray
     gain: np.ndarray
@@ -34,7 +34,6 @@ class Evidence:
     error: np.ndarray
     absorbed: np.ndarray
     p_value: np.ndarray
-    p_alone: np.ndarray
     group_gain: np.ndarray
     projected: np.ndarray
     """The columns after projection, (column, sample)."""
@@ -96,15 +95,14 @@ def score_test(
     score = np.where(seen, -np.sum(products, axis=1), 0.0)
     size = score / safe
     size = np.where((sign > 0) & (size < 0), 0.0, size)
-    statistics, p_value, p_alone = [], [], []
+    statistics, p_value = [], []
     numbers = [np.unique(block, return_inverse=True)[1] for block in blocks]
     for which, labels in enumerate(numbers):
         sums = -_block_sums(products, labels)
         sums[~seen] = 0.0
-        statistic, by_group, alone = _bootstrap(sums, group, sign, resamples, np.random.default_rng([seed, which]))
+        statistic, by_group = _bootstrap(sums, group, sign, resamples, np.random.default_rng([seed, which]))
         statistics.append(statistic)
         p_value.append(by_group)
-        p_alone.append(alone)
     deviations = _block_sums(products, numbers[0]) + size[:, None] * _block_sums(squares, numbers[0])
     spread = np.sqrt(np.sum(deviations**2, axis=1))
     number = group.max() + 1
@@ -116,7 +114,6 @@ def score_test(
         error=np.where(seen, spread / safe, np.inf),
         absorbed=np.where(power > 0, 1 - left / np.maximum(power, 1e-300), 1.0),
         p_value=np.minimum(len(blocks) * np.min(p_value, axis=0), 1.0),
-        p_alone=np.minimum(len(blocks) * np.min(p_alone, axis=0), 1.0),
         group_gain=gains,
         projected=columns,
         residual=residual,
@@ -131,8 +128,8 @@ def _block_sums(products: np.ndarray, numbers: np.ndarray) -> np.ndarray:
     return sums
 
 
-def _bootstrap(sums, group, sign, resamples, rng) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Statistic of every column, and p-values of every group: over the library and alone."""
+def _bootstrap(sums, group, sign, resamples, rng) -> tuple[np.ndarray, np.ndarray]:
+    """Statistic of every column, and p-values over the library of every group."""
     root = np.sqrt(np.sum(sums**2, axis=1))
     scaled = sums / np.where(root > 0, root, 1.0)[:, None]
     observed = scaled.sum(axis=1)
@@ -142,8 +139,7 @@ def _bootstrap(sums, group, sign, resamples, rng) -> tuple[np.ndarray, np.ndarra
     seen = np.array([_largest(observed[None, group == g], sign[group == g])[0] for g in range(number)])
     over_all = largest.max(axis=1)
     p_value = (1 + np.sum(over_all[:, None] >= seen, axis=0)) / (resamples + 1)
-    p_alone = (1 + np.sum(largest >= seen, axis=0)) / (resamples + 1)
-    return observed, p_value, p_alone
+    return observed, p_value
 
 
 def _largest(statistics: np.ndarray, sign: np.ndarray) -> np.ndarray:

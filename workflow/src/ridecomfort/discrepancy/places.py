@@ -316,7 +316,7 @@ def scale(place: str, term: str) -> float:
 
 def _size(place: str, term: str, expression: str) -> float:
     own, typical = PLACES[place].terms[term], PLACES[place].typical
-    known = {**typical, "wheel": 0, "tanh": np.tanh, "abs": abs, "max": max, "min": min, "cos": np.cos, "sin": np.cos}
+    known = {**typical, "wheel": 0, "tanh": np.tanh, "abs": abs, "max": max, "min": min}
     known |= {state.name: state.typical for state in own.states} | {setting.name: setting.typical for setting in own.settings}
     if "clearance" in known or "rest" in expression:
         known |= {key: 2 * value for key, value in typical.items() if key != "rest"}

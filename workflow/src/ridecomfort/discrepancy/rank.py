@@ -9,7 +9,7 @@ import xarray as xr
 
 from . import car as cars
 from . import pool, suspect, turns
-from .explain import NIL, REPEATS
+from .explain import ASSUMED, NIL, REPEATS
 from .rung import Rung, begin
 from .select import search
 from .signature import signature
@@ -76,7 +76,7 @@ def ranked(
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
     matters = _is_material(selection)
-    of_road = suspect.of_road(experiment, smoothness)
+    of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
     doubts = suspicions(experiment, selection, is_explained, matters and selection.remaining.z > SHARED_Z)
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
@@ -87,7 +87,8 @@ def ranked(
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
     line = turns.line(selection.frame, selection.ladder[-1].fit.residuals, selection.check_frame, selection.check)
     table.attrs["turns"] = "" if line is None else line.words(float(experiment.vehicle["tyre_radius"]))
-    table.attrs["suspected"] = "" if not doubts else "road" if is_road_alone else "data"
+    has_decoys = any(turn.decoy_ranks for turn in selection.rounds)
+    table.attrs["suspected"] = "" if not (doubts or has_decoys) else "road" if is_road_alone and not has_decoys else "data"
     if signatures:
         say("drawing the missing force")
         named = {e.name: {size["parameter"]: size["size"] for size in e.sizes} for e in verdict.effects}
@@ -117,11 +118,12 @@ def suspicions(experiment: cars.Car, selection: Selection, is_explained: bool, i
     reasons += suspect.of_signs(experiment, first.fit.residuals)
     if selection.repeats and not is_explained and not is_left:
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
-    explainable = np.maximum(first.squares - selection.ground, 0.0)[0]
-    index = selection.frame.indices[0]
-    deviation = suspect.road_noise(experiment.replays[index].road.road)
-    if deviation > 0:
-        share = suspect.noise_share(experiment, selection.frame, first.fit.values, deviation, explainable)
+    sites = {experiment.records[index].site: index for index in reversed(selection.frame.indices)}
+    for index in sites.values():
+        row = selection.frame.indices.index(index)
+        explainable = np.maximum(first.squares[row] - selection.ground[row], 0.0)
+        deviation = suspect.road_noise(experiment.replays[index].road.road)
+        share = suspect.noise_share(experiment, index, first.fit.values, deviation, explainable) if deviation > 0 else 0.0
         if share > suspect.CAUSED:
             reasons.append(
                 f"the road holds noise of {1e3 * deviation:.2f} mm between its points, which alone makes "
@@ -189,7 +191,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
         },
     )  # fmt: skip
     return result.assign_attrs(
-        floor=REPEATS if selection.repeats else NIL,
+        floor=REPEATS if selection.repeats else ASSUMED if selection.ground.any() else NIL,
         remaining_band=str(selection.remaining.band or ""),
     )
 

@@ -100,7 +100,7 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Ex
 
 
 def _grounds(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
-    """Whether the floor is known from repeats, and its mean squares on fitted and held-out records; of a condition without repeats, as
+    """Whether the floor is known from repeats, and its mean squares on fitted and held-out records; of a condition without repeats, the mean
     of the others. Repeats differ in their path, so what the model lacks differs too: the floor sinks as the model improves."""
     cleaned = frame.all_cleaned(fit.residuals)
     known = floor.floor(experiment, cleaned)
@@ -109,8 +109,8 @@ def _grounds(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bo
         rows = np.zeros((len(indices), len(experiment.channels)))
         for row, index in zip(rows, indices):
             record = experiment.records[index]
-            found = known.get(record.condition) or next(iter(known.values()), None)
-            row[:] = floor.assumed(record) if found is None else found.power(record.band, record.rate)
+            found = [known[record.condition]] if record.condition in known else list(known.values())
+            row[:] = np.mean([one.power(record.band, record.rate) for one in found], axis=0) if found else floor.assumed(record)
         grounds.append(rows)
     # No floor lies above what a model has reached.
     ground, held_out_ground = np.minimum(grounds[0], floor.squares(experiment, cleaned)), grounds[1]

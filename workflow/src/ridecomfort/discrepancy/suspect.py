@@ -73,12 +73,9 @@ def road_noise(road: xr.Dataset) -> float:
     return float(np.sqrt(max(np.median(density[high] - expected), 0.0) * 0.5 / spacing))
 
 
-def noise_share(experiment: Car, frame: Frame, values, deviation: float, explainable: np.ndarray, seed: int = 0) -> float:
-    """Mean square error that white noise of this ``deviation`` (m) in the road causes, over the explainable one (channel,).
-
-    The largest share over the channels whose explainable error is not small.
-    """
-    index = frame.indices[0]
+def noise_share(experiment: Car, index: int, values, deviation: float, explainable: np.ndarray, seed: int = 0) -> float:
+    """Mean square error that white noise of this ``deviation`` (m) in the road makes in a record, over the explainable one (channel,): the
+    median over the channels that have any; nil where none has."""
     again = experiment.replays[index]
     noise = deviation * np.random.default_rng(seed).standard_normal(again.road.elevation.shape)
     noisy = replace(again, road=replace(again.road, elevation=again.road.elevation + noise))
@@ -90,7 +87,7 @@ def noise_share(experiment: Car, frame: Frame, values, deviation: float, explain
     change = changed - experiment.residual(values, index)
     power = floor.squares(experiment, {index: change})[0]
     kept = explainable > 0
-    return float(np.median(power[kept] / explainable[kept])) if kept.any() else float("inf")
+    return float(np.median(power[kept] / explainable[kept])) if kept.any() else 0.0
 
 
 def of_drives(experiment: Car) -> list[str]:
@@ -130,9 +127,9 @@ def smoothness(experiment: Car, frame: Frame, residuals) -> float:
     return found if experiment.replays[frame.indices[0]].road.surface.smooth else 1.0 - found
 
 
-def of_road(experiment: Car, place: float) -> list[str]:
-    """Words on the road between the points of its file, where the records place it (``smoothness``) otherwise than it was driven."""
-    smooth = experiment.replays[0].road.surface.smooth
+def of_road(experiment: Car, frame: Frame, place: float) -> list[str]:
+    """Words on the road between the points of its file, where the records of a frame place it (``smoothness``) otherwise than it was driven."""
+    smooth = experiment.replays[frame.indices[0]].road.surface.smooth
     if place > SMOOTHER:
         return ["the drives fit a road that is smoother than the points of its file: either these hold noise, or the tyres roll over "
                 "what lies between them (tyre_enveloping)"]

@@ -25,14 +25,12 @@ AROUND = 101
 
 @dataclass(frozen=True)
 class Line:
-    """What comes back every ``period`` in a ``channel``, in ``unit`` m of way or s of time: how often its power is that of its neighbourhood
-    on the fitted records, and on those held out (nan without), and the probability that any line of noise is so strong."""
+    """What comes back every ``period`` in a ``channel``, in ``unit`` m of way or s of time; ``p_value``: the probability that
+    any line of noise is so strong on the fitted records."""
 
     channel: str
     period: float
     unit: str
-    strength: float
-    held_out_strength: float
     p_value: float
 
     def words(self, radius: float) -> str:
@@ -60,13 +58,18 @@ def line(
         for indices in _by_site(frame).values():
             records = [frame.experiment.records[i] for i in indices]
             often, strength = _strength(records, [_white(frame, i, residuals) for i in indices], unit)
+            if not often.size:
+                continue
             heard = np.all([_heard(record, often, unit) for record in records], axis=0)
             seen = (often > 1.0 / longest) & binary_erosion(heard, iterations=AROUND // 2)  # beyond the band there is nothing to compare with
+            if not seen.any():
+                continue
             count += strength.shape[0] * int(seen.sum())
             strength = np.where(seen, strength, 0.0)
             channel, k = np.unravel_index(np.argmax(strength), strength.shape)
             best = max(best, (float(strength[channel, k]), int(channel), float(often[k])))
-        found.append((*best, unit))
+        if best[0] > 0:
+            found.append((*best, unit))
     for strength, channel, often, unit in sorted(found, reverse=True):
         p_value = min(1.0, count * float(np.exp(-strength)))
         if p_value > SURE:
@@ -75,7 +78,7 @@ def line(
         held_out = [own for own in held_out if np.isfinite(own)]
         mean = float(np.mean(held_out)) if held_out else float("nan")
         if not held_out or 3.0 * np.exp(-mean) <= LEVEL:  # the strongest of three bins
-            return Line(channels[channel], 1.0 / often, unit, strength, mean, p_value)
+            return Line(channels[channel], 1.0 / often, unit, p_value)
     return None
 
 
@@ -98,11 +101,13 @@ def _heard(record: Record, often: np.ndarray, unit: str) -> np.ndarray:
 
 def _strength(records: Sequence[Record], white: Sequence[np.ndarray], unit: str) -> tuple[np.ndarray, np.ndarray]:
     """How often (1/m or 1/s, by ``unit``), and the power that comes back so often against that around it, mean over records,
-    (channel, bin); over the way, or the time from the start, that these have in common."""
+    (channel, bin); over the way, or the time from the start, that these have in common. No bins where that is too short."""
     axes = [record.place if unit == "m" else np.arange(len(record.place)) / record.rate for record in records]
     first, last = max(axis[0] for axis in axes), min(axis[-1] for axis in axes)
     spacing = min(float(np.median(np.diff(axis))) for axis in axes)
     even = np.arange(first, last, spacing)
+    if even.size < 2 * AROUND:
+        return np.empty(0), np.empty((len(white[0]), 0))
     power = 0.0
     for axis, series in zip(axes, white):
         there = np.stack([np.interp(even, axis, row) for row in series])
@@ -117,5 +122,7 @@ def _at(frame: Frame, index: int, residuals: Mapping[int, np.ndarray], channel: 
     if not _heard(record, np.array([often]), unit)[0]:
         return float("nan")
     every, strength = _strength([record], [_white(frame, index, residuals)], unit)
+    if not every.size:
+        return float("nan")
     k = int(np.argmin(np.abs(every - often)))
     return float(strength[channel, max(k - 1, 0) : k + 2].max())

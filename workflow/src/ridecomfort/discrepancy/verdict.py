@@ -120,7 +120,7 @@ def something_left(selection: Selection) -> bool:
 def _answered(selection: Selection) -> list[str]:
     """Names of candidates that make surely something better, on fitted drives and on those held out, where nothing was accepted or
     repeated: what is left is more than noise."""
-    if selection.repeats or selection.accepted:
+    if selection.repeats or selection.accepted or not selection.rounds:
         return []
     turn = selection.rounds[-1]
     p_value = dict(zip(turn.names, turn.p_value))
@@ -201,7 +201,8 @@ def judge(
     if decoys:
         reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
     if wrong or decoys or suspicions:
-        return Verdict("suspect", tuple(effects), (*reasons, *suspicions), balance.share, balance.held_out)
+        said = (*reasons, *suspicions)
+        return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
     reasons += _removed(balance) if found else _unfound(selection, len(candidates))
     if found and is_little or balance.is_left and not effects:
         kind = "outside"
