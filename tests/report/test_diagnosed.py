@@ -31,7 +31,7 @@ def test_every_verdict_is_said_with_its_reasons_and_what_to_do_next(kind):
     assert list(tables) == list(catalogue.DIAGNOSIS_TABLES)
     said = words(tables["verdict"])
     assert kind in said and all(reason[1:] in said for reason in verdict["reasons"])
-    assert rows(tables["verdict"])[-1 - (kind == "outside" and bool(verdict["effects"]))]["what"] == "next"
+    assert rows(tables["verdict"])[-1]["what"] == "next"
     assert all(form(each) for each in tables.values() for form in table.WRITERS.values())
 
 
@@ -56,6 +56,23 @@ def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_fr
     said = words(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside"}))["verdict"])
     assert "suspension friction takes 80 % on the fitted drives, 75 % on drives held out" in said
     assert "effects: [suspension_friction]" in said
+
+
+def test_what_does_not_help_on_drives_held_out_is_not_to_be_gone_on_from():
+    useless = {**made_up.VERDICT, "verdict": "outside", "held_out_share": -0.004}
+    assert "in the library" not in [row["what"] for row in rows(diagnosed.tables(made_up.diagnosis(useless))["verdict"])]
+
+
+def test_a_road_that_fits_better_when_it_is_interpolated_otherwise_comes_before_all_else():
+    found = made_up.diagnosis()
+    found.ranking.attrs["road"] = "the drives fit the road better with linear interpolation between its points (road: options: interpolation: linear)"
+    assert "next First set road: options: interpolation: linear in the site file" in words(diagnosed.tables(found)["verdict"])
+
+
+def test_names_beside_a_form_of_ones_own_are_said_with_a_caution():
+    own = replace(made_up.diagnosis(), model="discovered")
+    assert "take out again what does not lower the error ladder" in words(diagnosed.tables(own)["verdict"])
+    assert "take out again" not in words(diagnosed.tables(made_up.diagnosis())["verdict"])
 
 
 def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_configuration():

@@ -346,7 +346,7 @@ def _size(size: Size, value: float, interval: tuple[float, float]) -> dict:
 
 
 def _percent(share: float) -> str:
-    return f"{100 * share:.0f} %" if np.isfinite(share) else "an unknown share"
+    return f"{round(100 * share)} %" if np.isfinite(share) else "an unknown share"
 
 
 def plain(value):

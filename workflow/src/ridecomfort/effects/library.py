@@ -58,7 +58,8 @@ def choose(effects: Iterable[str] | Mapping[str, Mapping[str, float]], folder=No
     for name in sorted(sizes):
         if name not in entries:
             close = difflib.get_close_matches(str(name), entries, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(sorted(entries))}"
+            elsewhere = "" if folder else "; effects_folder names no folder with others"
+            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(sorted(entries))}{elsewhere}"
             raise InputError(f"unknown effect {name!r}; {hint}")
         effect = entries[name].effect
         known = [parameter.name for parameter in effect.parameters]

@@ -28,7 +28,7 @@ DIAMOND = {**DOT, "marker": "D", "color": style.REFERENCE, "markeredgecolor": "b
 OBJECTIONS = {
     "lies outside what is plausible": "size not plausible",
     "not worth its parameters": "not worth its sizes (BIC)",
-    "does not improve the drives held out": "not better held out",
+    "does not improve the drives held out": "not surely better held out",
     "of the explainable error": "too little",
 }
 """How objections of the search are said in a few words, by a part of each."""

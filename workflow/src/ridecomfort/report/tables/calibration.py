@@ -177,7 +177,7 @@ def calibrated(found: Difference) -> Table:
         rows.append(("none", "", "", *(None,) * 6, ""))
     notes.append(
         "At a bound the data ask for more than the bounds allow, or the model lacks something that the parameter stands in for. Not identified: "
-        "the drives do not tell it, and another value would do."
+        "the drives do not tell it, and another value would do. Intervals hold where the model lacks nothing."
     )
     notes += filter(None, [found.standin_note()])
     caption = f"{catalogue.DIFFERENCE_TABLES['calibrated']} Model: {found.model}."

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ...discrepancy.verdict import LITTLE
+from ...effects import library
 from ...effects.contract import PORTS
 from ...study import BASE, JOIN
 from .. import catalogue
@@ -35,6 +36,16 @@ NEXT = {
     "nothing": "Nothing is to be switched on.",
     "suspect": "Put the data right first, then diagnose again.",
 }
+
+
+ROAD_FIRST = (
+    "First set road: options: interpolation: {other} in the site file, which the drives fit better, and diagnose again, unless the road's "
+    "file is known to be meant otherwise. Then: "
+)
+"""What comes before anything else where the road may be another between its points."""
+
+STAND_IN = " The model holds a form of its own, which may not be exact: take out again what does not lower the error ladder on drives held out."
+"""What is added to names beside a proposed form, for the rest of which they may stand in."""
 
 
 def _promise(proposal: Mapping) -> str:
@@ -71,31 +82,35 @@ def verdict(found: Diagnosis) -> Table:
     beyond, is_form = said.get("beyond_bounds"), bool(proposal.get("form"))
     is_file_alone = bool(beyond) and said["verdict"] == "outside" and not said["effects"] and not is_form
     first = FILE_ALONE if is_file_alone else SAID[said["verdict"]].format(names=names)
+    other = next((word for word in ("linear", "cubic") if f"interpolation: {word})" in found.ranking.attrs.get("road", "")), "")
+    before = ROAD_FIRST.format(other=other) if other and said["verdict"] != "suspect" else ""
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [("reason", _sentence(reason)) for reason in said["reasons"]]
     if beyond:
         rows.append(("the vehicle", _farther(beyond)))
+    helps = said["held_out_share"] is None or said["held_out_share"] > 0
+    if said["verdict"] == "outside" and said["effects"] and helps:
+        alone = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
+        held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
+        checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
+        rows.append(
+            ("in the library", f"{names} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is "
+             f"missing. To go on from them instead: effects: [{alone}].")
+        )  # fmt: skip
     what = "next, after the vehicle" if beyond else "next"
     if is_form:
         rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
         rows.append(("in it", _sentence(PORTS[proposal["port"]].meaning)))
         rows.append(("it removes", _promise(proposal)))
         file = str(Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py"))
-        rows.append((what, NEXT["outside"].format(file=file, keys=keys)))
+        rows.append((what, before + NEXT["outside"].format(file=file, keys=keys)))
     elif is_file_alone:
-        rows.append((what, "Nothing is to be switched on."))
+        rows.append((what, before + "Nothing is to be switched on."))
     elif said["verdict"] == "outside":
-        rows.append((what, "No form was found that would take the error away; see where it lies (compare)."))
+        rows.append((what, before + "No form was found that would take the error away; see where it lies (compare)."))
     else:
-        rows.append((what, NEXT[said["verdict"]].format(keys=keys)))
-    if said["verdict"] == "outside" and said["effects"]:
-        keys = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
-        held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
-        checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
-        rows.append(
-            ("in the library", f"{names} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is "
-             f"missing. To go on from them instead: effects: [{keys}].")
-        )  # fmt: skip
+        caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
+        rows.append((what, before + NEXT[said["verdict"]].format(keys=keys) + caution))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)
