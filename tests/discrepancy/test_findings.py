@@ -55,6 +55,6 @@ def test_a_band_begins_where_its_signal_is_judged_from(located):
 
 
 def test_every_condition_has_its_words():
-    known = np.array(["speed", "curvature", "lateral_acceleration", "suspension_velocity", "tyre_velocity"])
+    known = np.array(["speed", "curvature", "lateral_acceleration", "longitudinal_acceleration", "suspension_velocity", "tyre_velocity"])
     assert set(known) == set(findings.CONDITIONS)
     assert findings.CONDITIONS["curvature"][0](0.01) == "radii below 100 m"

@@ -37,6 +37,9 @@ CONDITIONS: dict[str, tuple[Callable[[float], str], Callable[[float], str]]] = {
     "lateral_acceleration": (
         lambda a: f"lateral accelerations above {a:.1f} m/s²", lambda a: f"lateral accelerations below {a:.1f} m/s²",
     ),
+    "longitudinal_acceleration": (
+        lambda a: f"braking or driving above {a:.1f} m/s²", lambda a: f"braking or driving below {a:.1f} m/s²",
+    ),
     "suspension_velocity": (
         lambda v: f"suspension velocities above {v:.2f} m/s", lambda v: f"suspension velocities below {v:.2f} m/s",
     ),

@@ -215,8 +215,9 @@ def _condition_series(drive: Drive) -> dict[str, np.ndarray]:
     found = {"speed": speed}
     if "yaw_rate" in drive.series:
         found["curvature"] = np.abs(_slow(drive.series["yaw_rate"], drive.rate)) / np.maximum(speed, 1.0)
-    if "a_y" in drive.series:
-        found["lateral_acceleration"] = np.abs(_slow(drive.series["a_y"], drive.rate))
+    for name, signal in (("lateral_acceleration", "a_y"), ("longitudinal_acceleration", "a_x")):
+        if signal in drive.series:
+            found[name] = np.abs(_slow(drive.series[signal], drive.rate))
     for name in ("suspension_velocity", "tyre_velocity"):
         if name in drive.series:
             found[name] = np.sqrt(np.maximum(_slow(drive.series[name] ** 2, drive.rate), 0.0))

@@ -1,4 +1,4 @@
-"""The error by speed, curvature, lateral acceleration, suspension and tyre velocity; and transfer functions."""
+"""The error by speed, curvature, acceleration along and across, suspension and tyre velocity; and transfer functions."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ AXES = {
     "speed": ("speed [km/h]", 3.6),
     "curvature": ("curvature of the path [1/km]", 1000.0),
     "lateral_acceleration": ("lateral acceleration [m/s²]", 1.0),
+    "longitudinal_acceleration": ("braking or driving [m/s²]", 1.0),
     "suspension_velocity": ("suspension velocity, rms [m/s]", 1.0),
     "tyre_velocity": ("tyre velocity, rms [m/s]", 1.0),
 }
@@ -42,7 +43,7 @@ def conditions(study: Difference, site: str) -> Figure:
     """Error above the floor in percent of the signal's power under the same condition, a panel each condition, a line each signal."""
     found = next(each for each in study.sites if each.name == site).comparison
     names = [name for name in AXES if name in found["condition"].values]
-    drawn = style.figure(style.DOUBLE, 5.6)
+    drawn = style.figure(style.DOUBLE, 5.8)
     panels = drawn.subplots(2, 3, sharey=True).ravel()
     highest = LARGEST
     for axes, name in zip(panels, names):
@@ -67,7 +68,7 @@ def conditions(study: Difference, site: str) -> Figure:
     for axes in (panels[0], panels[3]):
         axes.set_ylabel("error above the floor\n[% of the signal's power there]")
     handles, labels = panels[0].get_legend_handles_labels()
-    panels[-1].legend(handles, labels, loc="center", ncols=2, title="signal")
+    drawn.legend(handles, labels, loc="outside upper center", ncols=len(labels))
     return drawn
 
 
