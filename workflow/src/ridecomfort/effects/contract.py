@@ -35,6 +35,13 @@ PORTS: Mapping[str, Port] = MappingProxyType(
             "extra height in m that a tyre feels; height of the road at (u, v), which "
             "`vehicle.ground.height(surface, elevation, u, v)` gives elsewhere; turn of the wheel in rad",
         ),
+        "kinematics": Port(
+            ("wheel", "deflection"),
+            ("recession", "toe"),
+            True,
+            "how the links lead a wheel that is compressed by `deflection` from rest (m): how far it moves back per "
+            "compression (m/m), and the angle in rad by which it is turned to the left",
+        ),
         "suspension": Port(
             ("wheel", "deflection", "velocity", "stiffness", "damping", "force_x", "force_y"),
             ("force",),

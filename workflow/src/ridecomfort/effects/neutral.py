@@ -19,6 +19,12 @@ def road_port(wheel, u, v, height, rotation, surface, elevation, parameters, sta
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
+def kinematics_port(wheel, deflection, parameters, states, slopes):
+    """How far the wheel moves back per compression, in m/m, and the angle in rad by which the links turn it to the left."""
+    return 0.0, 0.0
+
+
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def suspension_port(wheel, deflection, velocity, stiffness, damping, force_x, force_y, parameters, states, slopes):
     """Extra force in N between body and wheel, positive pushing them apart."""
     return 0.0

@@ -22,6 +22,7 @@ from ridecomfort.effects.neutral import (
     body_port,
     drive_port,
     flexing_port,
+    kinematics_port,
     road_port,
     steer_port,
     suspension_port,
@@ -105,7 +106,7 @@ def drive(
     """
     body = np.zeros((5, 6))
     feels = np.zeros((2, 3))
-    wheel = np.zeros((13, 4))
+    wheel = np.zeros((16, 4))
     ground = np.zeros((4, 4))
     states = np.zeros((4, state_count))
     return _drive(
@@ -113,7 +114,7 @@ def drive(
         sensor, parameters, record, sensed, feels[0], feels[1],
         body[0], body[1], body[2], body[3], body[4],
         wheel[0], wheel[1], wheel[2], wheel[3], wheel[4], wheel[5], wheel[6], wheel[7], wheel[8], wheel[9],
-        wheel[10], wheel[11], wheel[12], ground, states[0], states[1], states[2], states[3],
+        wheel[10], wheel[11], wheel[12], wheel[13], wheel[14], wheel[15], ground, states[0], states[1], states[2], states[3],
     )  # fmt: skip
 
 
@@ -125,7 +126,7 @@ def _drive(
     sensor, parameters, record, sensed, felt, rates,
     pose, pose_rate, speeds, change, now,
     wheel_z, wheel_v, wheel_change, spin, spin_change, rotation, force_x, force_y, load, torque,
-    suspension, travel_rate, side_push, ground, states, slopes, slopes_before, slopes_earlier,
+    suspension, travel_rate, recession, toe, fore_push, side_push, ground, states, slopes, slopes_before, slopes_earlier,
 ):  # fmt: skip
     half = 0.5 * step
     _settle(
@@ -159,15 +160,16 @@ def _drive(
         slope_x, slope_y = _plane(car, ground[1])
         _vertical(
             car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
-            force_x, force_y, side_push, parameters, states, slopes, load, suspension, travel_rate,
+            force_x, force_y, fore_push, side_push, parameters, states, slopes, load, suspension, travel_rate,
+            recession, toe,
         )  # fmt: skip
         _planar(
-            car, wheels, now, travel_rate, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
+            car, wheels, now, travel_rate, recession, toe, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
             friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
         )  # fmt: skip
         flex_x, flex_y, flex_z = _accelerate(
-            car, wheels, pose, now, slope_y, change, force_x, force_y, torque, suspension,
-            sensor, parameters, states, slopes,
+            car, wheels, pose, now, slope_y, change, wheel_change, recession, force_x, force_y, torque, suspension,
+            fore_push, sensor, parameters, states, slopes,
         )  # fmt: skip
 
         sensor_acceleration(felt, sensor, pose, now, change)
@@ -285,9 +287,10 @@ def _feel(
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _vertical(
     car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
-    force_x, force_y, side_push, parameters, states, slopes, load, suspension, travel_rate,
+    force_x, force_y, fore_push, side_push, parameters, states, slopes, load, suspension, travel_rate,
+    recession, toe,
 ):  # fmt: skip
-    """Load of every tyre, force of every suspension (N, positive pushing apart), motion of every wheel."""
+    """Load of every tyre, force of every suspension (N, positive pushing apart), motion of every wheel, way of its links."""
     half = 0.5 * step
     per_step = 1.0 / (6.0 * step)
     rest = pose[Z] - car.cg_height + car.tyre_radius
@@ -304,6 +307,8 @@ def _vertical(
             parameters, states, slopes,
         )  # fmt: skip
         held -= wheels[i, DAMPING] * corner_speed + wheels[i, SCRUB] * side_push[i]
+        recession[i], toe[i] = kinematics_port(i, travel, parameters, states, slopes)
+        held += recession[i] * fore_push[i]
 
         deflection = ground[1, i] + car.tyre_radius - wheel_z[i]
         damper = car.tyre_damping * min(max(deflection * PER_CONTACT_DEPTH, 0.0), 1.0)
@@ -331,7 +336,7 @@ def _vertical(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _planar(
-    car, wheels, now, travel_rate, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
+    car, wheels, now, travel_rate, recession, toe, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
     friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
 ):  # fmt: skip
     """Driving torque and force in level axes of every wheel; their spin is advanced.
@@ -346,7 +351,9 @@ def _planar(
         along = now[V_X] - wheels[i, Y] * now[YAW_RATE] - car.pitch_arm * now[PITCH_RATE]
         across = now[V_Y] + wheels[i, X] * now[YAW_RATE] + car.cg_height * now[ROLL_RATE]
         across += wheels[i, SCRUB] * travel_rate[i]
+        along -= recession[i] * travel_rate[i]
         c, d = (cosine, sine) if i < 2 else (1.0, 0.0)
+        c, d = c - d * toe[i], d + c * toe[i]
         rolling = along * c + across * d
         sliding = across * c - along * d
         per_speed = 1.0 / max(abs(rolling), MINIMUM_SPEED)
@@ -376,11 +383,12 @@ def _planar(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _accelerate(
-    car, wheels, pose, now, slope_y, change, force_x, force_y, torque, suspension,
-    sensor, parameters, states, slopes,
+    car, wheels, pose, now, slope_y, change, wheel_change, recession, force_x, force_y, torque, suspension,
+    fore_push, sensor, parameters, states, slopes,
 ):  # fmt: skip
     """Time derivatives of the speeds from the forces and moments on the body, through the mass matrix.
 
+    ``fore_push``: with what the links push forward, for the next step, where it lifts the body over wheels that recede.
     Returns how the body's flexing accelerates the sensor (m/s2).
     """
     motion = BodyMotion(
@@ -392,15 +400,19 @@ def _accelerate(
     )  # fmt: skip
     x, y, z, roll, pitch, yaw = body_port(motion, parameters, states, slopes)
     for i in range(4):
-        x += force_x[i]
+        # A wheel that moves back as it rises pushes the body forward by its inertia.
+        rising = wheel_change[i] - change[V_Z] + wheels[i, X] * change[PITCH_RATE] - wheels[i, Y] * change[ROLL_RATE]
+        push = force_x[i] + recession[i] * wheels[i, MASS] * rising
+        fore_push[i] = push - wheels[i, MASS] * (change[V_X] - car.pitch_arm * change[PITCH_RATE])
+        x += push
         y += force_y[i]
         z += suspension[i]
         # Where the load passes the centre of gravity: tilted with the body down to the link, with the road below.
         aside = wheels[i, Y] + wheels[i, ROLL_ARM] * pose[ROLL] + wheels[i, ROLL_CENTRE] * slope_y
         ahead = wheels[i, X] - car.pitch_arm * pose[PITCH]
         roll += car.cg_height * force_y[i] + aside * suspension[i]
-        pitch -= car.pitch_arm * force_x[i] + torque[i] + ahead * suspension[i]
-        yaw += wheels[i, X] * force_y[i] - wheels[i, Y] * force_x[i]
+        pitch -= car.pitch_arm * push + torque[i] + ahead * suspension[i]
+        yaw += wheels[i, X] * force_y[i] - wheels[i, Y] * push
     v_x, v_y, r = now[V_X], now[V_Y], now[YAW_RATE]
     momentum_x = car.total_mass * v_x - car.unsprung_mass * car.pitch_arm * now[PITCH_RATE]
     momentum_y = car.total_mass * v_y + car.unsprung_x * r + car.unsprung_roll * now[ROLL_RATE]
