@@ -75,7 +75,7 @@ def propose(
 ) -> Proposal:  # fmt: skip
     """Test ``columns`` on the white residuals of the fitted records; ``free``: white directions that are fitted anyway.
 
-    All sizes of a candidate in one shape count together and each alone.
+    All sizes of a candidate in one shape count together and each alone, two that may be of either sign against one another as well.
     """
     rows, group, sign, labels = [], [], [], []
     white = iter(frame.flats([column for own in columns.values() for column in own.values()]))
@@ -83,7 +83,9 @@ def propose(
         parts, keys = [next(white) for _ in own], list(own)
         signs = [size.sign for size in candidates[job[0]].sizes if size.key in own]
         if len(parts) > 1:
-            parts, signs, keys = [*parts, sum(parts)], [*signs, int(all(signs))], [*keys, "all"]
+            if len(parts) == 2 and not any(signs):  # such as front and rear, which may well be of opposite signs
+                parts, signs, keys = [*parts, parts[0] - parts[1]], [*signs, 0], [*keys, "apart"]
+            parts, signs, keys = [*parts, sum(parts[: len(own)])], [*signs, int(all(signs))], [*keys, "all"]
         rows += parts
         sign += signs
         group += [number] * len(parts)
@@ -101,7 +103,7 @@ def propose(
     names = tuple(dict.fromkeys(name for name, _ in jobs))
     own = {name: [g for g, job in enumerate(jobs) if job[0] == name] for name in names}
     best = {name: max(own[name], key=lambda g: found.group_gain[g]) for name in names}
-    shown = [(k, key) for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key != "all"]
+    shown = [(k, key) for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key in columns[job]]
     return Proposal(
         names=names,
         p_value=np.array([p_value[own[name]].min() for name in names]),

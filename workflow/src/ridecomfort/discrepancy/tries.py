@@ -30,6 +30,9 @@ HUGE = 0.2
 CYCLES = 8
 """Most such repetitions."""
 
+DOUBLINGS = 4
+"""Most times that the way of a first refit is doubled."""
+
 SCALES = 0.05
 """Share of the power of a shape's column that sizes must leave: below it a shape is a size under another name."""
 
@@ -67,9 +70,32 @@ class Tries:
                 before = float(np.sum(rung.frame.flat(base.residuals) ** 2))
                 does = inside.loss - fit.loss < CHANCE or before - inside.loss > CONTENT * (before - fit.loss)
                 fit = inside if does else fit
-            return self._trial(candidate, shape, fit)
+            return self._trial(candidate, shape, self._lengthened(fit, sizes))
         except (InputError, ValueError):
             return None
+
+    def _lengthened(self, fit: Fit, sizes: Sequence[Size]) -> Fit:
+        """A fit whose way from the rung is doubled while that is more likely.
+
+        The loss is white by the error of before. Where that was large it weighs little, and elsewhere much, so that the
+        fit of an effect that makes other signals worse until parameters follow stops at a tenth of its size.
+        """
+        frame, before = self.rung.frame, self.rung.fit.values
+        reached = refit.information(frame, fit.residuals)
+        for _ in range(DOUBLINGS):
+            way = {size: fit.values[size.key] - before.get(size.key, size.neutral) for size in sizes}
+            longer = {size.key: float(np.clip(fit.values[size.key] + way[size], size.lower, size.upper)) for size in sizes}
+            values = {**fit.values, **longer}
+            try:
+                residuals = exp.simulate(self.rung.experiment, values, frame.indices)
+            except (InputError, ValueError):
+                break
+            likely = refit.information(frame, residuals)
+            if likely < reached + refit.WORTHWHILE:
+                break
+            fit = replace(fit, values=values, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
+            reached = likely
+        return fit
 
     def settled(self, trial: Trial, gained: float | None = None) -> Trial:
         """A refit that gains much repeated in the frame of its own residuals while the error falls by much; ``gained``: since its
