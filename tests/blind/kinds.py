@@ -24,7 +24,7 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "tyre_hysteresis", "tyre_oval", "damper_cavitation", "frequency_selective_damper", "joint_backlash", "orifice_damping",
            "powertrain_roll", "propshaft_imbalance", "rolling_radius_by_load", "side_load_friction", "slab_curl",
            "stroke_dependent_damper", "subframe_resonance", "tank_slosh", "toe_angle",
-           "adaptive_damper", "air_spring_volume", "antiroll_bar_slack", "bump_steer", "damper_foaming", "link_inertance",
+           "adaptive_damper", "air_spring_volume", "antiroll_bar_slack", "damper_foaming", "link_inertance",
            "loose_cargo", "panhard_jacking", "pulsing_brake_drag", "roll_centre_migration", "sidewall_bottoming", "steering_play",
            "trailer_sway", "tyre_payne", "tyre_sealant", "upper_body_racking", "wet_film", "wheel_wobble",
            "active_body_damping", "broken_coil", "engine_misfire", "force_toe", "hydraulic_bushing", "inertia_valve",
@@ -33,7 +33,7 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
-          "breakaway_friction": "suspension_friction", "tyre_flat_spot": "tyre_runout"}  # fmt: skip
+          "breakaway_friction": "suspension_friction", "bump_steer_by_load": "bump_steer", "tyre_flat_spot": "tyre_runout"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
 
 OF_MEASUREMENT = ("imu_lever_arm", "road_bank", "road_grade", "sensor_bandwidth")

@@ -90,7 +90,7 @@ def score_test(
     residual = without(residual, directions).astype(columns.dtype)
     squares, products = columns**2, columns * residual
     left = np.sum(squares, axis=1)
-    seen = left > SEEN**2 * np.maximum(power, 1e-300)
+    seen = left > SEEN**2 * power
     safe = np.where(seen, left, 1.0)
     score = np.where(seen, -np.sum(products, axis=1), 0.0)
     size = score / safe
@@ -112,7 +112,7 @@ def score_test(
         gain=size**2 * left * seen,
         size=size,
         error=np.where(seen, spread / safe, np.inf),
-        absorbed=np.where(power > 0, 1 - left / np.maximum(power, 1e-300), 1.0),
+        absorbed=1 - left / np.where(power > 0, power, 1.0),
         p_value=np.minimum(len(blocks) * np.min(p_value, axis=0), 1.0),
         group_gain=gains,
         projected=columns,

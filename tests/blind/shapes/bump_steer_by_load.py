@@ -9,7 +9,7 @@ LEVEL = 3.0
 """s; over which the load that belongs to the ride height is taken."""
 
 effect = Effect(
-    name="bump_steer",
+    name="bump_steer_by_load",
     sentence=(
         "Tie rod and arms swing about different centres, so that a wheel turns about its steering axis as its spring is "
         "compressed: bumps under one side steer the car, bumps under both sides only toe the wheels."
