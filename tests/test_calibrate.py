@@ -116,6 +116,25 @@ def test_a_truth_beyond_the_bounds_ends_at_the_bound_in_words(road, nominal):
     assert value(found, "spring_stiffness_front", "initial") == 30000.0  # nominal 28000, clipped
     assert value(found, "spring_stiffness_front") == pytest.approx(30000.0, rel=1e-3)
     assert "spring_stiffness_front is at its lower bound" in found.attrs["remarks"]
+    assert "spring_stiffness_front is 28000 in the vehicle's file, outside of its bounds 30000 to 60000" in found.attrs["remarks"]
+
+
+def test_a_fit_of_what_no_signal_shows_ends_where_it_began(road, nominal):
+    drives = measured(road, nominal, count=1)
+    found = calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, parameters=["tyre_friction"], restarts=0)
+    assert value(found, "tyre_friction") == nominal["tyre_friction"] and found.sizes["iteration"] == 0
+
+
+def test_the_values_of_a_sequence_that_is_left_out_are_refused(road, nominal):
+    drives = measured(road, nominal, count=1)
+    with pytest.raises(InputError, match="sequence, which is left out"):
+        calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, applied="sequence", sequence=False)
+
+
+def test_a_roll_centre_below_the_road_has_bounds_in_order(road, nominal):
+    low = nominal.replace(roll_centre_height_front=-0.1)
+    bounds = calibrate._bounds(low, ["roll_centre_height_front"], {})
+    assert bounds["roll_centre_height_front"] == [-0.2, -0.05]
 
 
 def test_chosen_starts_lead_to_the_same_fit_and_are_kept(road, nominal):
@@ -251,6 +270,24 @@ def test_a_collinear_pair_is_named():
     known = identifiability.assess(jacobian, 0.01 * rng.standard_normal((1, 2000)), np.arange(2000) // 50)
     (words,) = identifiability.remarks(["a", "b", "c"], np.full(3, 0.5), known)
     assert words.startswith("a and b are hard to tell apart (correlation -1.00)")
+
+
+@pytest.mark.parametrize("other", [0.0, 1e-6])
+def test_what_only_shows_as_a_sum_is_not_identified(other):
+    rng = np.random.default_rng(0)
+    first, third = rng.standard_normal((2, 2000))
+    jacobian = np.stack([first, 2.0 * first * (1.0 + other), third], axis=1)[None]
+    known = identifiability.assess(jacobian, 0.01 * rng.standard_normal((1, 2000)), np.arange(2000) // 50)
+    assert np.isinf(known.half_width[:2]).all() and known.half_width[2] < 0.01
+    assert identifiability.verdict(0.5, known.half_width[0]) == "not identified"
+
+
+def test_many_that_are_alike_are_named_together():
+    covariance = np.full((5, 5), 0.95) + 0.05 * np.eye(5)
+    covariance[4, :4] = covariance[:4, 4] = 0.0
+    known = identifiability.Knowledge(covariance, np.full(5, 0.1), np.ones(5), np.ones((5, 1)), 40)
+    (words,) = identifiability.remarks(["a", "b", "c", "d", "e"], np.full(5, 0.5), known)
+    assert words == "a, b, c and d are hard to tell apart (correlation up to +0.95)"
 
 
 def test_an_effect_is_calibrated_along_with_the_vehicle(nominal):

@@ -35,12 +35,12 @@ def diagnosed(car_file, tmp_path_factory):
     store.write(record.stack(drives), folder / "measured.nc", title="drives")
     config = {
         "sites": ["trial"], "fitted_on": ["trial"], "effects": {}, "effects_folder": None, "bounds": {}, "uncertain": cars.UNCERTAIN, "noise_density": {}, "seed": 0,
-        "workers": 1, "among": AMONG, "simulation": {"step": 0.001, "rate": 100},
+        "among": AMONG, "simulation": {"step": 0.001, "rate": 100},
     }  # fmt: skip
     subprocess.run(
         [sys.executable, "-m", "ridecomfort.steps.diagnose", "--roads", folder / "road.nc", "--measured", folder / "measured.nc",
          "--vehicle", car_file, "--calibration", "--config", json.dumps(config),
-         "--ranking", folder / "ranking.nc", "--verdict", folder / "verdict.json"],
+         "--ranking", folder / "ranking.nc", "--verdict", folder / "verdict.json", "--workers", "1"],
         check=True,
     )  # fmt: skip
     return trial.truth, store.read(folder / "ranking.nc"), json.loads((folder / "verdict.json").read_text())

@@ -47,6 +47,16 @@ def test_without_repeats_it_may_be_assumed_from_the_instruments():
     assert "assumed from the noise densities" in found.attrs["floor"] and "no drive was repeated" in found.attrs["floor"]
 
 
+@pytest.mark.parametrize(("cut_off", "bandwidth"), [(20.0, 19.2), (45.0, 44.2)])
+def test_noise_that_was_low_passed_away_is_no_floor(cut_off, bandwidth):
+    """As left of noise of a density d by an instrument of 50 or 100 Hz, its records low-passed below half of that."""
+    compared = comparison(repeats=1)[1].isel(signal=[0, 1]).assign_coords(drive=["one"], signal=["a_z", "a_x"])
+    compared = compared.assign(cut_off=("drive", [cut_off]))
+    found = explain(compared, {"one": {"accelerometer": 0.01, "gyroscope": 0.002}})
+    expected = 0.01 * np.sqrt([bandwidth, bandwidth - LOWEST_OF_DRIVER["a_x"] + LOWEST])
+    assert found["floor_rmse"].values.ravel() == pytest.approx(expected, rel=0.01)
+
+
 def test_repeats_know_better_than_a_data_sheet():
     compared = comparison()[1].assign_coords(drive=["one", "two", "three"])
     found = explain(compared, {"one": {"accelerometer": 10.0, "gyroscope": 10.0}})

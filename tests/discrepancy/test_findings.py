@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from ridecomfort import vocabulary
 from ridecomfort.discrepancy import findings, locate
 
 from .drives import put_between_1400_and_1600_m
@@ -54,7 +55,11 @@ def test_a_band_begins_where_its_signal_is_judged_from(located):
     assert findings.words(slow)[0].startswith("a_x, 1.5-2.5 Hz")
 
 
-def test_every_condition_has_its_words():
-    known = np.array(["speed", "curvature", "lateral_acceleration", "longitudinal_acceleration", "suspension_velocity", "tyre_velocity"])
-    assert set(known) == set(findings.CONDITIONS)
+def test_every_condition_that_is_located_has_its_words():
+    """The conditions of a drive that holds whatever one may be made of."""
+    rng = np.random.default_rng(0)
+    held = (*vocabulary.SIGNALS, "v_x", "suspension_velocity", "tyre_velocity", "road_heave", "road_tilt")
+    series = {name: 10.0 + rng.standard_normal(1000) for name in held}
+    drive = locate.Drive(100.0, *[np.zeros((6, 1000))] * 5, series, None)
+    assert set(locate._condition_series(drive)) == set(findings.CONDITIONS)
     assert findings.CONDITIONS["curvature"][0](0.01) == "radii below 100 m"

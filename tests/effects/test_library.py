@@ -7,9 +7,12 @@ import io
 import pandas as pd
 import pytest
 
+from ridecomfort import simulate
 from ridecomfort.__main__ import main
 from ridecomfort.effects import library, table
 from ridecomfort.errors import InputError
+
+from tests.vehicle.roads import road
 
 EFFECT = (
     "from ridecomfort.effects.contract import Effect, Parameter\n"
@@ -47,6 +50,30 @@ def test_refuses_what_is_not_an_effect_of_its_own(tmp_path, file, change, proble
     with pytest.raises(InputError, match=problem) as raised:
         library.find(tmp_path)
     assert f"{file}.py" in str(raised.value)
+
+
+def test_refuses_a_function_that_does_not_take_what_its_port_sees(tmp_path):
+    put(tmp_path, "mine", port="suspension")
+    with pytest.raises(InputError, match=r"mine.py: act takes \(vehicle, share\), expected \(wheel, deflection, .*, share\)"):
+        library.find(tmp_path)
+
+
+def test_refuses_a_name_that_python_cannot_say(tmp_path):
+    put(tmp_path, "my-effect")
+    with pytest.raises(InputError, match="letters, digits and _"):
+        library.find(tmp_path)
+
+
+@pytest.mark.parametrize(("returned", "said"), [
+    ("share * stifness", "NameError: name 'stifness' is not defined"),
+    ("share, 0.0, 0.0", "expected to return force"),
+])  # fmt: skip
+def test_a_function_that_numba_does_not_compile_is_one_line(tmp_path, car, returned, said):
+    text = EFFECT.format(name="mine", port="suspension").replace("vehicle, share", "wheel, deflection, velocity, stiffness, damping, force_x, force_y, share")
+    (tmp_path / "mine.py").write_text(text.replace("return vehicle", f"return {returned}"))
+    with pytest.raises(InputError) as raised:
+        simulate.run(road(60.0), car, speed=10.0, effects=["mine"], effects_folder=tmp_path)
+    assert "mine.py: act cannot be compiled: " in str(raised.value) and said in str(raised.value) and "\n" not in str(raised.value)
 
 
 @pytest.mark.parametrize("text", ["effect = 1\n", "import nothing_of_that_name\n", "def act(:\n"])

@@ -52,6 +52,17 @@ def test_a_proposed_form_is_shown():
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
 
 
+@pytest.mark.parametrize(("held_out", "first", "second"), [(0.72, "Go on from", "look at the form"), (0.78, "Look at", "go on from")])
+def test_the_better_of_library_and_proposed_form_comes_first(held_out, first, second):
+    proposal = {
+        "name": "discovered", "form": "80 N tanh(velocity / 0.005)", "place": "strut", "port": "suspension", "share": 0.70,
+        "held_out_share": held_out, "p_value": 0.0015,
+    }  # fmt: skip
+    tables = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside", "proposal": proposal}))
+    said = rows(tables["verdict"])[-1]["in_words"]
+    assert said.startswith(first) and f"The second choice: {second[:7]}" in said
+
+
 def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_from():
     said = words(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside"}))["verdict"])
     assert "suspension friction takes 80 % on the fitted drives, 75 % on drives held out" in said

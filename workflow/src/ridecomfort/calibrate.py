@@ -120,7 +120,7 @@ def calibrate(
     OP_1 ... OP_5 fit one parameter after the other (fig:optichain), an effect's after them; the joint fit starts where
     they end, from the further ones of ``start`` and from ``restarts`` random points (restart_cost, restart_value).
     ``applied`` says whose values are ``value``: "joint" (default) or "sequence", as in the paper; without
-    ``sequence`` there is the joint fit alone. ``profiles`` names parameters whose profile of the cost is wanted.
+    ``sequence`` there is the joint fit alone and value_sequence is NaN. ``profiles`` names parameters whose profile of the cost is wanted.
 
     Returns the Dataset of calibration.nc: over ``parameter`` value, initial, lower, upper, unit,
     interval_lower/upper (90 %), value_sequence, verdict and signal_share(parameter, signal);
@@ -130,6 +130,8 @@ def calibrate(
     """
     if applied not in ("joint", "sequence"):
         raise InputError(f"{applied!r} (expected joint or sequence)", place="applied")
+    if applied == "sequence" and not sequence:
+        raise InputError("sequence, which is left out (expected joint)", place="applied")
     task = problem(
         drives, road, vehicle, simulate=simulate, parameters=parameters, bounds=bounds, effects=effects, signals=signals,
         options=options,
@@ -149,8 +151,8 @@ def calibrate(
             found = descend(task, point, [index], tolerance)
             point, columns[:, index] = found.point, found.jacobian[:, index]
             steps[f"OP_{index + 1}"] = found
-    in_sequence = point
-    best = descend(task, in_sequence, everything, tolerance, known=columns, exact=True)
+    in_sequence = point if sequence else np.full_like(point, np.nan)
+    best = descend(task, point, everything, tolerance, known=columns, exact=True)
     fits, failed = [best], []
     random = qmc.LatinHypercube(len(everything), rng=np.random.default_rng(seed)).random(restarts)
     for place in (*starts[1:], *random):
@@ -171,7 +173,7 @@ def calibrate(
     result = _dataset(task, starts[0], chosen, in_sequence, steps, knowledge)
     if profiles:
         result = result.merge(_profiles(task, chosen, knowledge, profiles))
-    remarks = identifiability.remarks(list(task.parameters), chosen, knowledge)
+    remarks = [*_clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge)]
     result["restart_cost"] = "restart", np.array([fit.cost for fit in fits])
     result["restart_value"] = ("restart", "parameter"), np.stack([task.values(fit.point) for fit in fits])
     eager = result["drive"].values[np.abs(result["clock_correction"].values) >= CLOCK_LEFT]
@@ -301,7 +303,7 @@ def _dataset(task, start, chosen, in_sequence, steps: Mapping[str, Descent], kno
             "path_correction": ("drive", left_over[:, 1], {"units": "m"}),
             "iteration_step": ("iteration", np.array([label for label, _, _ in path])),
             "iteration_cost": ("iteration", np.array([cost for _, _, cost in path])),
-            "iteration_value": (("iteration", "parameter"), np.stack([task.values(point) for _, point, _ in path])),
+            "iteration_value": (("iteration", "parameter"), np.array([task.values(point) for _, point, _ in path]).reshape(-1, len(names))),
         },
         {
             "parameter": names,
@@ -320,7 +322,7 @@ def _bounds(vehicle, parameters: Sequence[str], given: Mapping[str, Sequence[flo
         if name not in PARAMETERS:
             raise InputError(f"unknown parameter {name!r}; known are {', '.join(PARAMETERS)}", place="parameters")
         span = PARAMETERS[name]
-        wide = max(0.5 * vehicle[name], span.lower), min(2.0 * vehicle[name], span.upper)
+        wide = sorted(min(max(factor * vehicle[name], span.lower), span.upper) for factor in (0.5, 2.0))
         bounds[name] = given.get(name, BOUNDS.get(name, wide))
     return {**bounds, **{name: pair for name, pair in given.items() if "." in name}}
 
@@ -335,6 +337,15 @@ def _started(task: Problem, nominal: Mapping[str, float], given: Mapping[str, fl
             bounds = f"{task.lower[index]:g} to {task.upper[index]:g}"
             raise InputError(f"{value:g} (expected within the bounds {bounds})", place=f"start: {name}")
     return task.point([given.get(name, value) for name, value in nominal.items()])
+
+
+def _clipped(task: Problem, nominal: Mapping[str, float]) -> list[str]:
+    """A sentence on every parameter that the vehicle's file has outside of its bounds."""
+    return [
+        f"{name} is {nominal[name]:g} in the vehicle's file, outside of its bounds {lower:g} to {upper:g}"
+        for name, lower, upper in zip(task.parameters, task.lower, task.upper)
+        if not lower <= nominal[name] <= upper
+    ]
 
 
 def _nominal(vehicle, effects: Mapping[str, Mapping[str, float]], name: str) -> float:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse.csgraph import connected_components
 from scipy.stats import t as student
 
 CONFIDENCE = 0.90
@@ -22,6 +23,9 @@ UNIDENTIFIED = 0.5
 COLLINEAR = 0.9
 """Correlation of two estimates beyond which they are named as a pair."""
 
+
+SEEN, LEAST_PART = 1e-10, 1e-6
+"""Share of the largest information below which a direction is not seen at all, and the least part that a parameter of it has."""
 
 ONLY_HERE = 1e-9
 """Share of a direction's information that counts as none: a block that alone knows a direction leaves it unknown."""
@@ -50,8 +54,8 @@ def assess(
     Jackknife over blocks, CV3 of MacKinnon, Nielsen and Webb (2023), J. Econometrics 232:272, eq. 14: residuals may be
     correlated in any way among signals and within a block, and have any variance; blocks are independent. Unlike the
     sandwich it holds where few blocks (the only bends of a road) carry what is known of a parameter.
-    Intervals take Student's t with blocks - 1 degrees of freedom. A direction that the data do
-    not see at all gets an infinite variance, not an error.
+    Intervals take Student's t with blocks - 1 degrees of freedom. A parameter that has a part in a direction which the
+    data do not see at all gets an infinite variance, not an error.
     """
     count = jacobian.shape[-1]
     influence = jacobian if influence is None else influence
@@ -66,7 +70,9 @@ def assess(
         scores[label] = np.einsum("stp,st->p", influence[:, index == label] / size, left)
     normal = squares.sum(axis=0)
     weights, directions = np.linalg.eigh(normal)
-    known = directions[:, weights > 1e-10 * weights.max()]
+    is_known = weights > SEEN * weights.max()
+    known = directions[:, is_known]
+    seen = seen & ~(np.abs(directions[:, ~is_known]) > LEAST_PART).any(axis=1)
     without = known.T @ (normal - squares) @ known + ONLY_HERE * np.eye(known.shape[1])
     shifts = np.linalg.solve(without, (scores @ known)[:, :, None])[:, :, 0] @ known.T / size
     covariance = (labels.size - 1) / labels.size * shifts.T @ shifts
@@ -94,7 +100,7 @@ def verdict(place: float, half_width: float) -> str:
 
 
 def remarks(names: list[str], places: np.ndarray, knowledge: Knowledge) -> list[str]:
-    """Sentences on every parameter at a bound or not identified, and on every pair that is hard to tell apart."""
+    """Sentences on every parameter at a bound or not identified, and on those that are hard to tell apart."""
     sentences = []
     for name, place, width in zip(names, places, knowledge.half_width):
         words = verdict(place, width)
@@ -105,13 +111,17 @@ def remarks(names: list[str], places: np.ndarray, knowledge: Knowledge) -> list[
         elif words != "identified":
             sentences.append(f"{name} is {words}: the data ask for more than the bounds allow")
     deviation = np.sqrt(np.diag(knowledge.covariance))
-    for i in range(len(names)):
-        for j in range(i):
-            if not (0 < deviation[i] < np.inf and 0 < deviation[j] < np.inf):
-                continue
-            correlation = knowledge.covariance[i, j] / (deviation[i] * deviation[j])
-            if abs(correlation) > COLLINEAR:
-                sentences.append(
-                    f"{names[j]} and {names[i]} are hard to tell apart (correlation {correlation:+.2f})"
-                )
+    is_finite = (deviation > 0) & np.isfinite(deviation)
+    scale = np.where(is_finite, deviation, np.inf)
+    correlation = np.where(np.outer(is_finite, is_finite), knowledge.covariance, 0.0) / np.outer(scale, scale)
+    is_alike = np.abs(correlation) > COLLINEAR
+    _, group = connected_components(is_alike, directed=False)
+    for number in np.unique(group):
+        own = np.flatnonzero(group == number)
+        if own.size > 1:
+            among = correlation[np.ix_(own, own)][np.triu_indices(own.size, 1)]
+            strongest = among[np.argmax(np.abs(among))]
+            up_to = "" if own.size == 2 else "up to "
+            told = f"{', '.join(names[k] for k in own[:-1])} and {names[own[-1]]}"
+            sentences.append(f"{told} are hard to tell apart (correlation {up_to}{strongest:+.2f})")
     return sentences

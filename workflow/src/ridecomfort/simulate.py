@@ -8,6 +8,7 @@ from functools import lru_cache
 import numpy as np
 import xarray as xr
 from numba import njit
+from numba.core.errors import NumbaError
 
 from .effects import compose, library
 from .errors import InputError
@@ -213,7 +214,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     end = last if end is None else min(end, last)
     targets = np.stack([speed, lateral, course.curvature], axis=1)
     along = (course.u >= start) & (course.u <= end)
-    if not along.any():
+    if not (start < end and along.any()):
         raise InputError(f"nothing of the road lies between {start:g} m and {end:g} m", place="start, end")
     slowest = targets[along, 0].min()
     if not slowest >= driver.SLOWEST:
@@ -224,18 +225,21 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     steps = int(seconds / step)
     record = np.empty((len(COLUMNS), steps // every + 1)).T  # each column by itself in memory, as it is read
     sensed = np.empty((6, steps))
-    records, steps = compiled.drive(
-        constants(vehicle), wheel_table(vehicle), course.surface, course.elevation, targets, float(friction),
-        float(start), float(end), float(step), every, tuple(float(place) for place in sensor),
-        compose.parameters(chosen), compiled.state_count, record, sensed,
-    )  # fmt: skip
+    try:
+        records, steps = compiled.drive(
+            constants(vehicle), wheel_table(vehicle), course.surface, course.elevation, targets, float(friction),
+            float(start), float(end), float(step), every, tuple(float(place) for place in sensor),
+            compose.parameters(chosen), compiled.state_count, record, sensed,
+        )  # fmt: skip
+    except NumbaError as problem:
+        raise compose.refusal([entry for entry, _ in chosen], problem) from None
     record = record[:records]
     if not (np.abs(record[:, :3]) < FARTHEST).all() or not np.isfinite(sensed[:, :steps]).all():
         raise InputError(
             "the simulated drive did not stay finite; is a parameter or an effect out of reason?",
             place=f"vehicle {vehicle.name}",
         )
-    if record[-1, 0] < end - 2.0 * rear - targets[:, 0].max() * every * step:
+    if record[-1, 0] < end - 2.0 * targets[:, 0].max() * every * step:
         raise InputError(
             f"the drive came to a stand at {record[-1, 0]:.0f} m of {end:.0f} m; "
             "is the friction too low for the grade or the bend?",

@@ -76,7 +76,6 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 "uncertain": chosen["diagnosis"]["uncertain"],
                 "noise_density": {name: _noise_densities(study.sites[name]["drives"]) for name in study.diagnosed},
                 "seed": chosen["seed"],
-                "workers": None,
                 "among": None,
             }
         case "sample":

@@ -69,7 +69,10 @@ def write(
 def replacing(path):
     """A path to write to that becomes ``path`` when the block ends well and vanishes when not."""
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise InputError(f"is no folder that can be written to ({problem.strerror})", file=path.parent) from None
     handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=path.suffix)
     os.close(handle)
     try:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from .drive import readers
 from .effects import library
@@ -119,7 +120,7 @@ class Study:
         if folder is None:
             return []
         suffixes = readers.suffixes()
-        return [f"{folder}/{path.name}" for path in sorted((self.folder / folder).iterdir()) if path.suffix in suffixes]
+        return [f"{folder}/{path.name}" for path in sorted((self.folder / folder).iterdir(), key=_in_order) if path.suffix in suffixes]
 
     @property
     def measured(self) -> list[str]:
@@ -179,3 +180,8 @@ def effect_files(folder: Path | None = None) -> dict[str, Path]:
 def has_fit(site: Mapping) -> bool:
     """Whether a site has drives that a vehicle can be calibrated on."""
     return any(drive["role"] == "fit" for drive in site["drives"])
+
+
+def _in_order(path: PurePath) -> list:
+    """What files are sorted by so that run10 comes behind run9."""
+    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", path.name)]

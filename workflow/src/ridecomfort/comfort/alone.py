@@ -26,6 +26,9 @@ HEIGHTS = ("left", "right", "elevation")
 LARGEST_MEAN, LARGEST_RMS = 20.0, 30.0
 """m/s2; an acceleration whose mean, or rms about it, lies beyond is in another unit: no passenger bears it."""
 
+SLOWEST_RATE = 2.0
+"""Hz; accelerations that are recorded more slowly hold nothing of ride comfort: the time is in another unit."""
+
 LARGEST_IRI = 100.0
 """m/km; unpaved roads, eroded and slow, reach 20 (Sayers, Gillespie and Paterson 1986, WBTP 46, figure 2)."""
 
@@ -81,6 +84,14 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
     sampling.check_clock(clock, file=file)
     start, interval, _ = sampling.require_uniform(clock, file=file)
     rate = 1.0 / interval
+    if rate < SLOWEST_RATE:
+        column = columns["time"]["column"]
+        raise InputError(
+            f"{rate:.3g} samples per second (expected {SLOWEST_RATE:g} or more; is the time in s? Name its unit in brackets behind "
+            "the name of the column, as in time [ms])",
+            file=file,
+            place=f"column {column!r}",
+        )
     # A clock written with few digits: 99.9998 Hz is 100 Hz.
     rate = round(rate) if abs(rate / round(rate) - 1.0) < 1e-4 else rate
     time = start + np.arange(len(clock)) / rate
@@ -251,21 +262,23 @@ def _outside(quantity: str, style: str, signal: np.ndarray, band: thresholds.Ban
     }
 
 
-def roughness(file, segment: float, *, smoothed: bool = False, local: float | None = None) -> Result:
+def roughness(
+    file, segment: float, *, smoothed: bool = False, local: float | None = None, columns: Mapping[str, Mapping] | None = None
+) -> Result:
     """IRI per segment of a profile in a CSV file: columns ``s`` and any of HEIGHTS; of two tracks MRI and HRI.
 
-    Columns are in m, or in the unit that stands in brackets behind the name: ``elevation [mm]``. ``local``: m/km; the stretches whose continuous IRI lies above are named (``iri.local_roughness``).
+    Columns are in m, or in the unit that stands in brackets behind the name: ``elevation [mm]``; ``columns`` gives other names
+    (quantity to {"column": name}). ``local``: m/km; the stretches whose continuous IRI lies above are named (``iri.local_roughness``).
     """
     table = _table(file)
-    columns = _headed(table.columns, ("s", *HEIGHTS))
+    columns = {**_headed(table.columns, ("s", *HEIGHTS)), **(columns or {})}
     names = [name for name in HEIGHTS if name in columns]
     if "s" not in columns or not names:
         found = ", ".join(map(str, table.columns))
         raise InputError(f"expected columns s and any of {', '.join(HEIGHTS)} (found {found})", file=file)
-    values = {name: _metres(table, name, columns[name], file) for name in ("s", *names)}
-    s = values.pop("s")
+    profiles = {name: _metres(table, columns[name], file) for name in ("s", *names)}
+    s = profiles.pop("s")
     settings = {"moving_average": None} if smoothed else {}
-    profiles = values
     try:
         start, stop = iri.segments(s[0], s[-1], segment)
         found = {f"IRI {name}": iri.iri(profile, s, segment, **settings) for name, profile in profiles.items()}
@@ -298,12 +311,14 @@ def roughness(file, segment: float, *, smoothed: bool = False, local: float | No
     return Result("iri", f"IRI at 80 km/h, segments of {segment:g} m", rows, remarks, describe(signals), "m/km")
 
 
-def _metres(table: pd.DataFrame, name: str, entry: Mapping, file) -> np.ndarray:
-    """A column of a profile in m. Raises InputError where it holds something else."""
+def _metres(table: pd.DataFrame, entry: Mapping, file) -> np.ndarray:
+    """A column of a profile in m. Raises InputError where there is none, or where it holds something else."""
     column = entry["column"]
+    if column not in table:
+        raise InputError(f"no column {column!r} (found {', '.join(map(str, table.columns))})", file=file)
     if table[column].dtype.kind not in "fiu":
         raise InputError(f"column {column!r} holds something else than numbers", file=file)
-    scale = units.of_column("elevation", {"unit": "m", **entry}, file=file, place=f"column {column!r}")
+    scale = units.of_column("elevation", {"unit": units.of_header(column) or "m", **entry}, file=file, place=f"column {column!r}")
     return scale * table[column].to_numpy(float)
 
 

@@ -54,7 +54,7 @@ def compare(
 
     Returns over drive, time, signal, state: ``measured`` and ``simulated`` (unit by signal in
     ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
-    recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``,
+    recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``, ``cut_off``,
     of the last state ``suspension_velocity``, ``tyre_velocity``, ``road_heave`` and ``road_tilt`` (``wheels.wheels``), and
     the floor and the explainable error (``explain.explain``, which ``noise_density`` is for).
     """
@@ -88,6 +88,7 @@ def compare(
             "nrmse": (("state", "drive", "signal"), nrmse(residual, measured), {"units": "1"}),
             "clock_correction": (("state", "drive"), clock, {"units": "s"}),
             "role": ("drive", np.array([drive.attrs.get("role", "fit") for drive in drives])),
+            "cut_off": ("drive", np.array([float(drive.attrs["cut_off"]) for drive in drives]), {"units": "Hz"}),
             "signal_unit": ("signal", np.array(["m/s2"] * 3 + ["rad/s"] * 3)),
             **{name: (("drive", "time"), values) for name, values in series.items()},
         },

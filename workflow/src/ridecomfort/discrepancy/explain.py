@@ -11,7 +11,7 @@ import xarray as xr
 from ..vocabulary import VARIABLES
 from .experiment import Record
 from .floor import deviations
-from .judged import LOWEST, judged
+from .judged import judged, lowest
 
 SAME_SPEED = 0.05
 """Relative difference of mean speeds within which drives repeat one another."""
@@ -107,6 +107,12 @@ def _squares(comparison: xr.Dataset) -> np.ndarray:
     return found
 
 
+def highest(comparison: xr.Dataset) -> np.ndarray:
+    """Hz up to which the records of each drive hold anything, (drive,)."""
+    half = np.full(comparison.sizes["drive"], 0.5 * _rate(comparison))
+    return np.minimum(half, comparison["cut_off"].values) if "cut_off" in comparison else half
+
+
 def _rate(comparison: xr.Dataset) -> float:
     """Records per second."""
     time = comparison["time"].values
@@ -114,15 +120,15 @@ def _rate(comparison: xr.Dataset) -> float:
 
 
 def _of_instruments(comparison: xr.Dataset, density: Mapping[str, Mapping[str, float]]) -> np.ndarray:
-    """Mean square (drive, signal) of white noise of these densities from LOWEST up to half the rate of the records."""
-    bandwidth = 0.5 * _rate(comparison) - LOWEST
+    """Mean square (drive, signal) of white noise of these densities, of what is judged and not low-passed away."""
+    width = highest(comparison)[:, None] - lowest(comparison["signal"].values)
     instruments = [INSTRUMENT[VARIABLES[str(signal)].unit] for signal in comparison["signal"].values]
     return np.array(
         [
-            [density.get(str(drive), {}).get(instrument, np.nan) ** 2 * bandwidth for instrument in instruments]
+            [density.get(str(drive), {}).get(instrument, np.nan) ** 2 for instrument in instruments]
             for drive in comparison["drive"].values
         ]
-    )
+    ) * np.maximum(width, 0.0)
 
 
 def _filled(ground: np.ndarray) -> np.ndarray:

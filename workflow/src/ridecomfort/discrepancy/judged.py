@@ -16,12 +16,16 @@ IN_WORDS = f"{LOWEST:g} Hz on ({min(LOWEST_OF_DRIVER.values()):g} Hz for longitu
 """The same for notes of tables."""
 
 
+def lowest(signals: Sequence[str]) -> np.ndarray:
+    """Hz from which on each signal is judged, (signal,)."""
+    return np.array([LOWEST_OF_DRIVER.get(str(signal), LOWEST) for signal in signals])
+
+
 def judged(series: np.ndarray, rate: float, signals: Sequence[str]) -> np.ndarray:
     """Series (..., signal, sample) at ``rate`` Hz without what is too slow to say something of the vehicle."""
-    lowest = np.array([LOWEST_OF_DRIVER.get(str(signal), LOWEST) for signal in signals])
     bins = np.fft.rfft(series, axis=-1)
     frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
-    return np.fft.irfft(np.where(frequency >= lowest[:, None], bins, 0.0), series.shape[-1], axis=-1)
+    return np.fft.irfft(np.where(frequency >= lowest(signals)[:, None], bins, 0.0), series.shape[-1], axis=-1)
 
 
 def band(series: np.ndarray, rate: float, edges: tuple[float, float]) -> np.ndarray:

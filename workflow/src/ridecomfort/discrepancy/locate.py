@@ -72,7 +72,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     drives = [_drive(rows.isel(drive=k), noise.get(k)) for k in range(comparison.sizes["drive"])]
     rate = drives[0].rate
     bands = [band for band in BANDS if band[0] < 0.4 * rate]
-    ground = _white_floor(rows, bands, rate)
+    ground = _white_floor(rows, bands)
     edges = _stretches(drives)
     power, seconds = _by_stretch([(d.place, d.error) for d in drives], edges, bands, rate)
     floor = np.broadcast_to(ground[:, None, :], power.shape).copy()
@@ -88,7 +88,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     if noise:
         floor_density = np.nanmean(_map([(d.own.place, d.own.noise) for d in drives if d.own], rate)[2], axis=1)
     else:
-        floor_density = np.repeat(_density(rows, rate)[:, None], frequency.size, axis=1)
+        floor_density = np.where(frequency <= explain.highest(rows).mean(), _density(rows)[:, None], 0.0)
     result = xr.Dataset(
         {
             "error_power": (("signal", "stretch", "band"), power),
@@ -153,17 +153,20 @@ def _by_stretch(parts, edges: np.ndarray, bands, rate: float) -> tuple[np.ndarra
     return power / np.maximum(seconds, 1e-9)[None, :, None], seconds
 
 
-def _density(rows: xr.Dataset, rate: float) -> np.ndarray:
+def _density(rows: xr.Dataset) -> np.ndarray:
     """One-sided power density (signal,) of a white floor, from the ``floor_rmse`` of the comparison; nil without one."""
     if "floor_rmse" not in rows:
         return np.zeros(rows.sizes["signal"])
-    return (rows["floor_rmse"] ** 2).mean("drive").values / (0.5 * rate - judged.LOWEST)
+    width = explain.highest(rows).mean() - judged.lowest(rows["signal"].values)
+    return (rows["floor_rmse"] ** 2).mean("drive").values / width
 
 
-def _white_floor(rows: xr.Dataset, bands, rate: float) -> np.ndarray:
-    """Power (signal, band) of a white floor."""
-    widths = np.array([min(upper, 0.5 * rate) - lower for lower, upper in bands])
-    return _density(rows, rate)[:, None] * widths
+def _white_floor(rows: xr.Dataset, bands) -> np.ndarray:
+    """Power (signal, band) of a white floor, of what is judged and not low-passed away."""
+    lower, upper = np.array(bands).T
+    lowest = judged.lowest(rows["signal"].values)[:, None]
+    widths = np.minimum(upper, explain.highest(rows).mean()) - np.maximum(lower, lowest)
+    return _density(rows)[:, None] * np.maximum(widths, 0.0)
 
 
 def _map(parts, rate: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

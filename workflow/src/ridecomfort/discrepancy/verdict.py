@@ -101,7 +101,7 @@ class Verdict:
             "cluster": "Missing is one of: " + "; ".join(" or ".join((e.name, *e.like)) for e in self.effects) + ".",
             "outside": "Something is missing that is not in the library.",
             "nothing": "Nothing is missing beyond the noise.",
-            "suspect": "The data are suspect; no effect is named.",
+            "suspect": f"The data are suspect: {names}." if names else "The data are suspect; no effect is named.",
         }[self.verdict]
         begun = (reason if "_" in reason.partition(" ")[0] else f"{reason[0].upper()}{reason[1:]}" for reason in self.reasons)
         return " ".join([first, *(f"{reason}." for reason in begun)])

@@ -34,8 +34,8 @@ record and interpolating in it, 0.2 percent, was a bias of 1.5 percent of the bo
 DRIVER_BANDWIDTH = 1.0
 """Hz; a driver changes speed and lane more slowly, road and wheels show in the record above it."""
 
-CLOCK_LEFT, PATH_LEFT = 1e-3, 0.01
-"""s and m that alignment may be off by. A model is compared at its best clock within them and not beyond: a delay of
+CLOCK_LEFT = 1e-3
+"""s that alignment may be off by. A model is compared at its best clock within it and not beyond: a delay of
 3 ms looks like a damping of the tyre, and a wrong damping like a delay."""
 
 TUNING_STEPS, SPEED_BANDWIDTH, PATH_BANDWIDTH = 3, 0.4, 0.4

@@ -21,8 +21,9 @@ from pathlib import Path
 import numba
 import numpy as np
 
+from ..errors import InputError
 from .contract import COMPILED, PORTS, Effect
-from .library import Entry
+from .library import FOLDER, Entry
 
 PACKAGE = Path(__file__).parent.parent
 SOURCES = ("vehicle/kernel.py", "vehicle/ground.py", "vehicle/driver.py", "vehicle/motion.py",
@@ -61,6 +62,17 @@ def parameters(chosen: Sequence[tuple[Entry, Mapping[str, float]]]) -> np.ndarra
     own = [(entry.effect, values) for entry, values in chosen if entry.effect.port in COMPILED]
     sizes = [values[parameter.name] for effect, values in own for parameter in effect.parameters]
     return np.array(sizes + [float(not effect.parameters or values != effect.neutral) for effect, values in own])
+
+
+def refusal(entries: Sequence[Entry], problem: Exception) -> InputError:
+    """What to say to a user whose effect numba does not compile, in one line that names its file."""
+    text = str(problem)
+    named = [entry for entry in entries if f"_{entry.effect.name}.py" in text or f"= {entry.effect.name}(" in text]
+    own = [entry for entry in entries if entry.path.parent != FOLDER]
+    guilty = next((entry for entry in own if entry in named), next(iter(own or entries)))
+    said = (line.strip() for line in text.splitlines() if line.strip() and not line.startswith("Failed in nopython mode"))
+    returned = [*PORTS[guilty.effect.port].returns, *(f"d{state}/dt" for state in guilty.effect.states)]
+    return InputError(f"act cannot be compiled: {next(said, text)} (expected to return {', '.join(returned)})", file=guilty.path)
 
 
 @lru_cache(maxsize=64)

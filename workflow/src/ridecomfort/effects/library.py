@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import importlib.util
+import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -100,6 +101,17 @@ def _load(path: Path, changed: int) -> Entry:
         raise InputError("expected `effect = Effect(...)` and a function `act`", file=path)
     if effect.name != path.stem:
         raise InputError(f"holds effect {effect.name!r}, expected the name of the file", file=path)
+    if not effect.name.isidentifier():
+        raise InputError(f"{effect.name!r} is no name in Python (expected letters, digits and _)", file=path)
     if effect.port not in PORTS:
         raise InputError(f"unknown port {effect.port!r}; known are {', '.join(PORTS)}", file=path)
+    _check_arguments(effect, act, path)
     return Entry(effect, act, path)
+
+
+def _check_arguments(effect: Effect, act: Callable, path: Path) -> None:
+    """Raise InputError where ``act`` does not take what its port sees, its states and its parameters."""
+    expected = [*PORTS[effect.port].sees, *effect.states, *(parameter.name for parameter in effect.parameters)]
+    taken = list(inspect.signature(act).parameters)
+    if len(taken) != len(expected):
+        raise InputError(f"act takes ({', '.join(taken)}), expected ({', '.join(expected)})", file=path)

@@ -19,12 +19,13 @@ DISCOVERED = "discovered"
 """Name of the effect that is proposed."""
 
 
-def main(roads, measured, vehicle, calibration, config, ranking, verdict):
+def main(roads, measured, vehicle, calibration, config, ranking, verdict, workers):
     drives = {
         name: (store.read(road), store.read(drive))
         for name, road, drive in zip(config["sites"], roads, measured, strict=True)
     }
-    settings = {key: config[key] for key in ("effects", "effects_folder", "fitted_on", "bounds", "uncertain", "seed", "workers")}
+    settings = {key: config[key] for key in ("effects", "effects_folder", "fitted_on", "bounds", "uncertain", "seed")}
+    settings["workers"] = int(workers)
     settings["calibration"] = None if calibration is None else store.read(calibration)
     settings["options"] = {"step": config["simulation"]["step"]}
     settings["say"] = lambda words: print(words, file=sys.stderr, flush=True)
@@ -62,4 +63,5 @@ if __name__ == "__main__":
         optional=("calibration",),
         many=("roads", "measured"),
         outputs=("ranking", "verdict"),
+        texts=("workers",),
     ).run()

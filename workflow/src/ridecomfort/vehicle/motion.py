@@ -99,7 +99,7 @@ def body_course(row, pose, speeds):
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def sin_cos(angle):
-    """Sine and cosine by their series: exact to 1e-9 up to 0.8 rad, beyond what the driver steers."""
+    """Sine and cosine by their series: exact to 3e-9 up to 0.8 rad, beyond what the driver steers."""
     x = angle * angle
     sine = angle * (1.0 + x * (SINE[0] + x * (SINE[1] + x * (SINE[2] + x * SINE[3]))))
     cosine = 1.0 + x * (COSINE[0] + x * (COSINE[1] + x * (COSINE[2] + x * (COSINE[3] + x * COSINE[4]))))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 
-import yaml
-
 from ..errors import InputError
+from ..schema import read_yaml
 
 
 @dataclass(frozen=True)
@@ -81,15 +81,7 @@ def read(path) -> Vehicle:
     Raises InputError for an unknown, missing or implausible parameter and for a wrong unit.
     """
     path = Path(path)
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as problem:
-        raise InputError(f"cannot be read ({problem.strerror})", file=path) from None
-    except yaml.YAMLError as problem:
-        mark = getattr(problem, "problem_mark", None)
-        place = f"line {mark.line + 1}" if mark else None
-        raise InputError("is not valid YAML", file=path, place=place) from None
-    parameters = content.get("parameters") if isinstance(content, dict) else None
+    parameters = read_yaml(path).get("parameters")
     if not isinstance(parameters, dict):
         raise InputError("expected a mapping 'parameters' of name to {value, unit, source}", file=path)
     values, sources = {}, {}
@@ -120,6 +112,8 @@ def _check(name: str, value, path) -> float:
     parameter = PARAMETERS.get(name)
     if parameter is None:
         raise InputError(f"unknown vehicle parameter {name!r}", file=path)
+    if isinstance(value, str) and re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+", value):
+        raise InputError(f"{value!r} is text in YAML, expected a number such as {float(value):g}", file=path, place=name)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not parameter.lower <= value <= parameter.upper:
         raise InputError(
             f"{value!r} {parameter.unit}, expected {parameter.lower:g} to {parameter.upper:g} {parameter.unit}",

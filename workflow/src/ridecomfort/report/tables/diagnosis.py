@@ -3,49 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 import numpy as np
 
 from ...discrepancy.verdict import LITTLE
-from ...effects import library
 from ...effects.contract import PORTS
-from ...study import BASE, JOIN
 from .. import catalogue
 from ..notation import unit, words
 from ..study import Diagnosis
 from ..table import Column, Source, Table
+from . import advice
 
 SAID = {
     "named": "Missing: {names}.",
     "cluster": "Missing: {names}; the data do not tell those apart.",
     "outside": "Something is missing that is not in the library.",
     "nothing": "Nothing is missing beyond the noise.",
-    "suspect": "The data are suspect: no effect is named.",
+    "suspect": "The data are suspect: {names}.",
 }
+
+NO_EFFECT = "no effect is named"
 
 FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
 """What is said where those are all that was found."""
-
-NEXT = {
-    "named": "Switch on what is missing, effects: [{keys}] in config/study.yaml, and compare again.",
-    "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
-    "them apart.",
-    "outside": "Look at the proposed form. To try it, put {file} into a folder of your own that effects_folder in config/study.yaml names, "
-    "switch it on, effects: [{keys}], and compare again.",
-    "nothing": "Nothing is to be switched on.",
-    "suspect": "Put the data right first, then diagnose again.",
-}
-
-
-ROAD_FIRST = (
-    "First set road: options: interpolation: {other} in the site file, which the drives fit better, and diagnose again, unless the road's "
-    "file is known to be meant otherwise. Then: "
-)
-"""What comes before anything else where the road may be another between its points."""
-
-STAND_IN = " The model holds a form of its own, which may not be exact: take out again what does not lower the error ladder on drives held out."
-"""What is added to names beside a proposed form, for the rest of which they may stand in."""
 
 
 def _promise(proposal: Mapping) -> str:
@@ -57,60 +37,26 @@ def _promise(proposal: Mapping) -> str:
     return f"{fitted}{checked} (p = {proposal['p_value']:.2g}){little}."
 
 
-def _farther(beyond: Mapping) -> str:
-    """What to do where parameters of the vehicle want to lie beyond their bounds."""
-    names = ", ".join(one["parameter"] for one in beyond["parameters"])
-    ends = [
-        (min(one["wider"][0], 0.5 * one["value"]), max(one["wider"][1], 2.0 * one["value"])) for one in beyond["parameters"]
-    ]  # a value at the end of the wider bounds wants to go on
-    bounds = ", ".join(
-        "{}: [{:g}, {:g}]".format(one["parameter"], *(float(f"{end:.3g}") for end in own)) for one, own in zip(beyond["parameters"], ends)
-    )
-    return (
-        f"First of all: if the vehicle's file may be that wrong, have it calibrated: add {names} to calibration: parameters in config/study.yaml, and "
-        f"{bounds} to calibration: bounds, then compare and diagnose again. If it cannot be, they stand in for something else."
-    )
-
-
 def verdict(found: Diagnosis) -> Table:
     """The verdict in words: what it is, why, and what to do next."""
     said = found.verdict
-    names = ", ".join(_alike(effect) for effect in said["effects"])
-    proposal = said.get("proposal") or {}
-    own = [] if found.model == BASE else found.model.split(JOIN)
-    keys = ", ".join([*own, *([proposal["name"]] if proposal.get("form") else [effect["name"] for effect in said["effects"]])])
-    beyond, is_form = said.get("beyond_bounds"), bool(proposal.get("form"))
-    is_file_alone = bool(beyond) and said["verdict"] == "outside" and not said["effects"] and not is_form
-    first = FILE_ALONE if is_file_alone else SAID[said["verdict"]].format(names=names)
-    other = next((word for word in ("linear", "cubic") if f"interpolation: {word})" in found.ranking.attrs.get("road", "")), "")
-    before = ROAD_FIRST.format(other=other) if other and said["verdict"] != "suspect" else ""
+    names = ", ".join(_alike(effect) for effect in said["effects"]) or NO_EFFECT
+    proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
+    first = FILE_ALONE if advice.is_file_alone(said) else SAID[said["verdict"]].format(names=names)
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [("reason", _sentence(reason)) for reason in said["reasons"]]
     if beyond:
-        rows.append(("the vehicle", _farther(beyond)))
-    helps = said["held_out_share"] is None or said["held_out_share"] > 0
-    if said["verdict"] == "outside" and said["effects"] and helps:
-        alone = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
+        rows.append(("the vehicle", advice.farther(beyond)))
+    if advice.library_helps(said):
         held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
         checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
-        rows.append(
-            ("in the library", f"{names} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is "
-             f"missing. To go on from them instead: effects: [{alone}].")
-        )  # fmt: skip
-    what = "next, after the vehicle" if beyond else "next"
-    if is_form:
+        taken = f"{names} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is missing."
+        rows.append(("in the library", taken))
+    if proposal.get("form"):
         rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
         rows.append(("in it", _sentence(PORTS[proposal["port"]].meaning)))
         rows.append(("it removes", _promise(proposal)))
-        file = str(Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py"))
-        rows.append((what, before + NEXT["outside"].format(file=file, keys=keys)))
-    elif is_file_alone:
-        rows.append((what, before + "Nothing is to be switched on."))
-    elif said["verdict"] == "outside":
-        rows.append((what, before + "No form was found that would take the error away; see where it lies (compare)."))
-    else:
-        caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
-        rows.append((what, before + NEXT[said["verdict"]].format(keys=keys) + caution))
+    rows.append(("next, after the vehicle" if beyond else "next", advice.next_step(found)))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)

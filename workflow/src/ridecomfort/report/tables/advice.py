@@ -1,0 +1,98 @@
+"""What to do next after a verdict, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from ...discrepancy.verdict import LITTLE
+from ...effects import library
+from ...study import BASE, JOIN
+from ..study import Diagnosis
+
+NEXT = {
+    "named": "Switch on what is missing, effects: [{keys}] in config/study.yaml, and compare again.",
+    "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
+    "them apart.",
+    "nothing": "Nothing is to be switched on.",
+    "suspect": "Put the data right first, then diagnose again.",
+}
+
+TRY_FORM = (
+    "Look at the proposed form. To try it, put {file} into a folder of your own that effects_folder in config/study.yaml names, "
+    "switch it on, effects: [{keys}], and compare again."
+)
+
+GO_ON = (
+    "Go on from what the library has, effects: [{keys}] in config/study.yaml, compare and diagnose again: beside it the rest shows "
+    "better. Take out again what does not lower the error ladder on drives held out."
+)
+
+NO_FORM = "No form was found that would take the error away; see where it lies (compare)."
+
+ROAD_FIRST = (
+    "First set road: options: interpolation: {other} in the site file, which the drives fit better, and diagnose again, unless the road's "
+    "file is known to be meant otherwise. Then: "
+)
+"""What comes before anything else where the road may be another between its points."""
+
+STAND_IN = " The model holds a form of its own, which may not be exact: take out again what does not lower the error ladder on drives held out."
+"""What is added to names beside a proposed form, for the rest of which they may stand in."""
+
+
+def next_step(found: Diagnosis) -> str:
+    """What to do next, a sentence or a few."""
+    said, proposal = found.verdict, found.verdict.get("proposal") or {}
+    own = [] if found.model == BASE else found.model.split(JOIN)
+    other = next((word for word in ("linear", "cubic") if f"interpolation: {word})" in found.ranking.attrs.get("road", "")), "")
+    before = ROAD_FIRST.format(other=other) if other and said["verdict"] != "suspect" else ""
+    named = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
+    if said["verdict"] == "outside":
+        return before + _outside(found, proposal, own, named)
+    caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
+    return before + NEXT[said["verdict"]].format(keys=named) + caution
+
+
+def is_file_alone(verdict: Mapping) -> bool:
+    """Whether parameters of the vehicle that lie far from its file are all that was found."""
+    proposal = verdict.get("proposal") or {}
+    return bool(verdict.get("beyond_bounds")) and verdict["verdict"] == "outside" and not verdict["effects"] and not proposal.get("form")
+
+
+def library_helps(verdict: Mapping) -> bool:
+    """Whether something is missing that the library does not have, and effects of it help on drives held out yet."""
+    helps = verdict["held_out_share"] is None or verdict["held_out_share"] > 0
+    return verdict["verdict"] == "outside" and bool(verdict["effects"]) and helps
+
+
+def farther(beyond: Mapping) -> str:
+    """What to do where parameters of the vehicle want to lie beyond their bounds."""
+    names = ", ".join(one["parameter"] for one in beyond["parameters"])
+    ends = [
+        (min(one["wider"][0], 0.5 * one["value"]), max(one["wider"][1], 2.0 * one["value"])) for one in beyond["parameters"]
+    ]  # a value at the end of the wider bounds wants to go on
+    bounds = ", ".join(
+        "{}: [{:g}, {:g}]".format(one["parameter"], *(float(f"{end:.3g}") for end in own)) for one, own in zip(beyond["parameters"], ends)
+    )
+    return (
+        f"First of all: if the vehicle's file may be that wrong, have it calibrated: add {names} to calibration: parameters in config/study.yaml, and "
+        f"{bounds} to calibration: bounds, then compare and diagnose again. If it cannot be, they stand in for something else."
+    )
+
+
+def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str) -> str:
+    """The better of the proposed form and the effects that help comes first."""
+    said = found.verdict
+    if is_file_alone(said):
+        return NEXT["nothing"]
+    go_on = GO_ON.format(keys=named)
+    if not proposal.get("form"):
+        return go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM
+    file = Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py")
+    try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"]]))
+    if not library_helps(said):
+        return try_form
+    shares = [(one["share"], one["held_out_share"] or 0.0) for one in (said, proposal)]
+    library_is_better = all(ours > theirs for ours, theirs in zip(*shares))
+    first, second = (go_on, try_form) if library_is_better else (try_form, go_on)
+    return f"{first} The second choice: {second[:1].lower()}{second[1:]}"
