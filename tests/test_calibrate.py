@@ -272,6 +272,30 @@ def test_a_collinear_pair_is_named():
     assert words.startswith("a and b are hard to tell apart (correlation -1.00)")
 
 
+class Overshooting:
+    """A problem of one parameter whose first step leads far beyond its optimum of 0.3, where nothing can be driven."""
+
+    parameters, evaluations = ("one",), 0
+
+    def flat(self, point):
+        if point[0] < 0.1:
+            raise InputError("cannot be driven")
+        return np.arctan(20.0 * (point - 0.3))
+
+    def jacobian(self, point, free):
+        return (20.0 / (1.0 + (20.0 * (point - 0.3)) ** 2))[:, None][:, free]
+
+    def nrmse(self, point):
+        return np.zeros((1, 1))
+
+
+def test_a_search_turns_back_where_a_vehicle_cannot_be_driven_but_must_not_start_there():
+    found = descent.descend(Overshooting(), np.array([0.5]), [0], 1e-6, exact=True)
+    assert found.point[0] == pytest.approx(0.3, abs=1e-3)
+    with pytest.raises(InputError, match="cannot be driven"):
+        descent.descend(Overshooting(), np.array([0.05]), [0], 1e-6)
+
+
 @pytest.mark.parametrize("other", [0.0, 1e-6])
 def test_what_only_shows_as_a_sum_is_not_identified(other):
     rng = np.random.default_rng(0)

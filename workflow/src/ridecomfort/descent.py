@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares, lsq_linear
 
+from .errors import InputError
 from .problem import Problem
 
 UNSEEN = 1e-9
@@ -72,7 +73,13 @@ def descend(
         return point
 
     def residual(part: np.ndarray) -> np.ndarray:
-        return task.flat(full(part))
+        """Infinite where a vehicle cannot be driven, from which the search turns back; where it starts it must be."""
+        try:
+            return task.flat(full(part))
+        except InputError:
+            if np.array_equal(part, start[free]):
+                raise
+            return np.full(slope.shape[0], np.inf)
 
     def end(part: np.ndarray, message: str) -> Descent:
         jacobian = np.zeros((slope.shape[0], len(task.parameters)))

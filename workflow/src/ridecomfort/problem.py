@@ -14,6 +14,7 @@ from .calibrated import with_values
 from .drive.leftover import FLOOR, INDEPENDENT, corrected, leftover
 from .drive.replay import CLOCK_LEFT, Replay
 from .drive.sampling import low_pass, low_pass_matrix
+from .errors import InputError
 from .vocabulary import SIGNALS
 
 DIFFERENCE = 2e-3
@@ -148,14 +149,22 @@ class Problem:
         return np.concatenate([residual.ravel() for residual in self.residuals(point)])
 
     def jacobian(self, point: np.ndarray, free: Sequence[int]) -> np.ndarray:
-        """Differences of ``flat`` by the free parameters, (residual, free), inwards at the upper bound."""
+        """Differences of ``flat`` by the free parameters, (residual, free), inwards at the upper bound and where nothing can be driven
+        beyond."""
         base = self.flat(point)
+
+        def column(index: int, step: float) -> np.ndarray:
+            moved = np.array(point, dtype=float)
+            moved[index] += step
+            return (self.flat(moved) - base) / step
+
         columns = []
         for index in free:
             step = DIFFERENCE if point[index] + DIFFERENCE <= 1.0 else -DIFFERENCE
-            moved = np.array(point, dtype=float)
-            moved[index] += step
-            columns.append((self.flat(moved) - base) / step)
+            try:
+                columns.append(column(index, step))
+            except InputError:
+                columns.append(column(index, -step))
         return np.stack(columns, axis=1) if columns else np.zeros((base.size, 0))
 
     def nrmse(self, point: np.ndarray) -> np.ndarray:

@@ -234,12 +234,14 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     except NumbaError as problem:
         raise compose.refusal([entry for entry, _ in chosen], problem) from None
     record = record[:records]
-    if not (np.abs(record[:, :3]) < FARTHEST).all() or not np.isfinite(sensed[:, :steps]).all():
+    is_short = record[-1, 0] < end - 2.0 * targets[:, 0].max() * every * step
+    is_lost = is_short and record[-1, 2] > driver.SLOWEST  # what is no number is behind the end, too
+    if is_lost or not (np.abs(record[:, :3]) < FARTHEST).all() or not np.isfinite(sensed[:, :steps]).all():
         raise InputError(
             "the simulated drive did not stay finite; is a parameter or an effect out of reason?",
             place=f"vehicle {vehicle.name}",
         )
-    if record[-1, 0] < end - 2.0 * targets[:, 0].max() * every * step:
+    if is_short:
         raise InputError(
             f"the drive came to a stand at {record[-1, 0]:.0f} m of {end:.0f} m; "
             "is the friction too low for the grade or the bend?",

@@ -174,11 +174,11 @@ class Car:
         """Gains of the accelerometer and of the gyroscope that these amounts of the nuisances (direction,) stand for."""
         return 1.0 - GAIN * float(amounts[OF_FORCE]), 1.0 - GAIN * float(amounts[OF_RATES])
 
-    def later(self, other: Car, index: int) -> float:
-        """By how many seconds (median) this puts a record later against its place than ``other`` does."""
+    def shifts(self, other: Car, index: int) -> np.ndarray:
+        """By how many seconds this puts the samples of a record later against their place than ``other`` does, (sample,)."""
         mine, its = self.replays[index], other.replays[index]
         shift = np.interp(its.place, mine.place, mine.time) - mine.time
-        return float(np.median(shift[mine.compared]))
+        return shift[mine.compared]
 
     def retuned(
         self, values: Mapping[str, float], indices: Sequence[int], exactly: bool = False

@@ -18,7 +18,7 @@ from .propose import SURE
 from .rank import ranked
 from .rung import Rung, begin
 from .selection import Selection
-from .verdict import CONFIRMED, DOUBTFUL, LITTLE, Verdict, with_parameters
+from .verdict import CONFIRMED, DOUBTFUL, ENOUGH, LITTLE, Verdict, with_parameters
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
@@ -61,6 +61,8 @@ def diagnose(
     if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
         proposal = discovered(rung, name=name, **common)
         verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone)
+        if not (table.attrs["turns"] or table.attrs["road"]):
+            verdict = named_all_the_same(verdict, proposal)
         proposal = proposal if verdict.verdict == "outside" else None
     if proposal is not None and found is not None and not found.is_first and proposal.share > verdict.share + found.share:
         found = None
@@ -127,6 +129,25 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
             return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
         return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
     return verdict
+
+
+def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
+    """What the library explains at least half of is named, though repeats share an error still, where no force of any form does better: of
+    many small things that a model lacks none explains the rest. An effect that removes LITTLE of that may be a part of it, and is not named."""
+    shares = [share for share in (verdict.share, verdict.held_out_share) if np.isfinite(share)]
+    if verdict.verdict != "outside" or not verdict.effects or not min(shares, default=0.0) >= ENOUGH:
+        return verdict
+    theirs = [share for share in (proposal.share, proposal.held_out_share) if np.isfinite(share)] if is_sure(proposal) else []
+    if any(share > own + EQUAL for share, own in zip(theirs, shares)):
+        return verdict
+    kept = tuple(effect for effect in verdict.effects if effect.share >= LITTLE * (1.0 - verdict.share)) or verdict.effects[:1]
+    reasons = [*verdict.reasons, "no force of any form explains more: what is left may be many small things"]
+    others = [effect.name for effect in verdict.effects if effect not in kept]
+    if others:
+        reasons.append(f"{', '.join(others)} may be parts of what is left")
+    share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
+    kind = "cluster" if any(effect.like for effect in kept) else "named"
+    return replace(verdict, verdict=kind, effects=kept, reasons=tuple(reasons), share=share, held_out_share=held_out)
 
 
 def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:

@@ -8,14 +8,15 @@ import numpy as np
 import xarray as xr
 
 from . import car as cars
-from . import pool, suspect, turns
+from . import floor, pool, suspect, turns
+from .experiment import Frame
 from .explain import ASSUMED, NIL, REPEATS
 from .rung import Rung, begin
 from .select import search
 from .signature import signature
 from .selection import Selection, shares
 from .shared import is_material
-from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, is_slow, judge, standing, total_shares
+from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, is_slow, judge, standing, total_shares, with_remainder
 
 SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
 """What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""
@@ -83,6 +84,7 @@ def ranked(
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
+    verdict = with_remainder(verdict, _remainder(selection))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
     line = turns.line(selection.frame, selection.ladder[-1].fit.residuals, selection.check_frame, selection.check)
@@ -97,12 +99,23 @@ def ranked(
     return table, verdict, selection
 
 
+def _measured(frame: Frame) -> dict[int, np.ndarray]:
+    """The signals of every record as they were measured, (channel, sample)."""
+    replays = [frame.experiment.replays[index] for index in frame.indices]
+    return {index: again.measured()[:, again.compared] for index, again in zip(frame.indices, replays)}
+
+
 def _is_material(selection: Selection) -> bool:
     """Whether what repeats share after the last effect is worth explaining, by the signals that were measured."""
+    return is_material(selection.frame, selection.ladder[-1].fit.residuals, _measured(selection.frame))
+
+
+def _remainder(selection: Selection) -> dict[str, float]:
+    """Share of the measured power of every signal that the last model leaves above the floor, of what is judged."""
     frame = selection.frame
-    replays = [frame.experiment.replays[index] for index in frame.indices]
-    measured = {index: again.measured()[:, again.compared] for index, again in zip(frame.indices, replays)}
-    return is_material(frame, selection.ladder[-1].fit.residuals, measured)
+    left = np.maximum(selection.ladder[-1].squares - selection.ground, 0.0).mean(axis=0)
+    power = floor.squares(frame.experiment, _measured(frame)).mean(axis=0)
+    return {name: float(own) for name, own in zip(frame.experiment.channels, left / np.where(power > 0, power, np.inf))}
 
 
 def _best_share(selection: Selection) -> float:
@@ -116,6 +129,7 @@ def suspicions(experiment: cars.Car, selection: Selection, is_explained: bool, i
     reasons = suspect.of_drives(experiment)
     first, last = selection.ladder[0], selection.ladder[-1]
     reasons += suspect.of_signs(experiment, first.fit.residuals)
+    reasons += suspect.of_clocks(experiment, selection.frame)
     if selection.repeats and not is_explained and not is_left:
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     sites = {experiment.records[index].site: index for index in reversed(selection.frame.indices)}

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import xarray as xr
+from scipy.signal import butter, sosfiltfilt
 
 from . import floor
 from . import experiment as exp
@@ -40,6 +41,16 @@ AGAINST = -0.3
 
 GAIN = 0.02
 """Difference of a recorded gain from one that is more than a calibrated instrument has."""
+
+SURELY = 2.0
+"""Standard errors by which a gain must lie beyond that."""
+
+WANDERING = 0.006
+"""s, the median over records, by which a clock wanders against place beyond which it is wrong: up to 3.7 ms whatever the model lacks, 8.6 ms
+where the clocks of three records jump by 20 ms (what is slow of that alignment takes out)."""
+
+TURNING, SETTLED = 0.2, 3.0
+"""Hz below which a body turns as its path does, and s at either end that a low pass of that takes to settle."""
 
 LATE = 0.004
 """s between the clock that a record came with and the one at which the model fits it, beyond which the first was wrong. What a model
@@ -90,8 +101,32 @@ def noise_share(experiment: Car, index: int, values, deviation: float, explainab
     return float(np.median(power[kept] / explainable[kept])) if kept.any() else 0.0
 
 
+def gyroscope_gain(drive: xr.Dataset, road: xr.Dataset) -> tuple[float, float]:
+    """Gain of the yaw rate of a drive against how the course of its path turns, below TURNING, and its standard error.
+
+    The body sideslips, but turns as far as the road does by the end of a bend. Both are nan where no path was measured.
+    """
+    time, s, e = (drive[name].values for name in ("time", "s", "e"))
+    rate = (len(time) - 1) / (time[-1] - time[0])
+    if not np.isfinite(e).all() or len(time) < 4 * SETTLED * rate:
+        return float("nan"), float("nan")
+    sos = butter(2, TURNING, fs=rate, output="sos")
+    slow = lambda series: sosfiltfilt(sos, series)
+    progress = np.gradient(s, time)
+    aside = np.arctan2(np.gradient(slow(e), time), slow(progress))
+    turning = slow(np.interp(s, road["u"].values, road["curvature"].values) * progress) + np.gradient(aside, time)
+    inner = slice(int(SETTLED * rate), -int(SETTLED * rate))
+    turning, yaw_rate = turning[inner] - turning[inner].mean(), slow(drive["yaw_rate"].values)[inner]
+    power = float(turning @ turning)
+    if not power > 0:
+        return float("nan"), float("nan")
+    gain = float(turning @ yaw_rate) / power
+    left = yaw_rate - yaw_rate.mean() - gain * turning
+    return gain, float(np.sqrt(left @ left / power / max(2.0 * TURNING * len(left) / rate, 1.0)))
+
+
 def of_drives(experiment: Car) -> list[str]:
-    """Reasons in words to doubt a record, from what its alignment found."""
+    """Reasons in words to doubt a record, from what its alignment found and from how far it turned."""
     reasons = []
     for record, again in zip(experiment.records, experiment.replays):
         found = again.drive.attrs
@@ -100,6 +135,9 @@ def of_drives(experiment: Car) -> list[str]:
             reasons.append(f"{record.name}: the clock offset is known to {1e3 * error:.1f} ms only")
         if np.isfinite(gain) and abs(gain - 1.0) > GAIN:
             reasons.append(f"{record.name}: the accelerometer's gain is {gain:.3f} against gravity")
+        gain, error = gyroscope_gain(again.drive, again.road.road)
+        if abs(gain - 1.0) > GAIN + SURELY * error:
+            reasons.append(f"{record.name}: the gyroscope's gain is {gain:.3f} against the bends of the road")
     return reasons
 
 
@@ -111,7 +149,7 @@ def of_fit(experiment: Car, frame: Frame, residuals) -> list[str]:
     reasons = []
     for index in frame.indices:
         name = experiment.records[index].name
-        late = frame.experiment.later(experiment, index)
+        late = float(np.median(frame.experiment.shifts(experiment, index)))
         if abs(late) > LATE:
             reasons.append(f"{name}: the model fits at a clock that is {1e3 * late:+.1f} ms off the recorded one")
         gains = experiment.gains(frame.amounts(index, residuals[index]))
@@ -119,6 +157,14 @@ def of_fit(experiment: Car, frame: Frame, residuals) -> list[str]:
             if abs(gain - 1.0) > GAIN:
                 reasons.append(f"{name}: the model fits a gain of {gain:.3f} of the {instrument}")
     return reasons
+
+
+def of_clocks(experiment: Car, frame: Frame) -> list[str]:
+    """Reasons in words to doubt clocks, where the model fits the records of a ``frame`` at one that wanders against place, as behind a jump."""
+    wander = [np.ptp(np.percentile(frame.experiment.shifts(experiment, index), [1, 99])) for index in frame.indices]
+    if not np.median(wander) > WANDERING:
+        return []
+    return [f"the model fits at clocks that wander by {1e3 * np.median(wander):.0f} ms against place: does a clock jump or run unevenly?"]
 
 
 def smoothness(experiment: Car, frame: Frame, residuals) -> float:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
 
@@ -48,6 +48,9 @@ CONFIRMED = 0.25
 MOST = 0.8
 """Share of what repeats share that an error of the measurement must take to be all that is wrong."""
 
+TOLD, LEAST_TOLD = 3, 0.001
+"""Signals of which it is told what is left, and share of their power below which it is not."""
+
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
@@ -88,6 +91,8 @@ class Verdict:
     is_shared: bool = False
     beyond_bounds: BeyondBounds | None = None
     """Parameters of the vehicle that would explain more if they lay beyond their bounds, where effects explain too little."""
+    remainder: Mapping[str, float] = field(default_factory=dict)
+    """Share of the power of each signal, of what is judged, that the last model leaves above the floor."""
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
@@ -192,11 +197,13 @@ def judge(
     vehicle = [effect for effect in effects if effect not in wrong]
     if wrong:
         names = ", ".join(effect.name for effect in wrong)
-        reasons.append(f"{names} is an error of the measurement, not of the vehicle")
         # An error of the measurement that leaves much is what something else, not in the library, looks like.
         is_little = is_little or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
         if is_little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
             effects, wrong = vehicle, []
+            reasons.append(f"{names} would help, an error of the measurement that may stand in for something else")
+        else:
+            reasons.append(f"{names} is an error of the measurement, not of the vehicle")
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if decoys:
         reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
@@ -216,6 +223,16 @@ def judge(
             reasons.append(f"repeats share an error, too small to matter or of a kind that drivers make: {selection.remaining}")
     said = (*reasons, _floor(selection))
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
+
+
+def with_remainder(verdict: Verdict, remainder: Mapping[str, float]) -> Verdict:
+    """A verdict that says what share of the power of each signal is left."""
+    largest = sorted(remainder, key=lambda name: -remainder[name])[:TOLD]
+    told = [f"{100 * remainder[name]:.1f} % of the power of {name}" for name in largest if remainder[name] >= LEAST_TOLD]
+    left = " and ".join([", ".join(told[:-1]), told[-1]]) if len(told) > 1 else "".join(told)
+    words = f"left above the floor: {left}" if told else f"less than {100 * LEAST_TOLD:g} % of the power of any signal is left above the floor"
+    reasons = verdict.reasons if verdict.verdict == "suspect" else (*verdict.reasons, words)
+    return replace(verdict, reasons=reasons, remainder=dict(remainder))
 
 
 def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:

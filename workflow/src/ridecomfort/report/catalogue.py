@@ -73,7 +73,7 @@ DIFFERENCE_TABLES = {
 
 DIAGNOSIS_TABLES = {
     "verdict": "Which effect is missing: the verdict with its reasons.",
-    "missing_effects": "The effects that the verdict names: sizes, intervals, and what each explains.",
+    "missing_effects": "Effects that were found: sizes, intervals, and what each explains.",
     "evidence": "Evidence for every effect of the library, and the refits of the best.",
 }
 

@@ -30,6 +30,8 @@ GO_ON = (
 
 NO_FORM = "No form was found that would take the error away; see where it lies (compare)."
 
+LITTLE_FOUND = "Nothing that was found explains much: see where the error lies (compare), and by the reasons whether what is left matters."
+
 ROAD_FIRST = (
     "First set road: options: interpolation: {other} in the site file, which the drives fit better, and diagnose again, unless the road's "
     "file is known to be meant otherwise. Then: "
@@ -88,11 +90,13 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     go_on = GO_ON.format(keys=named)
     if not proposal.get("form"):
         return go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM
+    shares = [(one["share"], one["held_out_share"] or 0.0) for one in (said, proposal)]
+    if max(shares[0] + shares[1]) < LITTLE:
+        return LITTLE_FOUND
     file = Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py")
     try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"]]))
     if not library_helps(said):
         return try_form
-    shares = [(one["share"], one["held_out_share"] or 0.0) for one in (said, proposal)]
     library_is_better = all(ours > theirs for ours, theirs in zip(*shares))
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)
     return f"{first} The second choice: {second[:1].lower()}{second[1:]}"
