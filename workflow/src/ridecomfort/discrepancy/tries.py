@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
-from . import evidence, probe, refit
+from . import evidence, floor, probe, refit
 from . import experiment as exp
 from .experiment import Candidate, Size
 from .refit import Fit
@@ -75,13 +75,13 @@ class Tries:
             return None
 
     def _lengthened(self, fit: Fit, sizes: Sequence[Size]) -> Fit:
-        """A fit whose way from the rung is doubled while that is more likely.
+        """A fit whose way from the rung is doubled while that is more likely and the error falls.
 
         The loss is white by the error of before. Where that was large it weighs little, and elsewhere much, so that the
         fit of an effect that makes other signals worse until parameters follow stops at a tenth of its size.
         """
         frame, before = self.rung.frame, self.rung.fit.values
-        reached = refit.information(frame, fit.residuals)
+        reached, error = refit.information(frame, fit.residuals), self._error(fit.residuals)
         for _ in range(DOUBLINGS):
             way = {size: fit.values[size.key] - before.get(size.key, size.neutral) for size in sizes}
             longer = {size.key: float(np.clip(fit.values[size.key] + way[size], size.lower, size.upper)) for size in sizes}
@@ -90,12 +90,17 @@ class Tries:
                 residuals = exp.simulate(self.rung.experiment, values, frame.indices)
             except (InputError, ValueError):
                 break
-            likely = refit.information(frame, residuals)
-            if likely < reached + refit.WORTHWHILE:
+            likely, left = refit.information(frame, residuals), self._error(residuals)
+            if likely < reached + refit.WORTHWHILE or left > error:
                 break
             fit = replace(fit, values=values, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
-            reached = likely
+            reached, error = likely, left
         return fit
+
+    def _error(self, residuals: Mapping[int, np.ndarray]) -> float:
+        """Mean squares of the channels over those of the rung, summed."""
+        squares = lambda parts: floor.squares(self.rung.experiment, self.rung.frame.all_cleaned(parts)).mean(axis=0)
+        return float(np.sum(squares(residuals) / squares(self.rung.fit.residuals)))
 
     def settled(self, trial: Trial, gained: float | None = None) -> Trial:
         """A refit that gains much repeated in the frame of its own residuals while the error falls by much; ``gained``: since its
