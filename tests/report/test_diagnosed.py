@@ -39,6 +39,13 @@ def test_what_is_to_be_switched_on_is_said_as_it_is_written_in_the_configuration
     assert "effects: [suspension_friction] in config/study.yaml" in words(diagnosed.tables(made_up.diagnosis())["verdict"])
 
 
+def test_of_suspect_data_only_errors_of_the_measurement_are_named():
+    (effect,) = made_up.VERDICT["effects"]
+    for is_of_measurement, said in ((False, "The data are suspect: no effect is named."), (True, "The data are suspect: suspension friction")):
+        suspect = {**made_up.VERDICT, "verdict": "suspect", "effects": [{**effect, "is_of_measurement": is_of_measurement}]}
+        assert said in words(diagnosed.tables(made_up.diagnosis(suspect))["verdict"])
+
+
 def test_a_proposed_form_is_shown():
     proposal = {
         "name": "discovered_2", "form": "80 N tanh(velocity / 0.005)", "place": "strut", "port": "suspension", "share": 0.84,

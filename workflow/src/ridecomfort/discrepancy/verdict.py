@@ -75,6 +75,8 @@ class Named:
     absorbed: float
     like: tuple[str, ...]
     differ_on: dict[str, str]
+    is_of_measurement: bool = False
+    """Whether it is an error of the measurement, not of the vehicle."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +102,8 @@ class Verdict:
 
     def words(self) -> str:
         """The verdict as a few sentences."""
-        names = ", ".join(effect.name for effect in self.effects)
+        told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
+        names = ", ".join(effect.name for effect in told)
         first = {
             "named": f"Missing: {names}.",
             "cluster": "Missing is one of: " + "; ".join(" or ".join((e.name, *e.like)) for e in self.effects) + ".",
@@ -347,7 +350,7 @@ def _named(selection: Selection, number: int, by_name) -> Named:
     before, after = selection.ladder[number : number + 2]
     return Named(
         winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]),
-        *shares(selection, before, after), float(turn.absorbed[place]), turn.cluster, turn.differ_on,
+        *shares(selection, before, after), float(turn.absorbed[place]), turn.cluster, turn.differ_on, by_name[winner.name].instrument,
     )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from ...discrepancy.diagnose import EQUAL
 from ...discrepancy.verdict import LITTLE
 from ...effects import library
 from ...study import BASE, JOIN
@@ -97,6 +98,7 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"]]))
     if not library_helps(said):
         return try_form
-    library_is_better = all(ours > theirs for ours, theirs in zip(*shares))
+    (fitted, held_out), (fitted_of_form, held_out_of_form) = shares
+    library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)
     return f"{first} The second choice: {second[:1].lower()}{second[1:]}"

@@ -40,7 +40,8 @@ def _promise(proposal: Mapping) -> str:
 def verdict(found: Diagnosis) -> Table:
     """The verdict in words: what it is, why, and what to do next."""
     said = found.verdict
-    names = ", ".join(_alike(effect) for effect in said["effects"]) or NO_EFFECT
+    told = [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
+    names = ", ".join(_alike(effect) for effect in told) or NO_EFFECT
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
     first = FILE_ALONE if advice.is_file_alone(said) else SAID[said["verdict"]].format(names=names)
     rows = [("verdict", f"{first} ({said['verdict']})")]
