@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from ridecomfort.discrepancy.beyond import Beyond, BeyondBounds
-from ridecomfort.discrepancy.diagnose import reconsidered
+from ridecomfort.discrepancy.diagnose import named_all_the_same, reconsidered
 from ridecomfort.discrepancy.discover import Discovery
-from ridecomfort.discrepancy.verdict import Named, Verdict, with_parameters
+from ridecomfort.discrepancy.verdict import Named, Verdict, with_parameters, with_remainder
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 
@@ -90,6 +90,37 @@ def test_an_error_of_the_measurement_alone_gives_way_to_a_force_that_explains_mo
 def beyond(share=0.3, held_out_share=0.2, is_first=False):
     inertia = Beyond("roll_inertia", "kg m2", 572.0, (515.0, 629.0), (257.0, 1258.0), 390.0, (380.0, 400.0))
     return BeyondBounds((inertia,), share, held_out_share, is_first)
+
+
+OUTSIDE = replace(NOTHING, verdict="outside", share=0.6, held_out_share=0.58)
+
+
+def test_what_explains_most_is_named_though_a_rest_is_shared_that_no_force_explains():
+    small = replace(FOUND, name="cornering_degression", share=0.03)
+    left = replace(OUTSIDE, effects=(replace(FOUND, share=0.57, held_out_share=0.55), small))
+    found = named_all_the_same(left, replace(SURE, share=0.57, held_out_share=0.56))
+    assert found.verdict == "named" and [effect.name for effect in found.effects] == [FOUND.name]
+    assert (found.share, found.held_out_share) == (0.57, 0.55)
+    assert "no force of any form explains more" in found.reasons[-2] and "cornering_degression may be parts" in found.reasons[-1]
+
+
+@pytest.mark.parametrize("change", [{"share": 0.45}, {"held_out_share": 0.4}, {"verdict": "suspect"}, {"effects": ()}])
+def test_less_than_half_is_not_named(change):
+    left = replace(OUTSIDE, effects=(FOUND,))
+    assert named_all_the_same(replace(left, **change), replace(SURE, share=0.3)).verdict == replace(left, **change).verdict
+
+
+@pytest.mark.parametrize("better", [{"share": 0.65, "held_out_share": 0.58}, {"share": 0.6, "held_out_share": 0.62}])
+def test_nor_is_what_a_force_does_better_than(better):
+    left = replace(OUTSIDE, effects=(FOUND,))
+    assert named_all_the_same(left, replace(SURE, **better)) is left
+
+
+def test_what_is_left_is_said_in_percent_of_the_power_of_each_signal():
+    found = with_remainder(OUTSIDE, {"a_x": 0.004, "a_y": 0.012, "a_z": 0.0004, "yaw_rate": 0.25, "roll_rate": 0.002})
+    assert found.reasons[-1] == "left above the floor: 25.0 % of the power of yaw_rate, 1.2 % of the power of a_y and 0.4 % of the power of a_x"
+    assert found.json()["remainder"]["roll_rate"] == 0.002
+    assert "less than 0.1 % of the power of any signal" in with_remainder(OUTSIDE, {"a_x": 0.0}).reasons[-1]
 
 
 def test_parameters_beyond_their_bounds_are_a_reason_more():

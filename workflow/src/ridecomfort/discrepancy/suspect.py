@@ -52,6 +52,9 @@ where the clocks of three records jump by 20 ms (what is slow of that alignment 
 TURNING, SETTLED = 0.2, 3.0
 """Hz below which a body turns as its path does, and s at either end that a low pass of that takes to settle."""
 
+LEAST_TURNING = 0.02
+"""rad/s (rms) of the path below which what is noise of its place is no longer small beside it: 5 cm are 0.001 rad/s."""
+
 LATE = 0.004
 """s between the clock that a record came with and the one at which the model fits it, beyond which the first was wrong. What a model
 lacks delays it by up to 3 ms."""
@@ -104,7 +107,7 @@ def noise_share(experiment: Car, index: int, values, deviation: float, explainab
 def gyroscope_gain(drive: xr.Dataset, road: xr.Dataset) -> tuple[float, float]:
     """Gain of the yaw rate of a drive against how the course of its path turns, below TURNING, and its standard error.
 
-    The body sideslips, but turns as far as the road does by the end of a bend. Both are nan where no path was measured.
+    The body sideslips, but turns as far as the road does by the end of a bend. Both are nan where no path was measured or it hardly bends.
     """
     time, s, e = (drive[name].values for name in ("time", "s", "e"))
     rate = (len(time) - 1) / (time[-1] - time[0])
@@ -117,9 +120,9 @@ def gyroscope_gain(drive: xr.Dataset, road: xr.Dataset) -> tuple[float, float]:
     turning = slow(np.interp(s, road["u"].values, road["curvature"].values) * progress) + np.gradient(aside, time)
     inner = slice(int(SETTLED * rate), -int(SETTLED * rate))
     turning, yaw_rate = turning[inner] - turning[inner].mean(), slow(drive["yaw_rate"].values)[inner]
-    power = float(turning @ turning)
-    if not power > 0:
+    if not turning.std() > LEAST_TURNING:
         return float("nan"), float("nan")
+    power = float(turning @ turning)
     gain = float(turning @ yaw_rate) / power
     left = yaw_rate - yaw_rate.mean() - gain * turning
     return gain, float(np.sqrt(left @ left / power / max(2.0 * TURNING * len(left) / rate, 1.0)))
