@@ -63,9 +63,10 @@ def error_ladder(study: Difference) -> Figure:
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
     lines = [key(look, notation.signal(signal)) for signal, look in style.SIGNAL_LINES.items()]
     lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals (numbers)"))
-    lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor (repeats)"))
+    lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor"))
     lines += [Line2D([], [], **look, label=f"{METHODS[name]}, model") for name, look in LOOKS.items()]
-    lines += [Line2D([], [], **_repeats(name), label=f"{title}, repeats") for name, title in METHODS.items()]
+    if np.isfinite(found["repeats_agreeing"]).any():
+        lines += [Line2D([], [], **_repeats(name), label=f"{title}, repeats") for name, title in METHODS.items()]
     if blank:
         blank[0].legend(handles=lines, loc="center left", ncols=2).set_in_layout(False)
     else:
@@ -86,7 +87,7 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
             axes.annotate(f"{value:.0f}", (place, value), xytext=(3, 4), textcoords="offset points", fontsize=6, fontweight="bold")
     beyond = 100 * float(chosen["left"].max())
     if beyond > HIGHEST:
-        axes.text(0.03, 0.97, f"up to {beyond:,.0f} %", transform=axes.transAxes, va="top", fontsize="x-small")
+        axes.text(0.03, 0.97, f"beyond: up to {beyond:,.0f} %", transform=axes.transAxes, va="top", fontsize="x-small")
     axes.axhline(0.0, color=style.FLOOR, linestyle="--")
     axes.yaxis.grid(True)
 
