@@ -104,7 +104,7 @@ def test_what_explains_most_is_named_though_a_rest_is_shared_that_no_force_expla
     assert "no force of any form explains more" in found.reasons[-2] and "cornering_degression may be parts" in found.reasons[-1]
 
 
-@pytest.mark.parametrize("change", [{"share": 0.45}, {"held_out_share": 0.4}, {"verdict": "suspect"}, {"effects": ()}])
+@pytest.mark.parametrize("change", [{"share": 0.45}, {"held_out_share": 0.4}, {"verdict": "suspect"}, {"effects": ()}, {"is_like_error": True}])
 def test_less_than_half_is_not_named(change):
     left = replace(OUTSIDE, effects=(FOUND,))
     assert named_all_the_same(replace(left, **change), replace(SURE, share=0.3)).verdict == replace(left, **change).verdict

@@ -93,6 +93,8 @@ class Verdict:
     is_shared: bool = False
     beyond_bounds: BeyondBounds | None = None
     """Parameters of the vehicle that would explain more if they lay beyond their bounds, where effects explain too little."""
+    is_like_error: bool = False
+    """Whether an error of the measurement would help beside the effects, which stands in for something else."""
     remainder: Mapping[str, float] = field(default_factory=dict)
     """Share of the power of each signal, of what is judged, that the last model leaves above the floor."""
 
@@ -195,7 +197,7 @@ def judge(
     reasons += notes
     balance = _balance(selection, notes, is_material)
     is_little = balance.is_little
-    is_wrong = lambda name: by_name[name].instrument
+    is_wrong, is_like_error = lambda name: by_name[name].instrument, False
     wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
     vehicle = [effect for effect in effects if effect not in wrong]
     if wrong:
@@ -203,7 +205,7 @@ def judge(
         # An error of the measurement that leaves much is what something else, not in the library, looks like.
         is_little = is_little or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
         if is_little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
-            effects, wrong = vehicle, []
+            effects, wrong, is_like_error = vehicle, [], True
             reasons.append(f"{names} would help, an error of the measurement that may stand in for something else")
         else:
             reasons.append(f"{names} is an error of the measurement, not of the vehicle")
@@ -225,7 +227,8 @@ def judge(
         if something_left(selection):
             reasons.append(f"repeats share an error, too small to matter or of a kind that drivers make: {selection.remaining}")
     said = (*reasons, _floor(selection))
-    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
+    left = balance.is_left, balance.is_shared
+    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error)
 
 
 def with_remainder(verdict: Verdict, remainder: Mapping[str, float]) -> Verdict:
