@@ -70,6 +70,17 @@ def test_the_better_of_library_and_proposed_form_comes_first(held_out, first, se
     assert said.startswith(first) and f"The second choice: {second[:7]}" in said
 
 
+@pytest.mark.parametrize(("library", "said"), [(0.15, "Go on from what the library has"), (0.05, "Nothing that was found explains much")])
+def test_a_form_that_explains_little_is_not_to_be_switched_on(library, said):
+    proposal = {
+        "name": "discovered", "form": "80 N tanh(velocity / 0.005)", "place": "strut", "port": "suspension", "share": 0.08,
+        "held_out_share": 0.12, "p_value": 0.0015,
+    }  # fmt: skip
+    little = {**made_up.VERDICT, "verdict": "outside", "share": library, "held_out_share": library, "proposal": proposal}
+    next_step = rows(diagnosed.tables(made_up.diagnosis(little))["verdict"])[-1]["in_words"]
+    assert next_step.startswith(said) and "discovered.py" not in next_step
+
+
 def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_from():
     said = words(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside"}))["verdict"])
     assert "suspension friction takes 80 % on the fitted drives, 75 % on drives held out" in said

@@ -186,7 +186,7 @@ def calibrate(
         remarks.append(f"{len(failed)} of {len(failed) + len(fits)} starts led to a vehicle that does not drive ({failed[0]})")
     worst = float(result["restart_cost"].max() / best.cost - 1)
     if worst > DISAGREE:
-        remarks.append(f"starts disagree: the worst of {len(fits)} ends at a cost {100 * worst:.1f} % above the best")
+        remarks.append(f"starts disagree: the worst of {len(fits)} ends at a cost {100 * worst:.1f} % above the best, which is taken")
     result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
     result.attrs.update(
         applied=applied,

@@ -62,7 +62,7 @@ class Shared:
     band: Band | None
 
     def __str__(self) -> str:
-        return f"{100 * self.share:.0f} % of what is left when white (z = {self.z:.1f}), most surely {self.band}"
+        return f"{100 * self.share:.0f} % of what is left, all frequencies weighing alike (z = {self.z:.1f}), most surely {self.band}"
 
 
 def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:

@@ -6,6 +6,7 @@ runs from light to dark so that it also reads in grey.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -122,10 +123,15 @@ def note(axes: Axes, text: str, place: tuple[float, float]) -> None:
     axes.annotate(text, place, xytext=(3, 4), textcoords="offset points", fontsize=6)
 
 
+CHARACTERS_PER_INCH = 22
+"""Of the smallest print of a figure."""
+
+
 def marked(drawn: Figure, words: str | None) -> Figure:
     """The figure with words in its lower right corner; as it is without any."""
     if words:
-        drawn.supxlabel(words, x=0.995, ha="right", fontsize=6, color=FLOOR)
+        room = int(CHARACTERS_PER_INCH * drawn.get_size_inches()[0])
+        drawn.supxlabel(textwrap.fill(words, room), x=0.995, ha="right", fontsize=6, color=FLOOR)
     return drawn
 
 

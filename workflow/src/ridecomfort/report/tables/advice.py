@@ -12,7 +12,7 @@ from ...study import BASE, JOIN
 from ..study import Diagnosis
 
 NEXT = {
-    "named": "Switch on what is missing, effects: [{keys}] in config/study.yaml, and compare again.",
+    "named": "Switch on what is missing, effects: [{keys}] in config/study.yaml, and compare again. If enough is left then, diagnose again.",
     "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
     "them apart.",
     "nothing": "Nothing is to be switched on.",
@@ -41,6 +41,10 @@ ROAD_FIRST = (
 
 STAND_IN = " The model holds a form of its own, which may not be exact: take out again what does not lower the error ladder on drives held out."
 """What is added to names beside a proposed form, for the rest of which they may stand in."""
+
+
+WORTHWHILE = 0.1
+"""Share of the explainable error from which on effects that help are worth going on from where no form is."""
 
 
 def next_step(found: Diagnosis) -> str:
@@ -91,14 +95,14 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     go_on = GO_ON.format(keys=named)
     if not proposal.get("form"):
         return go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM
-    shares = [(one["share"], one["held_out_share"] or 0.0) for one in (said, proposal)]
-    if max(shares[0] + shares[1]) < LITTLE:
-        return LITTLE_FOUND
+    held = lambda one: one["share"] if one["held_out_share"] is None else one["held_out_share"]
+    (fitted, held_out), (fitted_of_form, held_out_of_form) = ((one["share"], held(one)) for one in (said, proposal))
+    if max(fitted_of_form, held_out_of_form) < LITTLE:
+        return go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND
     file = Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py")
     try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"]]))
     if not library_helps(said):
         return try_form
-    (fitted, held_out), (fitted_of_form, held_out_of_form) = shares
     library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)
     return f"{first} The second choice: {second[:1].lower()}{second[1:]}"
