@@ -81,7 +81,7 @@ class Tries:
         fit of an effect that makes other signals worse until parameters follow stops at a tenth of its size.
         """
         frame, before = self.rung.frame, self.rung.fit.values
-        reached, error = refit.information(frame, fit.residuals), self._error(fit.residuals)
+        reached = refit.information(frame, fit.residuals)
         for _ in range(DOUBLINGS):
             way = {size: fit.values[size.key] - before.get(size.key, size.neutral) for size in sizes}
             longer = {size.key: float(np.clip(fit.values[size.key] + way[size], size.lower, size.upper)) for size in sizes}
@@ -90,11 +90,11 @@ class Tries:
                 residuals = exp.simulate(self.rung.experiment, values, frame.indices)
             except (InputError, ValueError):
                 break
-            likely, left = refit.information(frame, residuals), self._error(residuals)
-            if likely < reached + refit.WORTHWHILE or left > error:
+            likely = refit.information(frame, residuals)
+            if likely < reached + refit.WORTHWHILE or self._error(residuals) > self._error(fit.residuals):
                 break
             fit = replace(fit, values=values, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
-            reached, error = likely, left
+            reached = likely
         return fit
 
     def _error(self, residuals: Mapping[int, np.ndarray]) -> float:
