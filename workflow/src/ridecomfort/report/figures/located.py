@@ -12,6 +12,7 @@ from matplotlib.patches import Rectangle
 
 from ...discrepancy import findings
 from ...discrepancy.locate import BANDS
+from ...study import JOIN
 from ...vocabulary import SIGNALS
 from .. import notation, style
 from ..study import Difference
@@ -39,7 +40,8 @@ def located(study: Difference, site: str) -> Figure:
     errors = findings.findings(found)
     lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
     lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines] or [NOTHING]
-    words = [*lines, f"{chosen.label}, model {study.model}, {found.attrs['located_state']}; {floor_note(chosen)}"]
+    model = study.model.replace(JOIN, f" {JOIN} ")
+    words = [*lines, fill(f"{chosen.label}, model {model}, {found.attrs['located_state']}; {floor_note(chosen)}", LONGEST)]
     count = "\n".join(words).count("\n") + 1
     drawn = style.figure(style.DOUBLE, 8.3 + 0.16 * count)
     panels = drawn.subplots(
