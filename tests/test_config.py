@@ -26,6 +26,15 @@ def read(project):
     return schema.read_yaml(project / config.STUDY)
 
 
+def test_drives_handed_in_are_in_the_order_of_their_numbers(project):
+    (project / "elsewhere").mkdir()
+    for number in (10, 9, 1, 2, 11):
+        (project / "elsewhere" / f"run{number}.csv").touch()
+    write(project, "own", {"road": {"file": "road.crg"}, "simulated": "elsewhere"})
+    study = config.load({**read(project), "sites": ["own"], "runs": 5}, project)
+    assert study.handed_in("own") == [f"elsewhere/run{number}.csv" for number in (1, 2, 9, 10, 11)]
+
+
 def test_the_study_file_states_the_defaults(repository):
     stated = schema.read_yaml(repository / config.STUDY)
     assert stated == schema.defaults("study", sites=stated["sites"])

@@ -105,6 +105,7 @@ def test_records_are_the_drive_low_passed_in_every_band(car, name):
         (dict(speed=20.0, friction=0.0), "friction"),
         (dict(speed=20.0, step=0.003), "step"),
         (dict(speed=20.0, start=500.0), "start"),
+        (dict(speed=20.0, start=50.0, end=50.0), "nothing of the road lies between 50 m and 50 m"),
         (dict(speed=20.0, effects=["warp_drive"]), "warp_drive"),
         (dict(speed=20.0, effects={"suspension_friction": {"middle": 3.0}}), "middle"),
     ],

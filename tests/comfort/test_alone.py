@@ -94,6 +94,47 @@ def test_mistakes_are_one_line_and_leave_nothing(tmp_path, content, arguments, m
     assert [each.name for each in tmp_path.iterdir()] == ["my.csv"]
 
 
+@pytest.mark.parametrize(
+    ("method", "arguments", "message"),
+    [
+        ("--iri", ["--unit", "mm"], "--unit: means nothing to --iri (expected of --column, --segment, --local, --smoothed)"),
+        ("--iri", ["--exposure", "10"], "--exposure: means nothing to --iri"),
+        ("--thresholds", ["--seat", "4", "0.3"], "--seat: means nothing to --thresholds"),
+        ("--iso2631", ["--segment", "50"], "--segment: means nothing to --iso2631"),
+        ("--iri", ["--column", "elevation=h"], "no column 'h'"),
+        ("--iri", ["--column", "a_z=h"], "NAME of s, left, right, elevation"),
+    ],
+)
+def test_options_that_a_method_has_no_use_for_are_refused(tmp_path, method, arguments, message):
+    file = write(tmp_path / "my.csv", s=S, elevation=PROFILE, time=S / 10.0, a_z=PROFILE)
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", method, str(file), *arguments])
+    assert message in str(end.value) and [each.name for each in tmp_path.iterdir()] == ["my.csv"]
+
+
+def test_columns_of_a_profile_may_be_named(tmp_path):
+    plain = write(tmp_path / "plain.csv", s=S, elevation=PROFILE)
+    other = write(tmp_path / "other.csv", **{"way": S, "h [mm]": 1e3 * PROFILE})
+    main(["comfort", "--iri", str(plain)])
+    main(["comfort", "--iri", str(other), "--column", "s=way", "--column", "elevation=h [mm]"])
+    first, second = (pd.read_csv(tmp_path / f"{name}_iri.csv") for name in ("plain", "other"))
+    pd.testing.assert_frame_equal(first, second)
+
+
+@pytest.mark.parametrize("method", ["--iso2631", "--thresholds"])
+def test_a_clock_in_milliseconds_is_refused_unless_its_column_says_so(tmp_path, method):
+    wave = np.sin(2 * np.pi * 4 * TIME)
+    with pytest.raises(SystemExit, match=r"column 'time': 0.1 samples per second .*as in time \[ms\]"):
+        main(["comfort", method, str(write(tmp_path / "my.csv", time=1e3 * TIME, a_z=wave))])
+    assert alone.recording(write(tmp_path / "said.csv", **{"time [ms]": 1e3 * TIME, "a_z": wave})).attrs["rate"] == 100.0
+
+
+def test_a_folder_that_is_a_file_is_refused(recording, tmp_path):
+    (tmp_path / "taken").write_text("")
+    with pytest.raises(SystemExit, match="taken: is no folder"):
+        main(["comfort", "--thresholds", str(recording), "--column", "a_z=up", "--unit", "g", "--output", str(tmp_path / "taken")])
+
+
 def test_a_missing_file_is_named(tmp_path):
     with pytest.raises(SystemExit, match="no such file"):
         main(["comfort", "--iri", str(tmp_path / "none.csv")])

@@ -10,6 +10,8 @@ import pytest
 from ridecomfort.discrepancy import select, verdict
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.propose import CERTAIN
+from ridecomfort.discrepancy.rung import begin
+from ridecomfort.discrepancy.selection import Trial
 from ridecomfort.errors import InputError
 
 from .coloured import coloured
@@ -28,6 +30,37 @@ def test_the_missing_effect_is_named_measured_and_confirmed_on_the_held_out_driv
     assert size["interval"][0] < 1.0 < size["interval"][1] and size["unit"] == "N"
     assert found.share > 0.8 and found.held_out_share > 0.5
     assert selection.final.values["stiffness"] == pytest.approx(0.7, abs=0.05)
+
+
+@pytest.mark.parametrize(("met", "share", "is_kept"), [(True, 0.03, True), (False, 0.03, False), (False, 0.3, True)])
+def test_what_no_held_out_drive_meets_must_remove_more(met, share, is_kept):
+    model = Linear(1, {"effect_2.size": 1.0})
+    search = select._Search(begin(model, {"stiffness": 0.0}), 1, 0, map, lambda first, other: True, print)
+    nothing = float("nan")
+    fit = replace(search.rung.fit, values={"stiffness": 0.0, "effect_2.size": 1.0})
+    trial = Trial("effect_2", {}, fit, 100.0, 90.0, nothing, nothing, share, nothing, "", met=met)
+    objection = search._objection(trial, model.candidates[2], False, 1.0)
+    assert objection == ("" if is_kept else "removes 3.0 % of the explainable error, and no drive held out meets it")
+
+
+class Opposed(Linear):
+    """The same where effect_2 has two sizes of either sign whose columns are mostly alike, and of opposite signs in truth."""
+
+    def __init__(self, seed):
+        super().__init__(seed, {"stiffness": 0.7, "effect_2.front": 0.3, "effect_2.rear": -0.3})
+        sizes = tuple(Size(f"effect_2.{axle}", "1", 0.0, -5.0, 5.0, 0.1) for axle in ("front", "rear"))
+        self.candidates = tuple(replace(one, sizes=sizes) if one.name == "effect_2" else one for one in self.candidates)
+        rng = np.random.default_rng([seed, 2])
+        for condition in {id(columns): columns for columns in self.columns}.values():
+            alike = 20.0 * condition.pop("effect_2.size")
+            condition |= {size.key: alike + coloured(rng, SAMPLES) for size in sizes}
+
+
+def test_sizes_of_opposite_signs_are_found_though_each_alone_and_their_sum_show_nothing():
+    selection, found = judged(Opposed(8))
+    assert found.verdict == "named" and [e.name for e in found.effects] == ["effect_2"]
+    sizes = {size["parameter"]: size["size"] for size in found.effects[0].sizes}
+    assert sizes["front"] == pytest.approx(0.3, abs=0.1) and sizes["rear"] == pytest.approx(-0.3, abs=0.1)
 
 
 class Shaped(Linear):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -17,6 +19,19 @@ def rough():
 
 def test_a_road_of_iso_8608_holds_no_noise(rough):
     assert suspect.road_noise(rough) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("jump", "wander", "is_suspect"), [(0.010, 0.15, True), (0.004, 0.15, False), (0.010, 0.006, False)]
+)
+def test_clocks_are_suspect_that_wander_where_alignment_saw_it_too(jump, wander, is_suspect):
+    """Three records at 20 m/s whose clocks jump half way by what is left of it in the fit; ``wander``: m that alignment took out."""
+    drive = xr.Dataset({"v_x": ("time", np.full(1000, 20.0))}, attrs={"distance_wander": wander})
+    shift = np.where(np.arange(1000) < 500, 0.0, jump)
+    fitted = SimpleNamespace(shifts=lambda other, index: shift)
+    came = SimpleNamespace(replays=[SimpleNamespace(drive=drive)] * 3)
+    reasons = suspect.of_clocks(came, SimpleNamespace(experiment=fitted, indices=[0, 1, 2]))
+    assert [("10 ms" in reason) for reason in reasons] == ([True] if is_suspect else [])
 
 
 @pytest.mark.parametrize("gain", [1.0, 1.04])

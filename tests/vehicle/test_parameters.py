@@ -31,6 +31,17 @@ def refused(tmp_path, content) -> str:
     return message
 
 
+def test_a_number_that_yaml_takes_for_text_is_refused_with_how_to_write_it(tmp_path, content):
+    content["parameters"]["spring_stiffness_front"]["value"] = "2.8e4"
+    assert "'2.8e4' is text in YAML, expected a number such as 28000" in refused(tmp_path, content)
+
+
+def test_a_file_in_another_encoding_is_refused(tmp_path):
+    (tmp_path / "mine.yaml").write_bytes("# Räder\nparameters: {}\n".encode("latin-1"))
+    with pytest.raises(InputError, match="mine.yaml: is not a text file"):
+        parameters.read(tmp_path / "mine.yaml")
+
+
 def test_a_wrong_unit_is_refused(tmp_path, content):
     content["parameters"]["spring_stiffness_front"]["unit"] = "N/mm"
     message = refused(tmp_path, content)

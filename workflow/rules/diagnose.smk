@@ -22,7 +22,8 @@ checkpoint diagnosis:
     benchmark:
         "results/benchmarks/diagnosis/{model}.tsv"
     threads: 2
-    # The step divides its work among as many processes; Snakemake would have each of its processes do linear algebra in two threads as well.
+    # The step divides its work among as many processes; Snakemake would have each of them do linear algebra in two
+    # threads as well.
     shell:
         "OPENBLAS_NUM_THREADS=1 python -m ridecomfort.steps.diagnose --roads {input.roads:q} --measured {input.measured:q}"
         " --vehicle {input.vehicle:q} --calibration {input.calibration:q} --config {params.config:q}"
