@@ -144,50 +144,25 @@ def calibrate(
     everything = list(range(len(task.parameters)))
     first = descend(task, starts[0], everything, COARSE)
     task = task.about(first.point)
-    steps, point, columns = {}, first.point, None
-    if sequence:
-        point, columns = starts[0], np.zeros_like(first.jacobian)
-        for index in everything:
-            found = descend(task, point, [index], tolerance)
-            point, columns[:, index] = found.point, found.jacobian[:, index]
-            steps[f"OP_{index + 1}"] = found
-    in_sequence = point if sequence else np.full_like(point, np.nan)
-    best = descend(task, point, everything, tolerance, known=columns, exact=True)
-    fits, failed = [best], []
+    steps, columns = _one_after_the_other(task, starts[0], tolerance) if sequence else ({}, None)
+    in_sequence = list(steps.values())[-1].point if sequence else np.full_like(first.point, np.nan)
+    best = descend(task, in_sequence if sequence else first.point, everything, tolerance, known=columns, exact=True)
     random = qmc.LatinHypercube(len(everything), rng=np.random.default_rng(seed)).random(restarts)
-    for place in (*starts[1:], *random):
-        try:
-            found = descend(task, place, everything, max(tolerance, COARSE), known=best.jacobian)
-        except InputError as refused:
-            failed.append(str(refused))
-            continue
-        if not -EQUAL < found.cost / best.cost - 1 < DISAGREE:
-            found = descend(task, found.point, everything, tolerance, known=found.jacobian, exact=True)
-        if found.cost < best.cost * (1 - EQUAL):
-            best = found
-        fits.append(found)
-    steps["joint"] = best
+    fits, refused = _from_elsewhere(task, best, [*starts[1:], *random], tolerance)
+    best = fits[_least(fits)]
     chosen = best.point if applied == "joint" else in_sequence
     jacobian = best.jacobian if applied == "joint" else task.jacobian(chosen, everything)
     knowledge = _assess(task, chosen, jacobian)
-    result = _dataset(task, starts[0], chosen, in_sequence, steps, knowledge)
+    result = _dataset(task, starts[0], chosen, in_sequence, {**steps, "joint": best}, knowledge)
     if profiles:
         result = result.merge(_profiles(task, chosen, knowledge, profiles))
-    remarks = [*_clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge)]
     result["restart_cost"] = "restart", np.array([fit.cost for fit in fits])
     result["restart_value"] = ("restart", "parameter"), np.stack([task.values(fit.point) for fit in fits])
-    eager = result["drive"].values[np.abs(result["clock_correction"].values) >= CLOCK_LEFT]
-    if eager.size:
-        remarks.append(
-            f"the clock of {', '.join(eager)} would move by more than the {1e3 * CLOCK_LEFT:g} ms it is trusted to: "
-            "the model lacks a delay or a damping"
-        )
-    if failed:
-        remarks.append(f"{len(failed)} of {len(failed) + len(fits)} starts led to a vehicle that does not drive ({failed[0]})")
-    worst = float(result["restart_cost"].max() / best.cost - 1)
-    if worst > DISAGREE:
-        remarks.append(f"starts disagree: the worst of {len(fits)} ends at a cost {100 * worst:.1f} % above the best, which is taken")
     result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
+    remarks = [
+        *_clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge), *_of_clocks(result),
+        *_of_starts(fits, best, refused),
+    ]  # fmt: skip
     result.attrs.update(
         applied=applied,
         start="; ".join(
@@ -198,6 +173,62 @@ def calibrate(
         remarks="; ".join(remarks) or "none",
     )
     return result
+
+
+def _one_after_the_other(task: Problem, start: np.ndarray, tolerance: float) -> tuple[dict[str, Descent], np.ndarray]:
+    """OP_1, OP_2, ... of fig:optichain, each from where the one before it ended, and the columns of the Jacobian that they leave."""
+    steps, columns, point = {}, None, start
+    for index in range(len(task.parameters)):
+        found = descend(task, point, [index], tolerance)
+        columns = np.zeros_like(found.jacobian) if columns is None else columns
+        point, columns[:, index] = found.point, found.jacobian[:, index]
+        steps[f"OP_{index + 1}"] = found
+    return steps, columns
+
+
+def _from_elsewhere(
+    task: Problem, best: Descent, places: Sequence[np.ndarray], tolerance: float
+) -> tuple[list[Descent], list[str]]:
+    """``best`` and the fits from other places, and why the others of these led nowhere."""
+    fits, refused, known = [best], [], best
+    for place in places:
+        try:
+            found = descend(task, place, list(range(len(task.parameters))), max(tolerance, COARSE), known=known.jacobian)
+        except InputError as why:
+            refused.append(str(why))
+            continue
+        if not -EQUAL < found.cost / known.cost - 1 < DISAGREE:
+            found = descend(task, found.point, list(range(len(task.parameters))), tolerance, known=found.jacobian, exact=True)
+        fits.append(found)
+        known = fits[_least(fits)]
+    return fits, refused
+
+
+def _least(fits: Sequence[Descent]) -> int:
+    """Which fit is the best; of equal ones the first."""
+    best = 0
+    for number, fit in enumerate(fits):
+        if fit.cost < fits[best].cost * (1 - EQUAL):
+            best = number
+    return best
+
+
+def _of_clocks(result: xr.Dataset) -> list[str]:
+    """What is to be said of drives whose clock would go farther than it may."""
+    eager = result["drive"].values[np.abs(result["clock_correction"].values) >= CLOCK_LEFT]
+    said = f"the clock of {', '.join(eager)} would move by more than the {1e3 * CLOCK_LEFT:g} ms it is trusted to: "
+    return [said + "the model lacks a delay or a damping"] if eager.size else []
+
+
+def _of_starts(fits: Sequence[Descent], best: Descent, refused: Sequence[str]) -> list[str]:
+    """What is to be said of starts that led nowhere, or elsewhere."""
+    said = []
+    if refused:
+        said.append(f"{len(refused)} of {len(refused) + len(fits)} starts led to a vehicle that does not drive ({refused[0]})")
+    worst = max(fit.cost for fit in fits) / best.cost - 1
+    if worst > DISAGREE:
+        said.append(f"starts disagree: the worst of {len(fits)} ends at a cost {100 * worst:.1f} % above the best, which is taken")
+    return said
 
 
 def effect_parameters(chosen, held: Mapping[str, Mapping[str, float]]) -> tuple[dict, dict]:
