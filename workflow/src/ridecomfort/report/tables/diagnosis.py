@@ -84,14 +84,15 @@ def missing_effects(found: Diagnosis) -> Table:
         breaks.append(len(rows))
         shares = [_percent(effect[key]) for key in ("share", "held_out_share", "absorbed")]
         like = ", ".join(words(name) for name in effect["like"]) or "–"
-        for size in effect["sizes"] or [{}]:
+        of_all = (effect["p_value"], *shares, like)
+        for number, size in enumerate(effect["sizes"] or [{}]):
             lower, upper = size.get("interval", (None, None))
             plausible = {True: "yes", False: "no", None: ""}[size.get("is_plausible")]
             if size.get("plausible"):
                 plausible += " ({:.4g} to {:.4g})".format(*size["plausible"])
             rows.append(
                 (words(effect["name"]), words(size.get("parameter", "")), unit(size.get("unit", "")), size.get("size"), lower, upper,
-                 plausible, effect["p_value"], *shares, like)
+                 plausible, *(of_all if number == 0 else (*(None,) * 4, "")))
             )  # fmt: skip
     if not rows:
         rows.append(("none", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
@@ -100,7 +101,8 @@ def missing_effects(found: Diagnosis) -> Table:
         "Shares are of the explainable error of the calibrated model before any effect was added. Removed is what goes when an effect "
         "joins those above it, all sizes fitted together and the drives aligned for them, above the floor that the last model shows: "
         "the evidence has the refit that it was chosen by, above the floor of that round, and the error ladder what is left when the "
-        "study calibrates anew, site by site. Absorbed: share of the effect's response that calibration can take up, and so hide.",
+        "study calibrates anew, site by site. They are of all sizes of an effect together and stand beside its first. Absorbed: "
+        "share of the effect's response that calibration can take up, and so hide.",
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
 
