@@ -110,11 +110,10 @@ class Span:
 
     def _normal(self) -> np.ndarray:
         normal = np.zeros((self.rows.count, self.rows.count))
+        starts, stops = (np.array([getattr(piece.place, end) for piece in self.white]) for end in ("start", "stop"))
         for k, one in enumerate(self.white):
-            for other in self.white[: k + 1]:
-                start, stop = max(one.start, other.start), min(one.place.stop, other.place.stop)
-                if stop <= start:
-                    continue
+            for j in np.flatnonzero((starts[: k + 1] < stops[k]) & (stops[: k + 1] > starts[k])):
+                other, start, stop = self.white[j], max(starts[j], starts[k]), min(stops[j], stops[k])
                 left, right = (
                     part.rows[..., start - part.start : stop - part.start].reshape(len(part.rows), -1) for part in (one, other)
                 )

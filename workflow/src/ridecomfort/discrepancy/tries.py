@@ -75,15 +75,18 @@ class Tries:
             return None
 
     def _lengthened(self, fit: Fit, sizes: Sequence[Size]) -> Fit:
-        """A fit whose way from the rung is doubled while that is more likely and the error falls.
+        """A fit whose way from the rung is doubled while that is foreseen to be more likely, is so, and the error falls.
 
         The loss is white by the error of before. Where that was large it weighs little, and elsewhere much, so that the
         fit of an effect that makes other signals worse until parameters follow stops at a tenth of its size.
         """
-        frame, before = self.rung.frame, self.rung.fit.values
+        frame, before = self.rung.frame, self.rung.fit
         reached = refit.information(frame, fit.residuals)
         for _ in range(DOUBLINGS):
-            way = {size: fit.values[size.key] - before.get(size.key, size.neutral) for size in sizes}
+            foreseen = {i: 2.0 * part - before.residuals[i] for i, part in fit.residuals.items()}
+            if refit.information(frame, foreseen) < reached + refit.WORTHWHILE:
+                break
+            way = {size: fit.values[size.key] - before.values.get(size.key, size.neutral) for size in sizes}
             longer = {size.key: float(np.clip(fit.values[size.key] + way[size], size.lower, size.upper)) for size in sizes}
             values = {**fit.values, **longer}
             try:

@@ -163,6 +163,11 @@ class Replay:
         """The measured signals, (6, time), in the order of SIGNALS."""
         return np.stack([self.drive[name].values for name in SIGNALS])
 
+    @cached_property
+    def up(self) -> np.ndarray:
+        """Unit vector that points up along the body's axes, as alignment has it, (3, time)."""
+        return upward(self.drive["roll"].values, self.drive["pitch"].values)
+
     def residual(self, simulated: Simulated) -> np.ndarray:
         """Simulated minus measured signals, (6, time); NaN before the run-in (eq:nonlinlsq).
 
@@ -172,8 +177,7 @@ class Replay:
         """
         difference = simulated.signals - self.measured()
         if self.drive.attrs.get("gravity", 0):
-            used = upward(self.drive["roll"].values, self.drive["pitch"].values)
-            difference[:3] += STANDARD_GRAVITY * (upward(simulated.roll, simulated.pitch) - used)
+            difference[:3] += STANDARD_GRAVITY * (upward(simulated.roll, simulated.pitch) - self.up)
         difference[:, ~self.compared] = np.nan
         return difference
 
