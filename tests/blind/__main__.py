@@ -48,8 +48,8 @@ def one(job: tuple[str, int, int]) -> dict:
     place = ports.get(known[draw.hidden[0]].effect.port) if kind.startswith("outside") else None
     fall = lambda first, last: score.against_oracle(trial, car, trials.SHAPES, first, last)
     if place:
-        ladder = proposal.selection.ladder if proposal else ()
-        share = fall(ladder[0].held_out_squares, ladder[-1].held_out_squares) if ladder else float("nan")
+        states = proposal.selection.states if proposal else ()
+        share = fall(states[0].held_out_squares, states[-1].held_out_squares) if states else float("nan")
         row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share}
     reached = table["held_out_mean_square"].values
     oracle = fall(reached[0], reached[-1]) if draw.hidden and kind not in ("messy", "wrong file") else float("nan")

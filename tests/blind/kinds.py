@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ridecomfort.discrepancy.candidates import candidate
-from ridecomfort.discrepancy.car import UNCERTAIN
+from ridecomfort.discrepancy.opening import UNCERTAIN
 from ridecomfort.effects import library
 from ridecomfort.vehicle.parameters import PARAMETERS
 

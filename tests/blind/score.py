@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.stats import binomtest
 
-from ridecomfort.discrepancy import car as cars
-from ridecomfort.discrepancy import floor
+from ridecomfort.calibrated import with_values
 from ridecomfort.discrepancy import experiment as exp
+from ridecomfort.discrepancy import floor, opening
 from ridecomfort.discrepancy.rank import SHARED
 from ridecomfort.errors import InputError
 
@@ -55,13 +55,13 @@ def against_oracle(trial, vehicle, effects_folder, first, last) -> float:
     """Fall of the held-out error, mean squares (record, channel) from ``first`` to ``last``, relative to that of who knows the effects and
     all parameters; nan where there is none."""
     sizes = trial.truth["effects"]
-    true_vehicle, _ = cars.with_values(vehicle, {}, trial.truth["car"])
+    true_vehicle, _ = with_values(vehicle, {}, trial.truth["car"])
     try:
-        knowing = cars.car(
-            cars.sites_of(trial.measured), true_vehicle, effects=sizes, effects_folder=effects_folder, library_names=[]
+        knowing = opening.car(
+            opening.sites_of(trial.measured), true_vehicle, effects=sizes, effects_folder=effects_folder, library_names=[]
         )
         held_out = [index for index, record in enumerate(knowing.records) if record.role != "fit"]
-        values = cars.start_values(knowing)
+        values = opening.start_values(knowing)
         residuals = exp.simulate(knowing, values, held_out)
     except InputError:  # the truth was made with half the step, and does not bear the whole one
         return float("nan")

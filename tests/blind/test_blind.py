@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from ridecomfort import discrepancy, store
-from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy import opening
 from ridecomfort.drive import record
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
@@ -34,7 +34,7 @@ def diagnosed(car_file, tmp_path_factory):
     store.write(road, folder / "road.nc", title="road")
     store.write(record.stack(drives), folder / "measured.nc", title="drives")
     config = {
-        "sites": ["trial"], "fitted_on": ["trial"], "effects": {}, "effects_folder": None, "bounds": {}, "uncertain": cars.UNCERTAIN, "noise_density": {}, "seed": 0,
+        "sites": ["trial"], "fitted_on": ["trial"], "effects": {}, "effects_folder": None, "bounds": {}, "uncertain": opening.UNCERTAIN, "noise_density": {}, "seed": 0,
         "among": AMONG, "simulation": {"step": 0.001, "rate": 100},
     }  # fmt: skip
     subprocess.run(

@@ -12,9 +12,9 @@ from scipy.ndimage import gaussian_filter1d
 
 from ridecomfort import simulate
 from ridecomfort.calibrate import BOUNDS
-from ridecomfort.discrepancy import car as cars
 from ridecomfort.discrepancy import experiment as exp
-from ridecomfort.discrepancy import judged
+from ridecomfort.discrepancy import judged, opening
+from ridecomfort.discrepancy.car import Car
 from ridecomfort.discrepancy.realign import ROUNDS
 from ridecomfort.drive import align
 from ridecomfort.errors import InputError
@@ -204,7 +204,7 @@ class Remains:
     def __init__(self, course, vehicle, bare: xr.Dataset, noisy: xr.Dataset):
         self.course, self.vehicle = course, vehicle
         own = self._car(bare)
-        values = cars.start_values(own)
+        values = opening.start_values(own)
         residual = own.residual(values, 0)
         moved = [WIDE * exp.secant(own, values, {0: residual}, size, 1.0)[0] for size in own.free]
         nuisances = own.nuisances(values, 0)
@@ -219,7 +219,7 @@ class Remains:
         own = self._car(record)
         amounts, left = self._fit(own)
         for _ in range(ROUNDS):
-            own = own.realigned({0: amounts[: self.nuisances]}).retuned(cars.start_values(own), [0])[0]
+            own = own.realigned({0: amounts[: self.nuisances]}).retuned(opening.start_values(own), [0])[0]
             amounts, closer = self._fit(own)
             if np.sum(closer**2) >= np.sum(left**2):
                 break
@@ -229,23 +229,23 @@ class Remains:
         count = min(left.shape[1], self.bare.shape[1])
         return left[:, :count] - self.bare[:, :count]
 
-    def _fit(self, own: cars.Car) -> tuple[np.ndarray, np.ndarray]:
+    def _fit(self, own: Car) -> tuple[np.ndarray, np.ndarray]:
         """Likely amounts of the rows, each of its usual size, in a residual, and what they leave of it (6, sample)."""
-        residual = _judged(own.residual(cars.start_values(own), 0))
+        residual = _judged(own.residual(opening.start_values(own), 0))
         count = min(residual.shape[1], self.rows.shape[2])
         residual = residual[:, :count] / self.floor[:, None]
         rows = (self.rows[:, :, :count] / self.floor[:, None]).reshape(len(self.rows), -1)
         amounts = np.linalg.solve(rows @ rows.T + np.eye(len(rows)), rows @ residual.ravel())
         return amounts, residual - (amounts @ rows).reshape(6, -1)
 
-    def _car(self, record: xr.Dataset) -> cars.Car:
-        return cars.car([cars.Site("trial", self.course, [record])], self.vehicle, library_names=[])
+    def _car(self, record: xr.Dataset) -> Car:
+        return opening.car([opening.Site("trial", self.course, [record])], self.vehicle, library_names=[])
 
 
 def _judged(series: np.ndarray) -> np.ndarray:
     """Series (..., 6, sample) in the band that is judged, the second at both ends left out."""
     fast = judged.judged(series, 100.0, SIGNALS)
-    return judged.band(fast, 100.0, (0.0, cars.HIGHEST * 50.0))[..., 100:-100]
+    return judged.band(fast, 100.0, (0.0, opening.HIGHEST * 50.0))[..., 100:-100]
 
 
 def _scale(remains: Remains, drive, effects, kappa: float) -> tuple[float, float]:

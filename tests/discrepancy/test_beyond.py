@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ridecomfort.discrepancy import beyond, diagnose, rung, select
-from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy import beyond, diagnose, opening, rung, select
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
@@ -23,8 +22,8 @@ def measured(car, wrong, effects=None, seed=41):
 
 
 def selected(drives, car, library="crosswind"):
-    experiment = cars.car(cars.sites_of(drives), car, library_names=[library])
-    return select.search(rung.begin(experiment, cars.start_values(experiment)), most=1)
+    experiment = opening.car(opening.sites_of(drives), car, library_names=[library])
+    return select.search(rung.begin(experiment, opening.start_values(experiment)), most=1)
 
 
 def holds(one, truth):

@@ -9,7 +9,8 @@ import pytest
 
 from ridecomfort import simulate
 from ridecomfort.calibrated import with_values
-from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy import nuisances, opening
+from ridecomfort.discrepancy.car import ASTRAY
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
 
@@ -18,7 +19,7 @@ from tests.blind import trials
 def made(repository):
     vehicle = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
     trial = trials.make(31, vehicle, {}, 1.0)
-    return cars.car(cars.sites_of(trial.measured), vehicle, library_names=["crosswind"])
+    return opening.car(opening.sites_of(trial.measured), vehicle, library_names=["crosswind"])
 
 
 def aside(made, again, values) -> float:
@@ -30,12 +31,12 @@ def aside(made, again, values) -> float:
 def test_what_a_vehicle_has_not_is_no_size_of_it(made):
     without = made.vehicle.replace(anti_roll_stiffness_rear=0.0)
     drives = [again.drive for again in made.replays[:1]]
-    free = cars.car([cars.Site("trial", made.replays[0].road, drives)], without, library_names=["crosswind"]).free
+    free = opening.car([opening.Site("trial", made.replays[0].road, drives)], without, library_names=["crosswind"]).free
     assert {"anti_roll_stiffness_rear"} == {size.key for size in made.free} - {size.key for size in free}
 
 
 def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):
-    values = {**cars.start_values(made), "crosswind.wind": 10.0}
+    values = {**opening.start_values(made), "crosswind.wind": 10.0}
     blown = aside(made, made.replays[0], values)
     retuned, residuals = made.retuned(values, [0])
     assert blown > 0.02 and aside(made, retuned.replays[0], values) < 0.15 * blown
@@ -44,7 +45,7 @@ def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):
 
 
 def test_residuals_are_those_on_the_measured_path(made):
-    values = {**cars.start_values(made), "crosswind.wind": 10.0}
+    values = {**opening.start_values(made), "crosswind.wind": 10.0}
     vehicle, effects = with_values(made.vehicle, made.effects, values)
     again = made.replays[0]
     blown = again.residual(again(vehicle, effects))[:, again.compared]
@@ -53,14 +54,14 @@ def test_residuals_are_those_on_the_measured_path(made):
 
 
 def test_realigning_moves_the_path_that_is_to_be_driven(made):
-    values = cars.start_values(made)
+    values = opening.start_values(made)
     count = len(made.nuisances(values, 0))
     amounts = np.zeros(count)
-    amounts[(count + cars.BETWEEN) // 2 : count + cars.BETWEEN] = 1.0
+    amounts[(count + nuisances.BETWEEN) // 2 : count + nuisances.BETWEEN] = 1.0
     moved = made.realigned({0: amounts})
     shift = moved.replays[0].drive["e"] - made.replays[0].drive["e"]
-    np.testing.assert_allclose(shift, -cars.PATH, rtol=1e-4)
-    assert aside(moved, moved.replays[0], values) < 2 * cars.ASTRAY["lateral"]
+    np.testing.assert_allclose(shift, -nuisances.PATH, rtol=1e-4)
+    assert aside(moved, moved.replays[0], values) < 2 * ASTRAY["lateral"]
 
 
 def test_a_coarse_step_is_made_good_in_residuals_and_not_in_their_changes(made):
@@ -68,7 +69,7 @@ def test_a_coarse_step_is_made_good_in_residuals_and_not_in_their_changes(made):
     at = lambda step: replace(
         made, replays=[replace(again, options={**again.options, "step": step}) for again in made.replays]
     )
-    values = cars.start_values(made)
+    values = opening.start_values(made)
     moved = {**values, "tyre_radial_stiffness": 1.1 * values["tyre_radial_stiffness"]}
     coarse, fine = made, at(0.000125)
     exact, _ = coarse.retuned(values, [0], exactly=True)
@@ -80,5 +81,5 @@ def test_a_coarse_step_is_made_good_in_residuals_and_not_in_their_changes(made):
 
 def test_the_step_of_another_simulator_is_its_own(made):
     other = replace(made, replays=[replace(again, simulate=lambda *a, **k: simulate.run(*a, **k)) for again in made.replays])
-    values = cars.start_values(other)
+    values = opening.start_values(other)
     np.testing.assert_array_equal(other.retuned(values, [0], exactly=True)[0].residual(values, 0), other.residual(values, 0))

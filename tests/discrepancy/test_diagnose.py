@@ -69,7 +69,7 @@ def test_a_name_that_leaves_little_but_that_for_certain_gives_way_to_a_force_tha
     for weaker in (replace(exact, share=0.88), replace(exact, held_out_share=0.8), replace(exact, p_value=0.03)):
         assert reconsidered(little, weaker) is little
     assert reconsidered(replace(little, is_shared=False), exact).verdict == "named"
-    hardly = replace(little, share=0.97, held_out_share=0.97)
+    hardly = replace(little, share=0.98, held_out_share=0.98)
     assert reconsidered(hardly, replace(exact, share=0.995, held_out_share=0.995)) is hardly
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy import car
+from ridecomfort.discrepancy import opening
 from ridecomfort.discrepancy.explain import explain
 from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, judged
 
@@ -72,4 +72,4 @@ def test_errors_that_are_slower_than_the_vehicle_are_not_its_to_explain():
 
 
 def test_what_is_explained_is_judged_in_the_band_that_effects_are_searched_in():
-    assert (LOWEST, LOWEST_OF_DRIVER) == (car.LOWEST, car.LOWEST_OF_DRIVER)
+    assert (LOWEST, LOWEST_OF_DRIVER) == (opening.LOWEST, opening.LOWEST_OF_DRIVER)

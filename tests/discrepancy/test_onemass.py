@@ -35,7 +35,7 @@ def test_the_cubic_spring_of_the_silverbox_is_named(silverbox):
     unseen._turn, unseen.free = fitted._turn, fitted.free
     millivolts = {
         name: [1e3 * np.std(unseen.residual(values, index)[0, 100:]) for index in (0, 1)]
-        for name, values in (("linear", found.ladder[0].fit.values), ("cubic", found.ladder[1].fit.values))
+        for name, values in (("linear", found.states[0].fit.values), ("cubic", found.states[1].fit.values))
     }
     assert millivolts["linear"][0] > 6.0
     assert millivolts["cubic"][0] < 1.3 and millivolts["cubic"][1] < 1.5

@@ -254,4 +254,4 @@ def test_without_repeats_the_floor_is_the_noise_that_is_known_of_the_instruments
     selection, found = judged(model)
     assert any("assumed from the noise" in reason for reason in found.reasons)
     low, high = model.records[0].band
-    assert selection.ground.max() == pytest.approx(0.01 * (high - low))
+    assert selection.floor_squares.max() == pytest.approx(0.01 * (high - low))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import car as cars
+from ridecomfort.discrepancy import opening
 from ridecomfort.discrepancy.rung import begin
 from ridecomfort.discrepancy.signature import signature
 from ridecomfort.effects import library
@@ -17,8 +17,8 @@ from tests.blind import trials
 def found(repository):
     car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
     trial = trials.make(7, car, {"suspension_friction": library.find()["suspension_friction"].effect.values()}, 1.0)
-    experiment = cars.opened(trial.measured, car, among=(), workers=1)
-    rung = begin(experiment, {**cars.start_values(experiment), **trial.truth["car"]})
+    experiment = opening.opened(trial.measured, car, among=(), workers=1)
+    rung = begin(experiment, {**opening.start_values(experiment), **trial.truth["car"]})
     return signature(rung, named=trial.truth["effects"])
 
 

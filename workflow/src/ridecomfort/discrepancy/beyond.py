@@ -75,7 +75,7 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
     with all drives like every model of the selection: that fit alone, whose error makes itself white, does not find its way so far. It is
     sure with HELD_OUT_Z on drives held out, of parameters whose 90 % interval lies beyond the bounds.
     """
-    last = selection.ladder[-1]
+    last = selection.states[-1]
     sizes = _wider(selection, last)
     rung = _wide(selection, last, sizes, each)
     if rung is None:
@@ -90,8 +90,8 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
 def before_effects(selection: Selection, each: Callable = map) -> Rung | None:
     """The rung of the first model of a selection with parameters beyond the bounds that it ends at, where that alone is better: effects may
     stand in for them, beside which none is at its bound. None where none ends there, or going beyond is no better."""
-    first = selection.ladder[0]
-    return _wide(selection, first, _wider(selection, first), each) if len(selection.ladder) > 1 else None
+    first = selection.states[0]
+    return _wide(selection, first, _wider(selection, first), each) if len(selection.states) > 1 else None
 
 
 def without_effects(rung: Rung, each: Callable = map) -> Rung | None:
@@ -110,9 +110,9 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
 
     It is better by a share that is worth a word, or where the parameters alone leave LEFT of what all effects did.
     """
-    gained = shares(before, before.ladder[-1], after.ladder[-1], after)
-    alone = shares(before, before.ladder[0], after.ladder[0], after)
-    effects = shares(before, before.ladder[0], before.ladder[-1], after)
+    gained = shares(before, before.states[-1], after.states[-1], after)
+    alone = shares(before, before.states[0], after.states[0], after)
+    effects = shares(before, before.states[0], before.states[-1], after)
     is_simpler = not any(1.0 - ours > LEFT * (1.0 - theirs) for ours, theirs in zip(alone, effects))
     if not _is_enough(alone) or not (_is_enough(gained) or is_simpler):
         return None

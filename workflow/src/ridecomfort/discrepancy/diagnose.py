@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from . import car as cars
-from . import pool
+from . import opening, pool
 from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, without_effects
+from .car import Car
 from .discover import Discovery, discovered
 from .explain import REPEATS
 from .places import settings as shaping
@@ -26,7 +26,7 @@ BETTER = 1.2
 NEARLY_ALL = 0.95
 """Share of the explainable error beyond which what was found leaves no room for a wrong file of the vehicle."""
 
-HALF, WORTH = 0.5, 0.05
+HALF, WORTH = 0.5, 0.025
 """Share of what the library leaves, where that is little, which a force of any form may leave at most to do so, and share of the
 explainable error by which it must be better then."""
 
@@ -43,10 +43,10 @@ def diagnose(
     Where parameters of the vehicle beyond their bounds explain more, all of that is what a second search says, which allows them
     (``beyond``). Arguments as for ``rank``, but ``most``; ``name``: of the effect that is proposed.
     """
-    experiment = cars.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
+    experiment = opening.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
     common = {"effects_folder": effects_folder, "seed": seed, "say": say}
     common["each"] = pool.mapped(pool.workers() if workers is None else workers)
-    rung = begin(experiment, cars.start_values(experiment), common["each"])
+    rung = begin(experiment, opening.start_values(experiment), common["each"])
     table, verdict, selection = ranked(experiment, rung, signatures=signatures, **common)
     found = None
     if not table.attrs["suspected"] and verdict.verdict != "nothing" and not verdict.share > NEARLY_ALL:
@@ -70,7 +70,7 @@ def diagnose(
 
 
 def _with_vehicle_right(
-    experiment: cars.Car, selection: Selection, signatures: bool, common: Mapping
+    experiment: Car, selection: Selection, signatures: bool, common: Mapping
 ) -> tuple[BeyondBounds | None, tuple[xr.Dataset, Verdict, Rung] | None]:
     """Parameters of the vehicle beyond their bounds, if they explain more, and what a search says that begins with them put right, with the
     rung it begins at, if that is the better one and leaves nothing out, or sees that the data are wrong. ``experiment``: as its drives came."""

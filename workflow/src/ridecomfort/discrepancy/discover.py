@@ -14,8 +14,7 @@ from dataclasses import dataclass, replace
 
 import xarray as xr
 
-from . import car as cars
-from . import pool
+from . import opening, pool
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words
@@ -74,12 +73,12 @@ def discover(
 
     ``most``: terms of its force. All terms of a proposal act at the place of the first.
     """
-    experiment = cars.opened(
+    experiment = opening.opened(
         measured, vehicle, calibration=calibration, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
         bounds=bounds, uncertain=uncertain, among=(), noise_density=noise_density, workers=workers, options=options,
     )  # fmt: skip
     each = pool.mapped(pool.workers() if workers is None else workers)
-    rung = begin(experiment, cars.start_values(experiment), each)
+    rung = begin(experiment, opening.start_values(experiment), each)
     return discovered(rung, name=name, effects_folder=effects_folder, most=most, seed=seed, each=each, say=say)
 
 

@@ -49,16 +49,16 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
             floors[state, drive] = np.mean(own.noise**2, axis=1)
     square = _squares(comparison)
     if np.isfinite(floors).any():
-        ground, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
+        floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
     elif noise_density:
-        ground, known_from = _filled(_of_instruments(comparison, noise_density)), ASSUMED
+        floor_squares, known_from = _filled(_of_instruments(comparison, noise_density)), ASSUMED
     else:
-        ground, known_from = np.zeros(floors.shape[1:]), NIL
-    ground = np.minimum(ground, square.min(axis=0))
-    above = square - ground
+        floor_squares, known_from = np.zeros(floors.shape[1:]), NIL
+    floor_squares = np.minimum(floor_squares, square.min(axis=0))
+    above = square - floor_squares
     share = 1.0 - above / np.where(above[:1] > 0, above[:1], np.nan)
     return comparison.assign(
-        floor_rmse=(("drive", "signal"), np.sqrt(ground)),
+        floor_rmse=(("drive", "signal"), np.sqrt(floor_squares)),
         explainable_rmse=(("state", "drive", "signal"), np.sqrt(above)),
         explained_share=(("state", "drive", "signal"), share, {"units": "1"}),
     ).assign_attrs(floor=known_from)
@@ -131,8 +131,8 @@ def _of_instruments(comparison: xr.Dataset, density: Mapping[str, Mapping[str, f
     ) * np.maximum(width, 0.0)
 
 
-def _filled(ground: np.ndarray) -> np.ndarray:
+def _filled(floor_squares: np.ndarray) -> np.ndarray:
     """The floor (drive, signal) of every drive: one that is not known is the mean of those that are, else nil."""
-    known = np.isfinite(ground)
-    mean = np.where(known.any(axis=0), np.where(known, ground, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1), 0.0)
-    return np.where(known, ground, mean)
+    known = np.isfinite(floor_squares)
+    mean = np.where(known.any(axis=0), np.where(known, floor_squares, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1), 0.0)
+    return np.where(known, floor_squares, mean)

@@ -91,14 +91,14 @@ def _power(parts: Sequence[np.ndarray], record: Record) -> np.ndarray:
     return cross_spectrum(parts, record.rate, record.lowest).power(record.band, record.rate)
 
 
-def explained_share(before: np.ndarray, after: np.ndarray, first: np.ndarray, ground: np.ndarray) -> float:
+def explained_share(before: np.ndarray, after: np.ndarray, first: np.ndarray, floor_squares: np.ndarray) -> float:
     """Fall of the error from ``before`` to ``after`` as a share of what was explainable at ``first``; nan where nothing was.
 
-    All are mean squares (record, channel), ``ground`` those of the floor; records are averaged, channels weigh alike. A
+    All are mean squares (record, channel), ``floor_squares`` those of the floor; records are averaged, channels weigh alike. A
     channel whose floor came out above its error counts against the others: clipped, chance would pass for error.
     """
     if not first.size:
         return float("nan")
-    before, after, first, ground = (values.mean(axis=0) for values in (before, after, first, ground))
-    explainable = np.sum((first - ground) / first)
+    before, after, first, floor_squares = (values.mean(axis=0) for values in (before, after, first, floor_squares))
+    explainable = np.sum((first - floor_squares) / first)
     return float(np.sum((before - after) / first) / explainable) if explainable > LEAST else float("nan")

@@ -46,14 +46,14 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     rungs = [UNCALIBRATED, CALIBRATED, *titles]
     sizes = len(rungs), len(sites), 2
     squares, relative = np.full((2, *sizes, len(signals)), np.nan)
-    ground = np.full((len(sites), 2, len(signals)), np.nan)
+    floor_squares = np.full((len(sites), 2, len(signals)), np.nan)
     counts = {name: np.full((*sizes, len(critical.METHODS)), np.nan) for name in COUNTS}
     repeated = np.full((len(sites), 2, len(critical.METHODS)), np.nan)
     for k, site in enumerate(sites.values()):
         for g, drives in enumerate(_groups(site, models[0])):
             if not drives.any():
                 continue
-            ground[k, g] = _ground(site, drives)
+            floor_squares[k, g] = _floor_squares(site, drives)
             before = None
             for r, (model, state) in enumerate(_rungs(site, models)):
                 if state is None:
@@ -63,12 +63,12 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
                 relative[r, k, g] = (rows["nrmse"] ** 2).mean("drive").values
                 before = _count(site.sections[model].isel(drive=drives), state, before, counts, (r, k, g))
             repeated[k, g] = _repeats(site.sections[models[0]].isel(drive=drives))
-    ground = np.fmin(ground, np.fmin.reduce(squares, axis=0))
+    floor_squares = np.fmin(floor_squares, np.fmin.reduce(squares, axis=0))
     reference = 1 if np.isfinite(squares[1]).any() else 0
-    above = squares - ground
+    above = squares - floor_squares
     start = np.where(np.isfinite(above[reference]), above[reference], above[0])
-    visible = start > VISIBLE * (start + ground)
-    share = start / (start + ground)
+    visible = start > VISIBLE * (start + floor_squares)
+    share = start / (start + floor_squares)
     left = np.where(visible, above / np.where(visible, start, 1.0), np.nan)
     weight = np.where(np.isfinite(share), share, 0.0)
     total = weight.sum(axis=-1)
@@ -78,7 +78,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
         {
             "rmse": ((*over, "signal"), np.sqrt(squares)),
             "nrmse": ((*over, "signal"), np.sqrt(relative)),
-            "floor_rmse": (("site", "group", "signal"), np.sqrt(ground)),
+            "floor_rmse": (("site", "group", "signal"), np.sqrt(floor_squares)),
             "left": ((*over, "signal"), left),
             "left_overall": (over, overall),
             **{name: ((*over, "method"), values) for name, values in counts.items()},
@@ -118,7 +118,7 @@ def _groups(site: Measured, model: str) -> tuple[np.ndarray, np.ndarray]:
     return fitted, ~fitted
 
 
-def _ground(site: Measured, drives: np.ndarray) -> np.ndarray:
+def _floor_squares(site: Measured, drives: np.ndarray) -> np.ndarray:
     """Mean square (signal,) of the floor: the least that any model shows."""
     floors = [(each["floor_rmse"].isel(drive=drives) ** 2).mean("drive").values for each in site.comparisons.values()]
     return np.fmin.reduce(floors, axis=0)

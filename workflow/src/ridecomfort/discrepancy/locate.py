@@ -72,10 +72,10 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     drives = [_drive(rows.isel(drive=k), noise.get(k)) for k in range(comparison.sizes["drive"])]
     rate = drives[0].rate
     bands = [band for band in BANDS if band[0] < 0.4 * rate]
-    ground = _white_floor(rows, bands)
+    white_floor = _white_floor(rows, bands)
     edges = _stretches(drives)
     power, seconds = _by_stretch([(d.place, d.error) for d in drives], edges, bands, rate)
-    floor = np.broadcast_to(ground[:, None, :], power.shape).copy()
+    floor = np.broadcast_to(white_floor[:, None, :], power.shape).copy()
     if noise:
         own, length = _by_stretch([(d.own.place, d.own.noise) for d in drives if d.own], edges, bands, rate)
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()

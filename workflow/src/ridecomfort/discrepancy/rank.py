@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from . import car as cars
-from . import floor, pool, suspect, turns
+from . import floor, opening, pool, suspect, turns
+from .car import Car
 from .experiment import Frame
 from .explain import ASSUMED, NIL, REPEATS
 from .rung import Rung, begin
@@ -46,36 +46,36 @@ def rank(
     ``measured``: mapping of site to (road, aligned drives); drives of role "fit" on the sites ``fitted_on`` (by
     default the first) are fitted, the others of those sites and one of each speed of other sites decide. ``calibration`` and
     ``effects`` are those of the model; ``uncertain``: share by which parameters that are not calibrated may be wrong
-    (default ``car.UNCERTAIN``). ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
+    (default ``opening.UNCERTAIN``). ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
     default one for each core. ``noise_density``: of instruments by site and drive, the floor where no drive
     was repeated. ``signatures``: estimate the missing force against what it could depend on as well.
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
-    their gains, shares and objections; over ``model``: the ladder; ``smoothness`` of the road (``suspect.smoothness``); and what
+    their gains, shares and objections; over ``model``: the mean squares of its states; ``smoothness`` of the road (``suspect.smoothness``); and what
     ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, if that may be all that
     repeats share, ``suspected`` whether the "data" are or the "road" alone, and ``turns`` what comes back with the
     way or the time (``turns.line``). Raises InputError.
     """
-    experiment = cars.opened(
+    experiment = opening.opened(
         measured, vehicle, calibration=calibration, effects=effects, effects_folder=effects_folder, fitted_on=fitted_on,
         bounds=bounds, uncertain=uncertain, among=among, noise_density=noise_density, workers=workers, options=options,
     )  # fmt: skip
     each = pool.mapped(pool.workers() if workers is None else workers)
-    rung = begin(experiment, cars.start_values(experiment), each)
+    rung = begin(experiment, opening.start_values(experiment), each)
     return ranked(
         experiment, rung, most=most, seed=seed, signatures=signatures, effects_folder=effects_folder, each=each, say=say
     )[:2]
 
 
 def ranked(
-    experiment: cars.Car, rung: Rung, *, most: int = 3, seed: int = 0, signatures: bool = False, effects_folder=None, each=map,
+    experiment: Car, rung: Rung, *, most: int = 3, seed: int = 0, signatures: bool = False, effects_folder=None, each=map,
     say: Callable[[str], None] = lambda words: None,
 ) -> tuple[xr.Dataset, Verdict, Selection]:  # fmt: skip
     """``rank`` from an ``experiment`` as its drives came and the ``rung`` of its calibrated model, with the selection behind it."""
     selection = search(rung, most=most, seed=seed, each=each, say=say)
     stands = bool(standing(selection, experiment.candidates))
-    smoothness = suspect.smoothness(experiment, selection.frame, selection.ladder[-1].fit.residuals)
+    smoothness = suspect.smoothness(experiment, selection.frame, selection.states[-1].fit.residuals)
     matters = _is_material(selection)
     of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
@@ -87,7 +87,7 @@ def ranked(
     verdict = with_remainder(verdict, _remainder(selection))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
-    line = turns.line(selection.frame, selection.ladder[-1].fit.residuals, selection.check_frame, selection.check)
+    line = turns.line(selection.frame, selection.states[-1].fit.residuals, selection.check_frame, selection.check)
     table.attrs["turns"] = "" if line is None else line.words(float(experiment.vehicle["tyre_radius"]))
     has_decoys = any(turn.decoy_ranks for turn in selection.rounds)
     table.attrs["suspected"] = "" if not (doubts or has_decoys) else "road" if is_road_alone and not has_decoys else "data"
@@ -107,13 +107,13 @@ def _measured(frame: Frame) -> dict[int, np.ndarray]:
 
 def _is_material(selection: Selection) -> bool:
     """Whether what repeats share after the last effect is worth explaining, by the signals that were measured."""
-    return is_material(selection.frame, selection.ladder[-1].fit.residuals, _measured(selection.frame))
+    return is_material(selection.frame, selection.states[-1].fit.residuals, _measured(selection.frame))
 
 
 def _remainder(selection: Selection) -> dict[str, float]:
     """Share of the measured power of every signal that the last model leaves above the floor, of what is judged."""
     frame = selection.frame
-    left = np.maximum(selection.ladder[-1].squares - selection.ground, 0.0).mean(axis=0)
+    left = np.maximum(selection.states[-1].squares - selection.floor_squares, 0.0).mean(axis=0)
     power = floor.squares(frame.experiment, _measured(frame)).mean(axis=0)
     return {name: float(own) for name, own in zip(frame.experiment.channels, left / np.where(power > 0, power, np.inf))}
 
@@ -123,19 +123,19 @@ def _best_share(selection: Selection) -> float:
     return max((trial.share for turn in selection.rounds for trial in turn.trials if np.isfinite(trial.share)), default=0.0)
 
 
-def suspicions(experiment: cars.Car, selection: Selection, is_explained: bool, is_left: bool) -> list[str]:
+def suspicions(experiment: Car, selection: Selection, is_explained: bool, is_left: bool) -> list[str]:
     """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains; ``is_explained``: whether effects
     explain most of the error, ``is_left``: whether repeats share one still."""
     reasons = suspect.of_drives(experiment)
-    first, last = selection.ladder[0], selection.ladder[-1]
+    first, last = selection.states[0], selection.states[-1]
     reasons += suspect.of_signs(experiment, first.fit.residuals)
     reasons += suspect.of_clocks(experiment, selection.frame)
-    if selection.repeats and not is_explained and not is_left:
+    if selection.has_repeats and not is_explained and not is_left:
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     sites = {experiment.records[index].site: index for index in reversed(selection.frame.indices)}
     for index in sites.values():
         row = selection.frame.indices.index(index)
-        explainable = np.maximum(first.squares[row] - selection.ground[row], 0.0)
+        explainable = np.maximum(first.squares[row] - selection.floor_squares[row], 0.0)
         deviation = suspect.road_noise(experiment.replays[index].road.road)
         share = suspect.noise_share(experiment, index, first.fit.values, deviation, explainable) if deviation > 0 else 0.0
         if share > suspect.CAUSED:
@@ -183,12 +183,12 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
             "winner": ("round", np.array([turn.winner.name if turn.winner else "" for turn in rounds], dtype=str)),
             "cluster": ("round", np.array([", ".join(turn.cluster) for turn in rounds], dtype=str)),
             "decoy_p_value": ("round", np.array([turn.decoy_p_value for turn in rounds], dtype=float)),
-            "mean_square": (("model", "drive", "signal"), np.stack([state.squares for state in selection.ladder])),
+            "mean_square": (("model", "drive", "signal"), np.stack([state.squares for state in selection.states])),
             "held_out_mean_square": (
-                ("model", "held_out", "signal"), np.stack([state.held_out_squares for state in selection.ladder]),
+                ("model", "held_out", "signal"), np.stack([state.held_out_squares for state in selection.states]),
             ),
-            "floor_mean_square": (("drive", "signal"), selection.ground),
-            "held_out_floor_mean_square": (("held_out", "signal"), selection.held_out_ground),
+            "floor_mean_square": (("drive", "signal"), selection.floor_squares),
+            "held_out_floor_mean_square": (("held_out", "signal"), selection.held_out_floor_squares),
             **{name: ((), float(value), {"units": "1"}) for name, value in zip(SHARED, shared)},
             "value": (("parameter",), np.array([selection.final.values[key] for key in selection.intervals])),
             "interval": (("parameter", "bound"), np.array(list(selection.intervals.values())).reshape(-1, 2)),
@@ -196,7 +196,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
         {
             "effect": names,
             "round": np.arange(1, len(rounds) + 1),
-            "model": [state.name for state in selection.ladder],
+            "model": [state.name for state in selection.states],
             "drive": fitted,
             "held_out": held_out,
             "signal": list(experiment.channels),
@@ -205,7 +205,7 @@ def dataset(experiment, selection: Selection) -> xr.Dataset:
         },
     )  # fmt: skip
     return result.assign_attrs(
-        floor=REPEATS if selection.repeats else ASSUMED if selection.ground.any() else NIL,
+        floor=REPEATS if selection.has_repeats else ASSUMED if selection.floor_squares.any() else NIL,
         remaining_band=str(selection.remaining.band or ""),
     )
 

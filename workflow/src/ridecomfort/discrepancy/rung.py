@@ -23,8 +23,8 @@ Raw = Mapping[str, Mapping[int, np.ndarray]]
 @dataclass(frozen=True)
 class Rung:
     """``experiment``: its records aligned for the model. Of the fitted records ``frame``, ``fit`` and the ``raw`` columns of what is
-    fitted; of those held out ``check`` (residuals) and ``check_frame``, empty and None without any. ``ground``, ``held_out_ground``: the
-    floor, mean squares (record, channel); ``repeats``: whether it is known from them."""
+    fitted; of those held out ``check`` (residuals) and ``check_frame``, empty and None without any. ``floor_squares``,
+    ``held_out_floor_squares``: of the floor, mean squares (record, channel); ``has_repeats``: whether it is known from repeats."""
 
     experiment: Experiment
     frame: Frame
@@ -32,15 +32,15 @@ class Rung:
     raw: Raw
     check: Mapping[int, np.ndarray]
     check_frame: Frame | None
-    ground: np.ndarray
-    held_out_ground: np.ndarray
-    repeats: bool
+    floor_squares: np.ndarray
+    held_out_floor_squares: np.ndarray
+    has_repeats: bool
 
     def squares(self, fit: Fit, check: Mapping[int, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
         """Mean squares (record, channel) of the fitted records of a fit, and of residuals ``check`` of those held out; without any of
         these the floor, which has no records either."""
         squares = floor.squares(self.experiment, self.frame.all_cleaned(fit.residuals))
-        held_out = floor.squares(self.experiment, self.check_frame.all_cleaned(check)) if check else self.held_out_ground
+        held_out = floor.squares(self.experiment, self.check_frame.all_cleaned(check)) if check else self.held_out_floor_squares
         return squares, held_out
 
 
@@ -69,10 +69,10 @@ def climb(
     check, check_frame = {}, None
     if held_out:
         check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out)
-    repeats, ground, held_out_ground = _grounds(experiment, frame, fit, check, check_frame)
+    has_repeats, floor_squares, held_out_floor_squares = _floor_squares(experiment, frame, fit, check, check_frame)
     if before is not None:
-        ground, held_out_ground = np.minimum(before.ground, ground), np.minimum(before.held_out_ground, held_out_ground)
-    return Rung(experiment, frame, fit, raw, check, check_frame, ground, held_out_ground, repeats)
+        floor_squares, held_out_floor_squares = np.minimum(before.floor_squares, floor_squares), np.minimum(before.held_out_floor_squares, held_out_floor_squares)
+    return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, has_repeats)
 
 
 def final_fit(rung: Rung, sizes: Sequence[Size]) -> tuple[Fit, Frame]:
@@ -99,21 +99,21 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Ex
     return experiment, frame, fit, raw
 
 
-def _grounds(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
+def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
     """Whether the floor is known from repeats, and its mean squares on fitted and held-out records; of a condition without repeats, the mean
     of the others. Repeats differ in their path, so what the model lacks differs too: the floor sinks as the model improves."""
     cleaned = frame.all_cleaned(fit.residuals)
     known = floor.floor(experiment, cleaned)
-    grounds = []
+    floors = []
     for indices in roles(experiment):
         rows = np.zeros((len(indices), len(experiment.channels)))
         for row, index in zip(rows, indices):
             record = experiment.records[index]
             found = [known[record.condition]] if record.condition in known else list(known.values())
             row[:] = np.mean([one.power(record.band, record.rate) for one in found], axis=0) if found else floor.assumed(record)
-        grounds.append(rows)
+        floors.append(rows)
     # No floor lies above what a model has reached.
-    ground, held_out_ground = np.minimum(grounds[0], floor.squares(experiment, cleaned)), grounds[1]
+    floor_squares, held_out_floor_squares = np.minimum(floors[0], floor.squares(experiment, cleaned)), floors[1]
     if check:
-        held_out_ground = np.minimum(held_out_ground, floor.squares(experiment, check_frame.all_cleaned(check)))
-    return bool(known), ground, held_out_ground
+        held_out_floor_squares = np.minimum(held_out_floor_squares, floor.squares(experiment, check_frame.all_cleaned(check)))
+    return bool(known), floor_squares, held_out_floor_squares

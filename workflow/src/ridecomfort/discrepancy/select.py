@@ -106,8 +106,8 @@ class _Search:
         self.by_name = {candidate.name: candidate for candidate in self.rung.experiment.candidates}
 
     def run(self) -> Selection:
-        ladder = [self._state("calibrated", self.rung.fit, self.rung.check)]
-        self.base_squares = ladder[0]
+        states = [self._state("calibrated", self.rung.fit, self.rung.check)]
+        self.first = states[0]
         self.say("probing every candidate")
         self.columns = self._probe(self.rung.fit)
         rounds = self.rounds
@@ -124,7 +124,7 @@ class _Search:
             self.rung = climb(
                 self.rung.experiment, turn.winner.fit.values, self._sizes(), self.each, before=self.rung
             )
-            ladder.append(self._state(turn.winner.name, self.rung.fit, self.rung.check))
+            states.append(self._state(turn.winner.name, self.rung.fit, self.rung.check))
         rung = self.rung
         final, frame = final_fit(rung, self._sizes())
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
@@ -137,8 +137,8 @@ class _Search:
             if turn.winner is not None and turn.is_large:
                 sure |= {size.key for size in self.by_name[turn.winner.name].sizes}
         return Selection(
-            tuple(rounds), tuple(ladder), rung.ground, rung.held_out_ground, rung.repeats, rung.frame,
-            tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(ladder[0].fit, rung.fit), rung.check,
+            tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
+            tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,
             rung.check_frame,
         )  # fmt: skip
 
@@ -221,16 +221,16 @@ class _Search:
         met = not self.held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
         if not met:
             held_gain, held_z = float("nan"), float("nan")
-        now, before, first = self._state(candidate.name, fit, held), self._state("", rung.fit, rung.check), self.base_squares
-        share = floor.explained_share(before.squares, now.squares, first.squares, rung.ground)
+        now, before, first = self._state(candidate.name, fit, held), self._state("", rung.fit, rung.check), self.first
+        share = floor.explained_share(before.squares, now.squares, first.squares, rung.floor_squares)
         held_share = floor.explained_share(
-            before.held_out_squares, now.held_out_squares, first.held_out_squares, rung.held_out_ground
+            before.held_out_squares, now.held_out_squares, first.held_out_squares, rung.held_out_floor_squares
         )
         trial = replace(
             trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met,
             before=before, after=now,
         )  # fmt: skip
-        left = floor.explained_share(before.squares, rung.ground, first.squares, rung.ground)
+        left = floor.explained_share(before.squares, rung.floor_squares, first.squares, rung.floor_squares)
         return replace(trial, objection=self._objection(trial, candidate, is_weak, left))
 
     def _meets(self, candidate: Candidate, fit: Fit) -> bool:

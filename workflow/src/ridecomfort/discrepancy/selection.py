@@ -1,4 +1,4 @@
-"""What a search for missing effects holds: refits, rounds, the ladder of models, and the selection of it all."""
+"""What a search for missing effects holds: refits, rounds, the states of the model, and the selection of it all."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Round:
 
 @dataclass(frozen=True)
 class State:
-    """A model of the ladder: its name, fit, and mean squares (record, channel) on fitted and held-out records."""
+    """The model before or with what was accepted: its name, fit, and mean squares (record, channel) on fitted and held-out records."""
 
     name: str
     fit: Fit
@@ -77,13 +77,13 @@ class State:
 
 @dataclass(frozen=True)
 class Selection:
-    """What the selection found: its rounds, the ladder of models, the floor, the final frame."""
+    """What the selection found: its rounds, the states of the model from the calibrated one on, the floor, the final frame."""
 
     rounds: tuple[Round, ...]
-    ladder: tuple[State, ...]
-    ground: np.ndarray
-    held_out_ground: np.ndarray
-    repeats: bool
+    states: tuple[State, ...]
+    floor_squares: np.ndarray
+    held_out_floor_squares: np.ndarray
+    has_repeats: bool
     frame: Frame
     accepted: tuple[str, ...]
     intervals: dict[str, tuple[float, float]]
@@ -105,10 +105,10 @@ class Selection:
 def shares(selection: Selection, before: State, after: State, *others: Selection | Rung) -> tuple[float, float]:
     """Share of the explainable error of a selection by which two models differ, on fitted and on held-out drives (nan without); above the
     floor of all that are given."""
-    first, given = selection.ladder[0], (selection, *others)
-    ground = np.minimum.reduce([one.ground for one in given])
-    held_out_ground = np.minimum.reduce([one.held_out_ground for one in given])
+    first, given = selection.states[0], (selection, *others)
+    floor_squares = np.minimum.reduce([one.floor_squares for one in given])
+    held_out_floor_squares = np.minimum.reduce([one.held_out_floor_squares for one in given])
     return (
-        floor.explained_share(before.squares, after.squares, first.squares, ground),
-        floor.explained_share(before.held_out_squares, after.held_out_squares, first.held_out_squares, held_out_ground),
+        floor.explained_share(before.squares, after.squares, first.squares, floor_squares),
+        floor.explained_share(before.held_out_squares, after.held_out_squares, first.held_out_squares, held_out_floor_squares),
     )

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 from scipy.signal import butter, sosfiltfilt
 
-from . import floor
 from . import experiment as exp
+from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
 from .judged import judged
@@ -156,7 +156,7 @@ def of_fit(experiment: Car, frame: Frame, residuals) -> list[str]:
         late = float(np.median(frame.experiment.shifts(experiment, index)))
         if abs(late) > LATE:
             reasons.append(f"{name}: the model fits at a clock that is {1e3 * late:+.1f} ms off the recorded one")
-        gains = experiment.gains(frame.amounts(index, residuals[index]))
+        gains = nuisances.gains(frame.amounts(index, residuals[index]))
         for gain, instrument in zip(gains, ("accelerometer", "gyroscope")):
             if abs(gain - 1.0) > GAIN:
                 reasons.append(f"{name}: the model fits a gain of {gain:.3f} of the {instrument}")
@@ -175,7 +175,7 @@ def of_clocks(experiment: Car, frame: Frame) -> list[str]:
 
 def smoothness(experiment: Car, frame: Frame, residuals) -> float:
     """Where the records place the road between its points: 0 as cubic interpolation, 1 as linear, beyond it smoother still."""
-    found = float(np.median([experiment.between(frame.amounts(index, residuals[index])) for index in frame.indices]))
+    found = float(np.median([nuisances.between(frame.amounts(index, residuals[index])) for index in frame.indices]))
     return found if experiment.replays[frame.indices[0]].road.surface.smooth else 1.0 - found
 
 

@@ -119,7 +119,7 @@ class Verdict:
 
 def total_shares(selection: Selection) -> tuple[float, float]:
     """Share of the explainable error that all accepted effects remove together, fitted and held out (nan without)."""
-    return shares(selection, selection.ladder[0], selection.ladder[-1])
+    return shares(selection, selection.states[0], selection.states[-1])
 
 
 def something_left(selection: Selection) -> bool:
@@ -130,7 +130,7 @@ def something_left(selection: Selection) -> bool:
 def _answered(selection: Selection) -> list[str]:
     """Names of candidates that make surely something better, on fitted drives and on those held out, where nothing was accepted or
     repeated: what is left is more than noise."""
-    if selection.repeats or selection.accepted or not selection.rounds:
+    if selection.has_repeats or selection.accepted or not selection.rounds:
         return []
     turn = selection.rounds[-1]
     p_value = dict(zip(turn.names, turn.p_value))
@@ -173,13 +173,13 @@ def _balance(selection: Selection, notes: Sequence[str], is_material: bool) -> _
     in_band = band is not None and band.z > SHARED_BAND_Z and not notes  # a road that is another makes errors that repeats share
     is_shared = something_left(selection) or in_band
     is_left = is_material and (is_shared or bool(_answered(selection)))
-    explained = max(share, selection.shared_gone) if selection.repeats else share
+    explained = max(share, selection.shared_gone) if selection.has_repeats else share
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     is_refuted = is_met and held_out < CONFIRMED
-    was_shared = selection.shared_z > SHARED_Z or not selection.repeats
+    was_shared = selection.shared_z > SHARED_Z or not selection.has_repeats
     # Both z hold the same noise, of which that of the difference to a half has half.
     left_z = (selection.remaining.z - ENOUGH * selection.shared_z) / ENOUGH
-    may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.repeats
+    may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
     enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
     return _Balance(share, held_out, explained, is_refuted, is_shared, is_left, is_little)
@@ -272,13 +272,13 @@ def _unfound(selection: Selection, count: int) -> list[str]:
 
 def _unexplained(selection: Selection, balance: _Balance, is_little: bool) -> str:
     """What is left beside the effects, in words; ``is_little``: whether too little was found."""
-    if not is_little and not selection.repeats:
+    if not is_little and not selection.has_repeats:
         names = ", ".join(_answered(selection))
         return f"but the error answers to {names} on drives held out, too, more than noise does, and none of them explains it"
     if not is_little:
         return f"but repeats share an error that no candidate explains: {selection.remaining}"
     if balance.explained < ENOUGH:
-        return "that is less than half" + (" of what repeats share" if selection.repeats else "")
+        return "that is less than half" + (" of what repeats share" if selection.has_repeats else "")
     if balance.is_refuted:
         return "too little on drives held out to be what is missing"
     return f"but repeats share an error that it leaves: {selection.remaining}"
@@ -291,16 +291,16 @@ def _alike(effect: Named) -> str:
 
 def _floor(selection: Selection) -> str:
     """What the floor is known from, in words."""
-    if selection.repeats:
+    if selection.has_repeats:
         return "the floor is known from repeats"
-    assumed = "assumed from the noise of the instruments" if selection.ground.any() else "taken as nil"
+    assumed = "assumed from the noise of the instruments" if selection.floor_squares.any() else "taken as nil"
     return f"no drive was repeated: the floor is {assumed}"
 
 
 def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[Named], list[str]]:
     """The effects that stand, and in words what is to be said of them and of the others."""
     unmet = {turn.winner.name for turn in selection.rounds if turn.winner is not None and not turn.winner.met}
-    shared = not selection.repeats or selection.shared_z > SHARED_Z
+    shared = not selection.has_repeats or selection.shared_z > SHARED_Z
     kept, reasons = [], []
     for effect in found:
         same = _shaped_by(selection, effect, found, by_name)
@@ -350,7 +350,7 @@ def _named(selection: Selection, number: int, by_name) -> Named:
     for size in (*by_name[winner.name].sizes, *by_name[winner.name].shaping):
         if size.key in selection.intervals:
             sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
-    before, after = selection.ladder[number : number + 2]
+    before, after = selection.states[number : number + 2]
     return Named(
         winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]),
         *shares(selection, before, after), float(turn.absorbed[place]), turn.cluster, turn.differ_on, by_name[winner.name].instrument,

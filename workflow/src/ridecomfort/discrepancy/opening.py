@@ -1,0 +1,209 @@
+"""From measured drives on one or several sites to the Experiment of a car: which are fitted, what may be fitted, and what may be missing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+
+from .. import calibrate
+from .. import simulate as simulator
+from ..calibrated import apply
+from ..drive.record import unstack
+from ..drive.replay import Replay, replay
+from ..effects import library
+from ..effects.contract import COMPILED
+from ..vehicle.parameters import PARAMETERS
+from ..vocabulary import SIGNALS, VARIABLES
+from . import pool
+from .candidates import candidate
+from .car import Car
+from .experiment import Record, Size
+from .explain import INSTRUMENT, SAME_SPEED
+from .judged import LOWEST, LOWEST_OF_DRIVER
+
+CALIBRATION_PROBE = 0.02
+"""Share of the bounds' width that a calibrated parameter is probed with."""
+
+HIGHEST = 0.85
+"""Share of the records' own cut-off up to which errors are judged."""
+
+BLOCK = 1.0
+"""s at the mean speed; white errors farther apart are independent."""
+
+SETTLING = 1.5
+"""s after the run-in that are left out too: at rest on level ground a vehicle with an effect stands otherwise."""
+
+RUN_OUT = 0.5
+"""s at the end that are left out: low-pass filters of records and of simulations end there without knowing what comes."""
+
+UNCERTAIN = {
+    "roll_inertia": 0.1,
+    "pitch_inertia": 0.1,
+    "yaw_inertia": 0.1,
+    "cg_height": 0.1,
+    "damping_front": 0.15,
+    "damping_rear": 0.15,
+    "anti_roll_stiffness_front": 0.15,
+    "anti_roll_stiffness_rear": 0.15,
+    "cornering_stiffness": 0.15,
+}
+"""Parameters that no calibration fits but nobody knows better than to this share: they must not pass for an effect."""
+
+
+@dataclass(frozen=True)
+class Site:
+    """A road with the aligned drives on it, ready to be driven on."""
+
+    name: str
+    course: object
+    drives: Sequence[xr.Dataset]
+
+
+def car(
+    sites: Sequence[Site],
+    vehicle,
+    *,
+    effects: Mapping[str, Mapping[str, float]] | None = None,
+    effects_folder=None,
+    fitted_on: Sequence[str] | None = None,
+    bounds: Mapping[str, Sequence[float]] | None = None,
+    uncertain: Mapping[str, float] | None = None,
+    library_names: Sequence[str] | None = None,
+    simulate: Callable[..., xr.Dataset] = simulator.run,
+    noise_density: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
+    options: Mapping | None = None,
+    each_record: Callable = map,
+) -> Car:
+    """The experiment of these drives. ``vehicle`` and ``effects`` are the calibrated ones.
+
+    Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, the others of those sites and one of
+    each speed of the other sites are held out.
+    ``bounds``: of calibrated parameters, beside tab:constraints. ``uncertain``: share by which further
+    parameters of the vehicle may be wrong (default UNCERTAIN). ``noise_density``: of the instruments by site and drive, as for
+    ``explain.explain``. ``library_names``: the effects to look
+    among, by default all of the library and of the user's folder but those of the model. ``each_record``: a ``map`` over drives.
+    """
+    effects = {name: dict(sizes or {}) for name, sizes in (effects or {}).items()}
+    fitted_on = list(fitted_on) if fitted_on else [sites[0].name]
+    sites = [site if site.name in fitted_on else replace(site, drives=_once_a_speed(site.drives)) for site in sites]
+
+    def tuned(job: tuple[Site, xr.Dataset]) -> Replay:
+        site, drive = job
+        known = {"effects_folder": effects_folder, **(options or {})}
+        return _settled(replay(drive, site.course, simulate, options=known).tuned(vehicle, effects))
+
+    replays = list(each_record(tuned, [(site, drive) for site in sites for drive in site.drives]))
+    known = library.find(effects_folder)
+    chosen = [entry.effect for entry, _ in library.choose(effects, effects_folder)]
+    effects |= {effect.name: effect.values(effects[effect.name]) for effect in chosen}
+    free = _parameters(vehicle, {**calibrate.BOUNDS, **(bounds or {})}, UNCERTAIN if uncertain is None else uncertain)
+    for effect in chosen:
+        own = candidate(effect)
+        free += [replace(size, neutral=effects[effect.name][size.key.partition(".")[2]]) for size in own.sizes]
+    wanted = [name for name in sorted(known if library_names is None else library_names) if name not in effects]
+    candidates = tuple(candidate(known[name].effect) for name in wanted)
+    return Car(
+        _records(sites, fitted_on, replays, noise_density or {}), replays, vehicle, effects, tuple(free),
+        tuple(c for c in candidates if c.sizes),
+        {name: known[name].effect.neutral for name in wanted if known[name].effect.port in COMPILED}, each_record=each_record,
+    )  # fmt: skip
+
+
+def opened(
+    measured: Mapping[str, tuple], vehicle, *, calibration: xr.Dataset | None = None, effects=None, among=None, workers=None, **settings
+) -> Car:
+    """The experiment of ``measured`` drives, mapping of site to (road, aligned drives), beside a vehicle and its ``calibration``.
+
+    ``among``: names of the effects to look among; ``workers``: drives side by side, by default one for each core; ``settings`` as for
+    ``car``.
+    """
+    vehicle, effects = apply(calibration, vehicle, effects)
+    count = pool.workers() if workers is None else workers
+    each = pool.side_by_side(count)
+    return car(sites_of(measured), vehicle, effects=effects, library_names=among, each_record=each, **settings)
+
+
+def _same(speed: float, speeds: Sequence[float]) -> float | None:
+    """The first of ``speeds`` at which a drive repeats one at ``speed``."""
+    return next((known for known in speeds if abs(known - speed) < SAME_SPEED * known), None)
+
+
+def _once_a_speed(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
+    """The first drive of every mean speed."""
+    speeds, kept = [], []
+    for drive in drives:
+        speed = float(drive["v_x"].mean())
+        if _same(speed, speeds) is None:
+            speeds.append(speed)
+            kept.append(drive)
+    return kept
+
+
+def sites_of(measured: Mapping[str, tuple]) -> list[Site]:
+    """Sites from a mapping of name to (road, measured drives): roads are prepared, stacked drives taken apart."""
+    return [
+        Site(
+            name,
+            road if isinstance(road, simulator.Course) else simulator.prepare(road),
+            unstack(drives) if isinstance(drives, xr.Dataset) else list(drives),
+        )
+        for name, (road, drives) in measured.items()
+    ]
+
+
+def start_values(experiment: Car) -> dict[str, float]:
+    """The values that the calibrated model has."""
+    return {size.key: float(np.clip(size.neutral, size.lower, size.upper)) for size in experiment.free}
+
+
+def _settled(again: Replay) -> Replay:
+    """The same without its first and last instants."""
+    first, last = again.time[again.compared][[0, -1]] + (SETTLING, -RUN_OUT)
+    return replace(again, compared=again.compared & (again.time >= first) & (again.time <= last))
+
+
+def _parameters(vehicle, calibrated: Mapping[str, Sequence[float]], uncertain: Mapping[str, float]) -> list[Size]:
+    """Parameters of the vehicle that are fitted, within the bounds of calibration or the share by which they may be wrong."""
+    free = [_parameter(name, vehicle[name], pair) for name, pair in calibrated.items() if "." not in name]
+    for name, share in uncertain.items():
+        span = PARAMETERS[name]
+        lower, upper = (min(max(vehicle[name] * factor, span.lower), span.upper) for factor in (1 - share, 1 + share))
+        if lower < upper:  # what a vehicle has not, as a bar, is no size of it
+            free.append(_parameter(name, vehicle[name], (lower, upper)))
+    return free
+
+
+def _parameter(name: str, value: float, bounds: Sequence[float]) -> Size:
+    lower, upper = map(float, bounds)
+    return Size(name, PARAMETERS[name].unit, float(value), lower, upper, CALIBRATION_PROBE * (upper - lower))
+
+
+def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[Replay], noise_density: Mapping) -> list[Record]:
+    """A record for every replay, in their order, that of the sites and their drives."""
+    records, rest = [], iter(replays)
+    for site in sites:
+        speeds: list[float] = []
+        for drive in site.drives:
+            role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
+            density = noise_density.get(site.name, {}).get(str(drive.attrs["name"]), {})
+            noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
+            records.append(replace(_record(site.name, next(rest), role, speeds, len(sites) > 1), noise=noise))
+    return records
+
+
+def _record(site: str, again: Replay, role: str, speeds: list[float], several: bool) -> Record:
+    place, time = again.place[again.compared], again.time[again.compared]
+    speed = float(np.ptp(place) / np.ptp(time))
+    same = _same(speed, speeds)
+    if same is None:
+        speeds.append(speed)
+    rate = float((len(time) - 1) / np.ptp(time))
+    band = (LOWEST, min(HIGHEST * float(again.drive.attrs["cut_off"]), 0.45 * rate))
+    name = str(again.drive.attrs["name"])
+    return Record(
+        f"{site} {name}" if several else name, role, site, f"{site} at {3.6 * (same or speed):.0f} km/h", rate, band,
+        place, BLOCK * (same or speed), tuple(LOWEST_OF_DRIVER.get(name, LOWEST) for name in SIGNALS),
+    )  # fmt: skip
