@@ -105,7 +105,8 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
         line(f"an effect named where nothing is missing: {kind}", of(kind), lambda row: row["found"])
     line("wrong effect named with confidence", rows, lambda row: row["wrong_named"])
     for kind in ("outside", "outside, messy"):
-        line(f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3', single(kind, strong), lambda row: row["verdict"] == "outside")
+        said = f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3'
+        line(said, single(kind, strong), lambda row: row["verdict"] == "outside")
     placed = [row for kind in ("outside", "outside, messy") for row in single(kind, strong) if row["form_share"] != ""]
     line("place of such an effect right (strut, tyre, contact, body, steering, structure)", placed, lambda row: row["place_right"])
     line(f"its proposed form removes {100 * FORM:.0f} % of what the true one does, held out", placed, lambda row: row["form_share"] >= FORM)

@@ -133,7 +133,10 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
 
 def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     """What the library explains at least half of is named, though repeats share an error still, where no force of any form does better: of
-    many small things that a model lacks none explains the rest (but where an error of the measurement does some of that). An effect that removes LITTLE of that may be a part of it, and is not named."""
+    many small things that a model lacks none explains the rest (but where an error of the measurement does some of that).
+
+    An effect that removes LITTLE of the rest may be a part of it, and is not named.
+    """
     shares = [share for share in (verdict.share, verdict.held_out_share) if np.isfinite(share)]
     if verdict.verdict != "outside" or not verdict.effects or not min(shares, default=0.0) >= ENOUGH or verdict.is_like_error:
         return verdict

@@ -28,8 +28,9 @@ from .verdict import plain, total_shares
 
 @dataclass(frozen=True)
 class Discovery:
-    """A proposed effect: its ``name``, the ``place`` where it acts and the ``port`` of that, its ``terms`` with factors by part of the car and the ``settings`` that shape them, ``form`` in
-    words, shares removed, and the ``source`` of an effect file; all empty where nothing was found."""
+    """A proposed effect: its ``name``, the ``place`` where it acts and the ``port`` of that, its ``terms`` with factors by part of the car
+    and the ``settings`` that shape them, ``form`` in words, shares removed, and the ``source`` of an effect file; all empty where
+    nothing was found."""
 
     name: str
     place: str

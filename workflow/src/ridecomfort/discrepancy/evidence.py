@@ -97,13 +97,14 @@ def score_test(
     size = np.where((sign > 0) & (size < 0), 0.0, size)
     statistics, p_value = [], []
     numbers = [np.unique(block, return_inverse=True)[1] for block in blocks]
-    for which, labels in enumerate(numbers):
-        sums = -_block_sums(products, labels)
-        sums[~seen] = 0.0
-        statistic, by_group = _bootstrap(sums, group, sign, resamples, np.random.default_rng([seed, which]))
+    by_block = [_block_sums(products, labels) for labels in numbers]
+    for which, sums in enumerate(by_block):
+        statistic, by_group = _bootstrap(
+            np.where(seen[:, None], -sums, 0.0), group, sign, resamples, np.random.default_rng([seed, which])
+        )
         statistics.append(statistic)
         p_value.append(by_group)
-    deviations = _block_sums(products, numbers[0]) + size[:, None] * _block_sums(squares, numbers[0])
+    deviations = by_block[0] + size[:, None] * _block_sums(squares, numbers[0])
     spread = np.sqrt(np.sum(deviations**2, axis=1))
     number = group.max() + 1
     gains = np.array([_group_gain(columns, residual, np.flatnonzero((group == g) & seen), sign) for g in range(number)])

@@ -71,7 +71,8 @@ def climb(
         check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out)
     has_repeats, floor_squares, held_out_floor_squares = _floor_squares(experiment, frame, fit, check, check_frame)
     if before is not None:
-        floor_squares, held_out_floor_squares = np.minimum(before.floor_squares, floor_squares), np.minimum(before.held_out_floor_squares, held_out_floor_squares)
+        floor_squares = np.minimum(before.floor_squares, floor_squares)
+        held_out_floor_squares = np.minimum(before.held_out_floor_squares, held_out_floor_squares)
     return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, has_repeats)
 
 

@@ -13,8 +13,8 @@ def score(verdict: Mapping, hidden: Mapping[str, Mapping[str, float]], known: Se
     """What a verdict (the content of verdict.json) says of every hidden effect ({name: {parameter: size}}, SI units).
 
     ``known`` are effects that the diagnosed model had already. Returns plain data: ``verdict`` and ``rows``, one for each size of
-    every effect that was hidden or named (and for what shapes it otherwise than is typical): effect, hidden, found (in words), parameter, unit, true_size, size, interval, covered; None
-    where there is no such thing.
+    every effect that was hidden or named (and for what shapes it otherwise than is typical): effect, hidden, found (in words),
+    parameter, unit, true_size, size, interval, covered; None where there is no such thing.
     """
     named = {effect["name"]: effect for effect in verdict["effects"]}
     alike = {other: name for name, effect in named.items() for other in effect["like"]}

@@ -18,9 +18,9 @@ WIDTH = 2.0
 """Hz; a shaft or a mode shakes within such a band, and is lost among all others where only the whole is asked."""
 
 DRIVEN = 3.0
-"""Hz below which a band begins in which foot and hands of a driver show, which a driver model moves otherwise: on roads and drives without any other error that is
-up to 2.5 % of the power of a_x in the band, 3 % of pitch rate, 0.7 % of yaw rate, 0.4 % of a_y, 0.1 % of roll rate, and less than 0.1 %
-of any signal above."""
+"""Hz below which a band begins in which foot and hands of a driver show, which a driver model moves otherwise: on roads and drives
+without any other error that is up to 2.5 % of the power of a_x in the band, 3 % of pitch rate, 0.7 % of yaw rate, 0.4 % of a_y, 0.1 % of
+roll rate, and less than 0.1 % of any signal above."""
 
 OF_DRIVEN, OF_BAND = {"a_x": 0.06, "pitch_rate": 0.06, "yaw_rate": 0.02, "a_y": 0.01}, 0.002
 """Shares of the measured power within a band below that, by signal, and in all other bands, up to which an error is not worth explaining."""
