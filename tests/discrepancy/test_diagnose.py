@@ -53,12 +53,12 @@ def test_a_name_gives_way_to_a_force_that_explains_more_and_no_less_of_drives_he
         assert reconsidered(named, weaker) is named
 
 
-def test_a_name_that_leaves_an_error_for_certain_gives_way_to_a_force_that_is_as_good():
+def test_a_name_that_leaves_an_error_for_certain_gives_way_to_a_force_that_is_a_little_better_but_to_none_that_is_equal():
     left = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.74, held_out_share=0.73, is_left=True)
-    as_good = replace(SURE, share=0.8, held_out_share=0.7)
-    assert reconsidered(left, as_good).verdict == "outside"
-    assert reconsidered(replace(left, is_left=False), as_good).verdict == "named"
-    for weaker in (replace(as_good, share=0.7), replace(as_good, held_out_share=0.5)):
+    better = replace(SURE, share=0.8, held_out_share=0.7)
+    assert reconsidered(left, better).verdict == "outside"
+    assert reconsidered(replace(left, is_left=False), better).verdict == "named"
+    for weaker in (replace(better, share=0.75), replace(better, share=0.7), replace(better, held_out_share=0.5)):
         assert reconsidered(left, weaker) is left
 
 

@@ -99,7 +99,7 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. What is named becomes "outside" where
     such a force explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error
-    beside what is named, more of the first and not much less of the others will do, or, where little is left, HALF of that. Where the
+    beside what is named, EQUAL more of the first and not much less of the others will do, or, where little is left, HALF of that. Where the
     road may be another than that of its file, by noise of its points or by what lies between them (``is_road_open``), which repeats share
     as well, "outside" becomes what the library has unless such a force explains more ("suspect" where that is little), and "suspect" for
     that becomes "outside" if such a force explains more than noise could. Where an error of the measurement was found and nothing else
@@ -112,8 +112,8 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
         return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     more = is_sure(proposal) and proposal.share > BETTER * verdict.share
-    if verdict.is_left and verdict.share < DOUBTFUL:  # which the force may be, where it is as good
-        is_better = is_sure(proposal) and proposal.share > verdict.share and not BETTER * proposal.held_out_share < held_out
+    if verdict.is_left and verdict.share < DOUBTFUL:  # which the force may be, where it is better at all
+        is_better = is_sure(proposal) and proposal.share > verdict.share + EQUAL and not BETTER * proposal.held_out_share < held_out
     else:
         is_better = more and not proposal.held_out_share < held_out
         is_better = is_better or verdict.is_shared and is_sure(proposal) and _leaves_less(verdict, proposal)
