@@ -1,6 +1,6 @@
 # Aliases only; what they call can be called by hand as well.
 PYTHON ?= python3
-CORES ?= $(shell getconf _NPROCESSORS_ONLN)
+CORES ?= $(shell nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)
 BIN = .venv/bin
 # Processes run side by side; threads of linear algebra would wait for one another.
 export OPENBLAS_NUM_THREADS = 1

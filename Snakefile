@@ -43,6 +43,10 @@ try:
 except InputError as problem:
     sys.exit(f"error: {problem}")
 
+asked = {"compare", "diagnose"} & set(sys.argv)
+if asked and not study.measured:
+    sys.exit(f"error: no site of {', '.join(study.names)} has measured drives, so that there is nothing to {min(asked)} (expected drives in its file)")
+
 progress.follow(workflow)
 
 settings = partial(stepsettings.as_json, study)

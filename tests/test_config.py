@@ -142,6 +142,25 @@ def test_mistake_in_an_effect(project, own_effects, effects, said):
     assert_said(project, {**own_effects, "effects": effects}, f"effects: {said}", config.STUDY)
 
 
+def test_a_file_that_is_no_effect_is_missed_before_anything_runs(project, own_effects):
+    (project / "mine" / "bad.py").write_text("effect = (")
+    with pytest.raises(InputError, match="bad.py: cannot be loaded: SyntaxError"):
+        config.load(own_effects, project)
+
+
+def test_a_whole_number_may_be_written_with_a_point(project):
+    study = config.load({"sites": ["own"], "runs": 4000.0, "seed": 7.0, "calibration": {"restarts": 2.0}}, project)
+    found = study.settings["runs"], study.settings["seed"], study.settings["calibration"]["restarts"]
+    assert found == (4000, 7, 2) and all(isinstance(value, int) for value in found)
+    assert isinstance(study.settings["simulation"]["step"], float)
+    assert_said(project, {"sites": ["own"], "runs": "4000"}, "runs: '4000', expected a whole number; YAML reads this as text, write 4000 ", config.STUDY)
+
+
+def test_a_key_that_stands_twice_is_refused(project):
+    (project / config.SITES / "own.yaml").write_text("road:\n  file: road.crg\ntitle: one\ntitle: two\n")
+    assert_said(project, {"sites": ["own"]}, "line 4: is not valid YAML (key 'title' stands in line 3 already)", project / config.SITES / "own.yaml")
+
+
 def test_thresholds_may_name_their_source(project):
     stated = {"a_x": {"PT": [-1.0, 1.0, "our own"], "ND": [-2, 2], "AG": [-5, 3]}}
     jerk = {"lying": [-0.3, 0.3, "a guess"]}
@@ -232,7 +251,8 @@ def test_mistake_on_the_command_line(project, change, said):
         config.load({"sites": ["own"], **change}, project, given=["runs"])
 
 
-DRIVE = {"file": "drive.csv"}
+SENSOR = {"behind_front_axle": 1.4, "above_wheel_centres": 0.2}
+DRIVE = {"file": "drive.csv", "sensor": SENSOR}
 
 SITE_MISTAKES = [
     ({"road": {"file": "gone.crg"}}, "road: file: no such file 'gone.crg'"),
@@ -258,6 +278,17 @@ SITE_MISTAKES = [
         "drives: entry 1: columns: roll_rate: unit 'deg/s' for roll_rate, but its column is headed 'gyro_x [rad/s]'",
     ),
     (
+        {
+            "road": {"file": "road.crg"},
+            "drives": [{"file": "road.crg", "columns": {n: {"column": "rate", "unit": "deg/s"} for n in ("roll_rate", "pitch_rate")}}],
+        },
+        "drives: entry 1: columns: pitch_rate: column 'rate' stands for roll_rate already",
+    ),
+    (
+        {"road": {"file": "road.crg"}, "drives": [{"file": "road.crg", "sensor": {"above_wheel_centres": 1.0}}]},
+        "drives: entry 1: sensor: key 'behind_front_axle' is missing",
+    ),
+    (
         {"road": {"file": "road.crg"}, "sampling": {"road_friction": {"uniform": [-0.1, 1]}}},
         "-0.1, expected more than 0",
     ),
@@ -281,11 +312,11 @@ def test_mistake_in_a_site(project, content, said):
 def test_a_column_that_a_drive_does_not_have_is_missed_before_anything_runs(project):
     (project / "drive.csv").write_text("time [s], acc\n0, 1\n", encoding="utf-8-sig")
     columns = {"time": {"column": "time [s]", "unit": "s"}, "a_z": {"column": "acc_z", "unit": "m/s2"}}
-    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{"file": "drive.csv", "columns": columns}]})
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": columns}]})
     with pytest.raises(InputError, match=r"drive.csv: no column 'acc_z' for a_z \(found time \[s\], acc\)"):
         config.load({"sites": ["own"]}, project)
     columns["a_z"]["column"] = "acc"
-    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{"file": "drive.csv", "columns": columns}]})
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": columns}]})
     config.load({"sites": ["own"]}, project)
 
 
@@ -318,7 +349,7 @@ def assert_said(project, settings, said, file):
 
 
 def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
-    drive = {"file": "drive.csv", "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
+    drive = {**DRIVE, "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
     (project / "drive.csv").touch()
     write(project, "own", {"road": {"file": "road.crg"}, "drives": [drive]})
     study = config.load({**read(project), "sites": ["own"]}, project)
@@ -334,7 +365,7 @@ def test_the_study_goes_forward_only_where_drives_are_diagnosed_and_is_scored_on
     bare = config.load({**read(project), "sites": ["own"]}, project)
     assert not bare.forward and not bare.scored
     (project / "drive.csv").touch()
-    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{"file": "drive.csv"}]})
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [DRIVE]})
     own = config.load({**read(project), "sites": ["own"]}, project)
     assert own.forward and not own.scored
     assert not config.load({**read(project), "diagnosis": {"forward": False}}, project).forward

@@ -23,6 +23,11 @@ def test_the_truth_is_sealed(repository):
     assert users == ["standin.smk"]
 
 
+def test_sites_without_drives_cannot_be_compared(project):
+    answer = project.snakemake("compare", "--dry-run")
+    assert answer.status != 0 and "has measured drives, so that there is nothing to compare" in answer.text
+
+
 def test_a_dry_run_of_the_papers_study_plans_every_step(repository, project):
     shutil.rmtree(project.folder / "config")
     shutil.copytree(repository / "config", project.folder / "config")

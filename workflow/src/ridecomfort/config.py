@@ -138,12 +138,24 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
         elif not (folder / needed).is_file():
             raise InputError(f"no such file {needed!r}", file=file, place=place)
     for number, drive in enumerate(site["drives"], start=1):
-        for quantity, entry in drive.get("columns", {}).items():
-            units.of_column(quantity, entry, file=file, place=f"drives: entry {number}: columns: {quantity}")
+        _check_drive(drive, file, f"drives: entry {number}")
     names = [drive.setdefault("name", Path(drive["file"]).stem) for drive in site["drives"]]
     for twice in {drive for drive in names if names.count(drive) > 1}:
         raise InputError(f"two drives are named {twice!r}", file=file, place="drives")
     return site
+
+
+def _check_drive(drive: Mapping, file, place: str) -> None:
+    """Units and columns of a measured drive, each for one quantity, and the place of its sensor."""
+    taken: dict[str, str] = {}
+    for quantity, entry in drive.get("columns", {}).items():
+        units.of_column(quantity, entry, file=file, place=f"{place}: columns: {quantity}")
+        other = taken.setdefault(entry["column"], quantity)
+        if other != quantity:
+            raise InputError(f"column {entry['column']!r} stands for {other} already", file=file, place=f"{place}: columns: {quantity}")
+    missing = [key for key in ("behind_front_axle", "above_wheel_centres") if key not in drive["sensor"]]
+    if missing:
+        raise InputError(f"key {missing[0]!r} is missing", file=file, place=f"{place}: sensor")
 
 
 def _files(site: Mapping) -> list[tuple[str, str]]:
@@ -159,6 +171,8 @@ def _check_effects(study: Study, given: list[str]) -> None:
     folder = study.effects_folder
     if folder is not None and not folder.is_dir():
         raise InputError(f"no such folder {str(folder)!r}", file=_source("effects_folder", given), place="effects_folder")
+    if folder is not None:
+        library.find(folder)  # a file there that is no effect would end the diagnosis only
     if study.effects():
         try:
             library.check_plausible(library.choose(study.effects(), folder))

@@ -27,11 +27,23 @@ _TYPES = {
 }
 
 
+class _Loader(yaml.SafeLoader):
+    """Refuses a key that stands twice, of which YAML takes the last."""
+
+    def construct_mapping(self, node, deep=False):
+        lines: dict = {}
+        for key, _ in node.value:
+            first = lines.setdefault(key.value, key.start_mark.line)
+            if first != key.start_mark.line:
+                raise yaml.MarkedYAMLError(problem=f"key {key.value!r} stands in line {first + 1} already", problem_mark=key.start_mark)
+        return super().construct_mapping(node, deep)
+
+
 def read_yaml(path) -> dict:
     """The mapping that a YAML file holds. Raises InputError where it is none."""
     path = Path(path)
     try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+        content = yaml.load(path.read_text(encoding="utf-8"), Loader=_Loader)
     except OSError as problem:
         raise InputError(f"cannot be read ({problem.strerror})", file=path) from None
     except UnicodeDecodeError:
@@ -39,7 +51,8 @@ def read_yaml(path) -> dict:
     except yaml.YAMLError as problem:
         mark = getattr(problem, "problem_mark", None)
         place = f"line {mark.line + 1}" if mark else None
-        raise InputError("is not valid YAML", file=path, place=place) from None
+        said = getattr(problem, "problem", None)
+        raise InputError("is not valid YAML" + (f" ({said})" if said else ""), file=path, place=place) from None
     if not isinstance(content, dict):
         raise InputError("expected a mapping of keys to values", file=path)
     return content
@@ -112,7 +125,7 @@ def _explain(error: ValidationError) -> str:
         case "type":
             kinds = [expected] if isinstance(expected, str) else expected
             number = isinstance(value, str) and {"number", "integer"} & set(kinds) and _is_number(value)
-            hint = f"; YAML reads this as text, write {float(value)!r}" if number else ""
+            hint = f"; YAML reads this as text, write {_plain(float(value))!r}" if number else ""
             return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{hint}{meaning}"
         case "minimum":
             return f"{value!r}, expected at least {expected}{meaning}"
@@ -144,6 +157,11 @@ def _is_number(text: str) -> bool:
     return True
 
 
+def _plain(value: float) -> int | float:
+    """A number as one would write it."""
+    return int(value) if value.is_integer() else value
+
+
 def _filled(value, schema: Mapping, root: Mapping):
     if "$ref" in schema:
         referred = root
@@ -155,6 +173,8 @@ def _filled(value, schema: Mapping, root: Mapping):
         filled = {key: part["default"] for key, part in parts.items() if "default" in part} | value
         ordered = [key for key in parts if key in filled] + [key for key in filled if key not in parts]
         value = {key: _filled(copy.deepcopy(filled[key]), parts.get(key, {}), root) for key in ordered}
+    if isinstance(value, float) and "integer" in (kinds := schema.get("type", ())) and "number" not in kinds:
+        value = int(value)
     if isinstance(value, list) and isinstance(schema.get("items"), Mapping):
         value = [_filled(entry, schema["items"], root) for entry in value]
     return value

@@ -23,7 +23,7 @@ from .verdict import CONFIRMED, DOUBTFUL, ENOUGH, LITTLE, Verdict, with_paramete
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
-NEARLY_ALL = 0.95
+NEARLY_ALL = 0.98
 """Share of the explainable error beyond which what was found leaves no room for a wrong file of the vehicle."""
 
 HALF, WORTH = 0.5, 0.025

@@ -72,7 +72,7 @@ def _numbers(series: pd.Series, path, column: str) -> np.ndarray:
     bad = np.flatnonzero(~np.isfinite(numbers))
     if bad.size:
         i = bad[0]
-        value = "nothing" if pd.isna(series.iloc[i]) else repr(series.iloc[i])
+        value = "nothing, or nan" if pd.isna(series.iloc[i]) else repr(str(series.iloc[i]))
         raise InputError(
             f"line {i + 2}, column {column!r} holds {value} (expected a number)", file=path
         )
