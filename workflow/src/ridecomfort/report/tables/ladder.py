@@ -102,7 +102,8 @@ def error_ladder_sections(study: Difference) -> Table:
         "Sections of the measured drives and of the model on the same path at the same speed, at the place of the sensor. Critical: "
         "by thresholds, some acceleration leaves the band of at least the mildest driving style in the whole section; by ISO 2631, "
         "the total value lies above the lower edge of the second band in the whole section. Alike: same style or band as measured. "
-        "Changed: other style or band than on the rung before.",
+        "Changed: other style or band than on the rung before. Repeats differ among themselves in speed and path, which a replay follows: "
+        "a good model may agree better with a drive than its repeats do.",
     )
     return _table(study, "error_ladder_sections", columns, rows, sources, notes, breaks[1:])
 
