@@ -56,7 +56,7 @@ def comparison(errors=(0.5, 0.4), seed=0, repeated=True) -> xr.Dataset:
 def aligned(names=DRIVES) -> xr.Dataset:
     """What alignment says of the drives."""
     numbers = ("clock_offset", "clock_offset_error", "speed_scale", "lateral_correction", "lateral_wander", "distance_wander",
-               "mounting_roll", "mounting_pitch", "mounting_yaw", "acceleration_gain")  # fmt: skip
+               "mounting_roll", "mounting_pitch", "mounting_yaw", "acceleration_gain", "yaw_rate_gain")  # fmt: skip
     data = {name: ("drive", np.linspace(0.001, 0.002, len(names))) for name in numbers}
     return xr.Dataset({**data, "role": ("drive", ["fit", "fit", "check"][: len(names)])}, {"drive": list(names)})
 

@@ -100,6 +100,7 @@ VARIABLES = _table(
     ("distance_wander", "m", "rms of the slow errors of s along the drive"),
     ("lateral_wander", "m", "rms of the distance of the path from a constant distance to the recorded one"),
     ("acceleration_gain", "1", "recorded over true specific force"),
+    ("yaw_rate_gain", "1", "recorded yaw rate over that of the path below 0.2 Hz"),
     ("mounting_roll", "rad", "rotation of the instrument against the body about its x axis"),
     ("mounting_pitch", "rad", "rotation of the instrument against the body about its y axis"),
     ("mounting_yaw", "rad", "rotation of the instrument against the body about its z axis"),

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import xarray as xr
-from scipy.signal import butter, sosfiltfilt
 
+from ..drive import turning
 from . import experiment as exp
 from . import floor, nuisances
 from .car import Car
@@ -49,12 +49,6 @@ WANDERING = 0.006
 """s, the median over records, by which a clock wanders against place beyond which it is wrong where alignment has taken out more than LATE
 before: 8.6 ms where the clocks of three records jump by 20 ms. Most of what a model lacks makes it wander by up to 3.7 ms, a payload by 7,
 and alignment sees none of that."""
-
-TURNING, SETTLED = 0.2, 3.0
-"""Hz below which a body turns as its path does, and s at either end that a low pass of that takes to settle."""
-
-LEAST_TURNING = 0.02
-"""rad/s (rms) of the path below which what is noise of its place is no longer small beside it: 5 cm are 0.001 rad/s."""
 
 LATE = 0.004
 """s between the clock that a record came with and the one at which the model fits it, beyond which the first was wrong. What a model
@@ -105,30 +99,6 @@ def noise_share(experiment: Car, index: int, values, deviation: float, explainab
     return float(np.median(power[kept] / explainable[kept])) if kept.any() else 0.0
 
 
-def gyroscope_gain(drive: xr.Dataset, road: xr.Dataset) -> tuple[float, float]:
-    """Gain of the yaw rate of a drive against how the course of its path turns, below TURNING, and its standard error.
-
-    The body sideslips, but turns as far as the road does by the end of a bend. Both are nan where no path was measured or it hardly bends.
-    """
-    time, s, e = (drive[name].values for name in ("time", "s", "e"))
-    rate = (len(time) - 1) / (time[-1] - time[0])
-    if not np.isfinite(e).all() or len(time) < 4 * SETTLED * rate:
-        return float("nan"), float("nan")
-    sos = butter(2, TURNING, fs=rate, output="sos")
-    slow = lambda series: sosfiltfilt(sos, series)
-    progress = np.gradient(s, time)
-    aside = np.arctan2(np.gradient(slow(e), time), slow(progress))
-    turning = slow(np.interp(s, road["u"].values, road["curvature"].values) * progress) + np.gradient(aside, time)
-    inner = slice(int(SETTLED * rate), -int(SETTLED * rate))
-    turning, yaw_rate = turning[inner] - turning[inner].mean(), slow(drive["yaw_rate"].values)[inner]
-    if not turning.std() > LEAST_TURNING:
-        return float("nan"), float("nan")
-    power = float(turning @ turning)
-    gain = float(turning @ yaw_rate) / power
-    left = yaw_rate - yaw_rate.mean() - gain * turning
-    return gain, float(np.sqrt(left @ left / power / max(2.0 * TURNING * len(left) / rate, 1.0)))
-
-
 def of_drives(experiment: Car) -> list[str]:
     """Reasons in words to doubt a record, from what its alignment found and from how far it turned."""
     reasons = []
@@ -139,7 +109,7 @@ def of_drives(experiment: Car) -> list[str]:
             reasons.append(f"{record.name}: the clock offset is known to {1e3 * error:.1f} ms only")
         if np.isfinite(gain) and abs(gain - 1.0) > GAIN:
             reasons.append(f"{record.name}: the accelerometer's gain is {gain:.3f} against gravity")
-        gain, error = gyroscope_gain(again.drive, again.road.road)
+        gain, error = turning.gyroscope_gain(again.drive, again.road.road)
         if abs(gain - 1.0) > GAIN + SURELY * error:
             reasons.append(f"{record.name}: the gyroscope's gain is {gain:.3f} against the bends of the road")
     return reasons

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from ..vocabulary import SIGNALS
-from . import mounting, path, place
+from . import mounting, path, place, turning
 from .record import acceleration
 from .replay import Replay, Simulated, replay
 
@@ -42,8 +42,8 @@ def align(
 
     New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
     lateral_correction (m), distance_wander and lateral_wander (m, rms of what was found of both
-    along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, roll/pitch/yaw_rate_bias
-    (rad/s). New variables ``roll`` and ``pitch`` (rad): the simulated attitude that gravity was
+    along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, yaw_rate_gain (against the bends of
+    the road; nan where it hardly bends), roll/pitch/yaw_rate_bias (rad/s). New variables ``roll`` and ``pitch`` (rad): the simulated attitude that gravity was
     taken out with; zero where the record held none. Raises InputError when the model cannot
     drive where the record says it went.
     """
@@ -94,6 +94,7 @@ def align(
         lateral_correction=float(lateral),
         distance_wander=float(moved_along.std()),
         lateral_wander=float(moved_aside.std()),
+        yaw_rate_gain=turning.gyroscope_gain(aligned, getattr(road, "road", road))[0],
         **fitted.attributes(),
     )
     return aligned

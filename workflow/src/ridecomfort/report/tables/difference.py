@@ -25,7 +25,8 @@ def alignment(study: Difference) -> Table:
         ("mounting_roll", "mounting_roll_deg", ("Mounting [deg]", "roll"), ".2f", 180 / np.pi),
         ("mounting_pitch", "mounting_pitch_deg", ("Mounting [deg]", "pitch"), ".2f", 180 / np.pi),
         ("mounting_yaw", "mounting_yaw_deg", ("Mounting [deg]", "yaw"), ".2f", 180 / np.pi),
-        ("acceleration_gain", "acceleration_gain", ("Gain", "[-]"), ".4f", 1.0),
+        ("acceleration_gain", "acceleration_gain", ("Gain [-]", "acceleration"), ".4f", 1.0),
+        ("yaw_rate_gain", "yaw_rate_gain", ("Gain [-]", "yaw rate"), ".3f", 1.0),
     )
     columns = [Column("site", ("", "Site")), Column("drive", ("", "Drive")), Column("role", ("", "Role"))]
     columns += [Column(key, heading, form) for _, key, heading, form, _ in shown]
@@ -40,7 +41,8 @@ def alignment(study: Difference) -> Table:
         sources.append(Source(f"all, {site.label}", site.files.get("measured", ""), names, "as in the file, in the unit printed"))
     notes = (
         "Clock offset: how much later accelerations and rates stand in the record than distance and speed. Speed scale: true "
-        "over recorded speed. Mounting: rotation of the instrument against the body. Role check: nothing is fitted to the drive.",
+        "over recorded speed. Mounting: rotation of the instrument against the body. Gains: against gravity, and against the bends of "
+        "the road (below 0.2 Hz; none where it hardly bends). Role check: nothing is fitted to the drive.",
     )
     return _table(study, "alignment", columns, rows, sources, notes, breaks[1:])
 
