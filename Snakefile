@@ -45,7 +45,8 @@ except InputError as problem:
 
 asked = {"compare", "diagnose"} & set(sys.argv)
 if asked and not study.measured:
-    sys.exit(f"error: no site of {', '.join(study.names)} has measured drives, so that there is nothing to {min(asked)} (expected drives in its file)")
+    sites = ", ".join(study.names)
+    sys.exit(f"error: no site of {sites} has measured drives, so that there is nothing to {min(asked)} (expected drives in its file)")
 
 progress.follow(workflow)
 

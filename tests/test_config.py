@@ -267,20 +267,20 @@ SITE_MISTAKES = [
     ({"road": {"file": "road.crg"}, "drives": [DRIVE]}, "drives: entry 1: file: no such file 'drive.csv'"),
     ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "role": "fix"}]}, "role: 'fix', expected one of fit, check"),
     (
-        {"road": {"file": "road.crg"}, "drives": [{"file": "road.crg", "columns": {"time": {"column": "t", "unit": "m"}}}]},
+        {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "road.crg", "columns": {"time": {"column": "t", "unit": "m"}}}]},
         "drives: entry 1: columns: time: unit 'm' does not fit time (expected one of s, ms",
     ),
     (
         {
             "road": {"file": "road.crg"},
-            "drives": [{"file": "road.crg", "columns": {"roll_rate": {"column": "gyro_x [rad/s]", "unit": "deg/s"}}}],
+            "drives": [{**DRIVE, "file": "road.crg", "columns": {"roll_rate": {"column": "gyro_x [rad/s]", "unit": "deg/s"}}}],
         },
         "drives: entry 1: columns: roll_rate: unit 'deg/s' for roll_rate, but its column is headed 'gyro_x [rad/s]'",
     ),
     (
         {
             "road": {"file": "road.crg"},
-            "drives": [{"file": "road.crg", "columns": {n: {"column": "rate", "unit": "deg/s"} for n in ("roll_rate", "pitch_rate")}}],
+            "drives": [{**DRIVE, "file": "road.crg", "columns": {n: {"column": "rate", "unit": "deg/s"} for n in ("roll_rate", "pitch_rate")}}],
         },
         "drives: entry 1: columns: pitch_rate: column 'rate' stands for roll_rate already",
     ),
@@ -288,6 +288,7 @@ SITE_MISTAKES = [
         {"road": {"file": "road.crg"}, "drives": [{"file": "road.crg", "sensor": {"above_wheel_centres": 1.0}}]},
         "drives: entry 1: sensor: key 'behind_front_axle' is missing",
     ),
+    ({"road": {"file": "road.crg"}, "drives": [{"file": "road.crg"}]}, "drives: entry 1: key 'sensor' is missing"),
     (
         {"road": {"file": "road.crg"}, "sampling": {"road_friction": {"uniform": [-0.1, 1]}}},
         "-0.1, expected more than 0",

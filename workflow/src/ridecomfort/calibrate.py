@@ -190,17 +190,17 @@ def _from_elsewhere(
     task: Problem, best: Descent, places: Sequence[np.ndarray], tolerance: float
 ) -> tuple[list[Descent], list[str]]:
     """``best`` and the fits from other places, and why the others of these led nowhere."""
-    fits, refused, known = [best], [], best
+    fits, refused, everything = [best], [], list(range(len(task.parameters)))
     for place in places:
+        known = fits[_least(fits)]
         try:
-            found = descend(task, place, list(range(len(task.parameters))), max(tolerance, COARSE), known=known.jacobian)
+            found = descend(task, place, everything, max(tolerance, COARSE), known=known.jacobian)
         except InputError as why:
             refused.append(str(why))
             continue
         if not -EQUAL < found.cost / known.cost - 1 < DISAGREE:
-            found = descend(task, found.point, list(range(len(task.parameters))), tolerance, known=found.jacobian, exact=True)
+            found = descend(task, found.point, everything, tolerance, known=found.jacobian, exact=True)
         fits.append(found)
-        known = fits[_least(fits)]
     return fits, refused
 
 

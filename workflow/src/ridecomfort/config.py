@@ -146,16 +146,13 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
 
 
 def _check_drive(drive: Mapping, file, place: str) -> None:
-    """Units and columns of a measured drive, each for one quantity, and the place of its sensor."""
+    """Units and columns of a measured drive, each for one quantity."""
     taken: dict[str, str] = {}
     for quantity, entry in drive.get("columns", {}).items():
         units.of_column(quantity, entry, file=file, place=f"{place}: columns: {quantity}")
         other = taken.setdefault(entry["column"], quantity)
         if other != quantity:
             raise InputError(f"column {entry['column']!r} stands for {other} already", file=file, place=f"{place}: columns: {quantity}")
-    missing = [key for key in ("behind_front_axle", "above_wheel_centres") if key not in drive["sensor"]]
-    if missing:
-        raise InputError(f"key {missing[0]!r} is missing", file=file, place=f"{place}: sensor")
 
 
 def _files(site: Mapping) -> list[tuple[str, str]]:

@@ -38,10 +38,10 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
 
     Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no
     model of this road and car could explain, from the differences of repeats at equal place in the best state;
-    ``explainable_rmse(state, drive, signal)``, the root of mean square less floor; and ``explained_share(state, drive, signal)``, the share of the first
-    state's explainable mean square that is gone. Without repeats the floor is that of the instruments
-    alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz), "gyroscope": rad/s/sqrt(Hz)}, one-sided), or nil;
-    attribute ``floor`` says which.
+    ``explainable_rmse(state, drive, signal)``, the root of mean square less floor; and
+    ``explained_share(state, drive, signal)``, the share of the first state's explainable mean square that is gone. Without
+    repeats the floor is that of the instruments alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz),
+    "gyroscope": rad/s/sqrt(Hz)}, one-sided), or nil; attribute ``floor`` says which.
     """
     floors = np.full((comparison.sizes["state"], comparison.sizes["drive"], comparison.sizes["signal"]), np.nan)
     for state, name in enumerate(comparison["state"].values):

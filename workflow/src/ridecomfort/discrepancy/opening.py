@@ -90,10 +90,11 @@ def car(
     fitted_on = list(fitted_on) if fitted_on else [sites[0].name]
     sites = [site if site.name in fitted_on else replace(site, drives=_once_a_speed(site.drives)) for site in sites]
 
+    options = {"effects_folder": effects_folder, **(options or {})}
+
     def tuned(job: tuple[Site, xr.Dataset]) -> Replay:
         site, drive = job
-        known = {"effects_folder": effects_folder, **(options or {})}
-        return _settled(replay(drive, site.course, simulate, options=known).tuned(vehicle, effects))
+        return _settled(replay(drive, site.course, simulate, options=options).tuned(vehicle, effects))
 
     replays = list(each_record(tuned, [(site, drive) for site in sites for drive in site.drives]))
     known = library.find(effects_folder)
