@@ -73,7 +73,7 @@ def evidence(found: Diagnosis) -> Figure:
                 right.plot(shares[0], place, **DOT, clip_on=False)
                 right.plot(shares[1], place, **DIAMOND, clip_on=False)
                 came = _shortened(outcome(name, winner, str(ranking["trial_objection"].values[k])))
-                said = " / ".join(f"{share:.0f}" for share in np.round(shares) + 0.0 if np.isfinite(share))
+                said = " / ".join(f"{share:.0f}" for share in np.round(shares) + 0.0 if np.isfinite(share)).replace("-", "−")
                 right.text(1.06, place, f"{said} %  {came}", transform=right.get_yaxis_transform(), va="center", fontsize=6)
         right.set_title("refits of the best: fitted / held out")
         right.set_xlim(min(right.get_xlim()[0], -LEAST), max(right.get_xlim()[1], LEAST))
