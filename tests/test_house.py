@@ -13,7 +13,7 @@ import ridecomfort
 PACKAGE = Path(ridecomfort.__file__).parent
 
 ORDER = [
-    {"vocabulary", "errors", "store", "schema"},
+    {"vocabulary", "errors", "store", "schema", "pool"},
     {"road", "vehicle", "effects", "drive"},
     {"simulate", "space", "sample", "calibrated", "problem", "descent", "identifiability", "calibrate", "standin"},
     {"comfort", "discrepancy"},

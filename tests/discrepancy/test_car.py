@@ -9,8 +9,10 @@ import pytest
 
 from ridecomfort import simulate
 from ridecomfort.calibrated import with_values
-from ridecomfort.discrepancy import nuisances, opening
+from ridecomfort.discrepancy import experiment as exp
+from ridecomfort.discrepancy import nuisances, opening, probe
 from ridecomfort.discrepancy.car import ASTRAY
+from ridecomfort.errors import InputError
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
 
@@ -77,6 +79,38 @@ def test_a_coarse_step_is_made_good_in_residuals_and_not_in_their_changes(made):
     assert (wrong[1] < 0.3 * wrong[0]).all(), wrong[1] / wrong[0]
     change = lambda one: one.residual(moved, 0) - one.residual(values, 0)
     np.testing.assert_allclose(change(exact), change(coarse), atol=1e-9)
+
+
+def test_steps_twice_as_long_change_directions_by_little(made):
+    """What is probed for, in steps twice as long and in steps as they are."""
+    values = opening.start_values(made)
+    frame = exp.frame(made, (residuals := exp.simulate(made, values, [0])), exp.nuisances(made, values, [0]))
+    sizes = [size for size in made.free if size.key in ("tyre_radial_stiffness", "damping_front", "roll_inertia", "spring_stiffness_rear")]
+    coarser, _, there = probe.coarsely(made, values, residuals)
+    for size in sizes:
+        own, coarse = (exp.secant(one, values, base, size, 1.0) for one, base in ((made, residuals), (coarser, there)))
+        one, other = frame.flats([own, coarse])
+        assert one @ other > 0.99 * np.sqrt((one @ one) * (other @ other)), size.key
+        assert not np.array_equal(one, other)
+
+
+def test_a_model_that_steps_twice_as_long_do_not_hold_is_probed_in_its_own(made):
+    class Fragile:
+        each_record = staticmethod(map)
+
+        def coarser(self):
+            return Fragile()
+
+        def residual(self, values, index):
+            raise InputError("did not stay finite")
+
+    residuals, fragile = {0: np.zeros((6, 3))}, Fragile()
+    assert probe.coarsely(fragile, {}, residuals) == (fragile, {}, residuals)
+
+
+def test_steps_are_not_made_longer_than_2_ms(made):
+    slow = replace(made, replays=[replace(again, options={**again.options, "step": 0.002}) for again in made.replays])
+    assert slow.coarser() is slow and made.coarser().replays[0].options["step"] == 0.002
 
 
 def test_the_step_of_another_simulator_is_its_own(made):

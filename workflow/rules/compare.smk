@@ -101,6 +101,7 @@ rule compared:
         "results/logs/compared/study.log",
     benchmark:
         "results/benchmarks/compared/study.tsv"
+    threads: 2
     shell:
         "python -m ridecomfort.steps.compared --results results"
-        " --config {params.config:q} --output results 2> {log:q}"
+        " --config {params.config:q} --output results --workers {threads} 2> {log:q}"

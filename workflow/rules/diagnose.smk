@@ -63,6 +63,7 @@ rule diagnosed:
         "results/logs/diagnosed/study.log",
     benchmark:
         "results/benchmarks/diagnosed/study.tsv"
+    threads: 2
     shell:
         "python -m ridecomfort.steps.diagnosed --results results"
-        " --config {params.config:q} --output results 2> {log:q}"
+        " --config {params.config:q} --output results --workers {threads} 2> {log:q}"

@@ -62,9 +62,10 @@ rule figures:
         "results/logs/figures/study.log",
     benchmark:
         "results/benchmarks/figures/study.tsv"
+    threads: 2
     shell:
         "python -m ridecomfort.steps.figures --results results"
-        " --config {params.config:q} --output results/figures 2> {log:q}"
+        " --config {params.config:q} --output results/figures --workers {threads} 2> {log:q}"
 
 
 # The page needs the verdict first: what it names decides which models stand on the error ladder.

@@ -197,6 +197,9 @@ CALIBRATED = (
 STANDARD_GRAVITY = 9.80665
 """m/s2; ISO 80000-3."""
 
+AIR_DENSITY = 1.2
+"""kg/m3 at 20 degrees and sea level."""
+
 
 def describe(dataset: xr.Dataset) -> xr.Dataset:
     """The dataset with unit and long name written on every variable that the study knows.

@@ -19,6 +19,9 @@ from .experiment import Candidate, Record, Size
 ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
 """m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected, and how often that is done."""
 
+LONGEST = 0.002
+"""s; in such steps most changes of a drive differ by less than half a percent from those in steps of 1 ms."""
+
 
 @dataclass
 class Car:
@@ -125,7 +128,7 @@ class Car:
 
     def _missing(self, values: Mapping[str, float], again: Replay, simulated: Simulated) -> np.ndarray | float:
         """What a residual (6, sample) lacks because the step of integration is not nil."""
-        fine = _finer(again)
+        fine = _stepped(again, 0.5)
         if fine is again:
             return 0.0
         vehicle, effects = with_values(self.vehicle, self.effects, values)
@@ -139,6 +142,12 @@ class Car:
         return replace(
             self, replays=mixed(self.replays, other.replays), records=mixed(self.records, other.records), driven=driven
         )
+
+    def coarser(self) -> Car:
+        """The same in steps twice as long, where the simulator is the study's own and they are no longer than LONGEST."""
+        if any(again.options.get("step", simulator.STEP) > 0.5 * LONGEST for again in self.replays):
+            return self
+        return replace(self, replays=[_stepped(again, 2.0) for again in self.replays])
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""
@@ -158,8 +167,9 @@ class Car:
         return replace(self, replays=replays, records=records, driven=driven)
 
 
-def _finer(again: Replay) -> Replay:
-    """The same at half the step, where the simulator is the study's own."""
+def _stepped(again: Replay, longer: float) -> Replay:
+    """The same in steps so many times as long, recorded as seldom as that where they are longer; where the simulator is the study's own."""
     if again.simulate is not simulator.run:
         return again
-    return replace(again, options={**again.options, "step": 0.5 * again.options.get("step", simulator.STEP)})
+    step, rate = longer * again.options.get("step", simulator.STEP), again.options["rate"] / max(longer, 1.0)
+    return replace(again, options={**again.options, "step": step, "rate": rate})

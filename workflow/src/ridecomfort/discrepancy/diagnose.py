@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from . import opening, pool
+from .. import pool
+from . import opening
 from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, without_effects
 from .car import Car
 from .discover import Discovery, discovered

@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 
 import xarray as xr
 
-from . import opening, pool
+from .. import pool
+from . import opening
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words

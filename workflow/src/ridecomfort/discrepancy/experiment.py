@@ -113,6 +113,9 @@ class Experiment(Protocol):
     def taking(self, other: Experiment, indices: Collection[int]) -> Experiment:
         """The same with these records as ``other`` has them."""
 
+    def coarser(self) -> Experiment:
+        """The same in steps twice as long, whose residuals change with its values nearly alike, and which is simulated sooner."""
+
 
 @dataclass
 class Frame:

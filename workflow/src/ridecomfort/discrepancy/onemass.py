@@ -148,6 +148,10 @@ class OneMass:
         """The same: nothing is realigned."""
         return self
 
+    def coarser(self) -> OneMass:
+        """The same: it is simulated soon enough."""
+        return self
+
     def _linear(self) -> tuple[float, float, float]:
         """Gain, damping, stiffness from the response of the first record (Sanathanan and Koerner 1963)."""
         u, y = np.fft.rfft(self.inputs[0]), np.fft.rfft(self.outputs[0])

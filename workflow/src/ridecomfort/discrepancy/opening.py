@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import xarray as xr
 
-from .. import calibrate
+from .. import calibrate, pool
 from .. import simulate as simulator
 from ..calibrated import apply
 from ..drive.record import unstack
@@ -17,7 +17,6 @@ from ..effects import library
 from ..effects.contract import COMPILED
 from ..vehicle.parameters import PARAMETERS
 from ..vocabulary import SIGNALS, VARIABLES
-from . import pool
 from .candidates import candidate
 from .car import Car
 from .experiment import Record, Size

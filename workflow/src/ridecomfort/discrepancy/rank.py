@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from . import floor, opening, pool, suspect, turns
+from .. import pool
+from . import floor, opening, suspect, turns
 from .car import Car
 from .experiment import Frame
 from .explain import ASSUMED, NIL, REPEATS

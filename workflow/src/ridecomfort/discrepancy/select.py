@@ -152,7 +152,7 @@ class _Search:
     def _probe(self, base: Fit) -> dict[tuple[str, int], dict[str, dict[int, np.ndarray]]]:
         """Change of the residuals per probe of every size of every candidate and shape, in single precision."""
         jobs = [(c.name, shape) for c in self.rung.experiment.candidates for shape in range(len(c.shapes))]
-        results = self.each(probe.Probe(self.rung.experiment, base.values, base.residuals), jobs)
+        results = self.each(probe.Probe(*probe.coarsely(self.rung.experiment, base.values, base.residuals)), jobs)
         kept = {job: found for job, found in zip(jobs, results) if found}
         alias = {name for name, candidate in self.by_name.items() if candidate.instrument or candidate.port == "road"}
         least = lambda name: ALIAS if name in alias else LEAST_OWN

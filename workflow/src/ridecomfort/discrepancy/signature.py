@@ -66,7 +66,8 @@ def signature(
     with beside(effects_folder, sources) as folder:
         candidates = [_candidate(number, seen) for number, seen in enumerate(SEEN.values())]
         experiment = rung.experiment.looking_for(candidates, folder)
-        found = each(probe.Probe(experiment, values, residuals), [(c.name, 0) for c in candidates])
+        start = probe.coarsely(experiment, values, residuals)
+        found = each(probe.Probe(*start), [(c.name, 0) for c in candidates])
         curves = list(each(_Estimate(frame, residuals, free), list(zip(found, SEEN.values()))))
     known = library.find(effects_folder)
     names = [name for name in named or {} if known[name].effect.port in ARGUMENTS]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 import xarray as xr
@@ -262,8 +262,12 @@ def _continued(u: np.ndarray, place: np.ndarray, speed: np.ndarray, rate: float)
 
 def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH) -> np.ndarray:
     """Low-passed without delay (Butterworth of second order, forwards and backwards)."""
-    sos = butter(2, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
-    return sosfiltfilt(sos, values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
+    return sosfiltfilt(_low_pass(bandwidth, rate), values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
+
+
+@lru_cache(maxsize=256)  # asked for after every simulated drive
+def _low_pass(bandwidth: float, rate: float) -> np.ndarray:
+    return butter(2, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
 
 
 def speed_bandwidth(speed: np.ndarray, rate: float) -> float:

@@ -1,9 +1,7 @@
 """Lift of the air at the axles."""
 
 from ridecomfort.effects.contract import Effect, Parameter
-
-AIR_DENSITY = 1.2
-"""kg/m3 at 20 degrees and sea level."""
+from ridecomfort.vocabulary import AIR_DENSITY
 
 effect = Effect(
     name="aerodynamic_lift",

@@ -5,10 +5,12 @@ from __future__ import annotations
 import difflib
 import importlib.util
 import inspect
+import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
 
 from ..errors import InputError
 from .contract import PORTS, Effect
@@ -33,12 +35,12 @@ def find(folder=None) -> dict[str, Entry]:
     Raises InputError for a file that is not an effect, for a name that does not match its
     file and for a user's effect that takes the name of one of the library.
     """
-    entries = _scan(path for path in sorted(FOLDER.glob("*.py")) if path.stem not in HOUSE)
+    entries = dict(_entries(FOLDER, _files(FOLDER)))
     if folder is not None:
         folder = Path(folder)
         if not folder.is_dir():
             raise InputError("no such folder", file=folder, place="effects_folder")
-        own = _scan(sorted(path for path in folder.glob("*.py") if not path.stem.startswith("_")))
+        own = _entries(folder, _files(folder))
         for name in own.keys() & entries.keys():
             raise InputError(f"effect {name!r} is already in the library", file=own[name].path)
         entries.update(own)
@@ -83,8 +85,16 @@ def check_plausible(chosen) -> None:
                 )
 
 
-def _scan(paths: Iterable[Path]) -> dict[str, Entry]:
-    return {path.stem: _load(path, path.stat().st_mtime_ns) for path in paths}
+def _files(folder: Path) -> tuple[tuple[str, int], ...]:
+    """Names of the effects that lie in a folder, in their order, and when each file was changed."""
+    with os.scandir(folder) as listed:
+        found = [(file.name[:-3], file.stat().st_mtime_ns) for file in listed if file.name.endswith(".py")]
+    return tuple(sorted(one for one in found if not one[0].startswith("_") and (folder != FOLDER or one[0] not in HOUSE)))
+
+
+@lru_cache(maxsize=64)  # asked for before every simulated drive
+def _entries(folder: Path, files: tuple[tuple[str, int], ...]) -> Mapping[str, Entry]:
+    return MappingProxyType({name: _load(folder / f"{name}.py", changed) for name, changed in files})
 
 
 @lru_cache(maxsize=512)

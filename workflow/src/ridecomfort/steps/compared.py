@@ -6,11 +6,11 @@ from ridecomfort.steps import written
 from ridecomfort.steps.command import Command
 
 
-def main(results, config, output):
+def main(results, config, output, workers="1"):
     difference = study_results.difference(results, config)
     written.tables(differing.tables(difference), output / "tables")
-    written.figures(differing.figures(difference), output / "figures")
+    written.figures(differing.figures(difference), output / "figures", int(workers))
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("results",)).run()
+    Command(main, inputs=("results",), texts=("workers",)).run()

@@ -6,11 +6,11 @@ from ridecomfort.steps import written
 from ridecomfort.steps.command import Command
 
 
-def main(results, config, output):
+def main(results, config, output, workers="1"):
     diagnosis = study_results.diagnosis(results, config)
     written.tables(diagnosed.tables(diagnosis), output / "tables")
-    written.figures(diagnosed.figures(diagnosis), output / "figures")
+    written.figures(diagnosed.figures(diagnosis), output / "figures", int(workers))
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("results",)).run()
+    Command(main, inputs=("results",), texts=("workers",)).run()

@@ -1,20 +1,19 @@
 """Draw every figure of the study as PNG and PDF."""
 
-from ridecomfort.report import catalogue, figures, style
+from functools import partial
+
+from ridecomfort.report import catalogue, figures
 from ridecomfort.steps import results as study_results
+from ridecomfort.steps import written
 from ridecomfort.steps.command import Command
-from ridecomfort.store import replacing
 
 
-def main(results, config, output):
+def main(results, config, output, workers="1"):
     study = study_results.load(results, config)
-    for name in catalogue.figures(config["sites"]):
-        drawn = figures.draw(study, name)
-        for suffix in style.METADATA:
-            with replacing(output / f"{name}{suffix}") as part:
-                style.save(drawn, part)
+    drawn = {name: partial(figures.draw, study, name) for name in catalogue.figures(config["sites"])}
+    written.figures(drawn, output, int(workers))
     study_results.drop_others(output, config["sites"])
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("results",)).run()
+    Command(main, inputs=("results",), texts=("workers",)).run()
