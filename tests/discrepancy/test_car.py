@@ -116,4 +116,5 @@ def test_steps_are_not_made_longer_than_2_ms(made):
 def test_the_step_of_another_simulator_is_its_own(made):
     other = replace(made, replays=[replace(again, simulate=lambda *a, **k: simulate.run(*a, **k)) for again in made.replays])
     values = opening.start_values(other)
+    assert other.coarser() is other
     np.testing.assert_array_equal(other.retuned(values, [0], exactly=True)[0].residual(values, 0), other.residual(values, 0))

@@ -40,10 +40,10 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     monkeypatch.setitem(style.SETTINGS, "pdf.fonttype", 3)  # embeds the letters in a third of the time
     folder, config = written
     tables.main(folder, config, folder / "tables")
-    figures.main(folder, config, folder / "figures")
+    figures.main(folder, config, folder / "figures", "2")
     looped = {**config, "diagnosed": ["ts1"], "scored": False}
-    compared.main(folder, {**config, "sites": {"ts1": config["sites"]["ts1"]}}, folder)
-    diagnosed.main(folder, looped, folder)
+    compared.main(folder, {**config, "sites": {"ts1": config["sites"]["ts1"]}}, folder, "1")
+    diagnosed.main(folder, looped, folder, "1")
     report.main(folder, looped, folder / "report.html")
     names = [*catalogue.tables(config["sites"]), *catalogue.DIFFERENCE_TABLES, *catalogue.DIAGNOSIS_TABLES]
     expected = {f"{name}{suffix}" for name in names for suffix in table.WRITERS}

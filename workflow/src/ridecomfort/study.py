@@ -171,9 +171,8 @@ class Study:
 
 def effect_files(folder: Path | None = None) -> dict[str, Path]:
     """The file of every effect there is, by name: those of the library and those of a user's folder."""
-    files = [path for path in library.FOLDER.glob("*.py") if path.stem not in library.HOUSE]
-    if folder is not None:
-        files += [path for path in folder.glob("*.py") if not path.stem.startswith("_")]
+    folders = [library.FOLDER] if folder is None else [library.FOLDER, folder]
+    files = [where / f"{name}.py" for where in folders for name, _ in library.files(where)]
     return {path.stem: path for path in sorted(files)}
 
 

@@ -145,9 +145,10 @@ class Car:
 
     def coarser(self) -> Car:
         """The same in steps twice as long, where the simulator is the study's own and they are no longer than LONGEST."""
-        if any(again.options.get("step", simulator.STEP) > 0.5 * LONGEST for again in self.replays):
+        stepped = [_stepped(again, 2.0) for again in self.replays]
+        if any(one is again or one.options["step"] > LONGEST for one, again in zip(stepped, self.replays)):
             return self
-        return replace(self, replays=[_stepped(again, 2.0) for again in self.replays])
+        return replace(self, replays=stepped)
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""

@@ -35,12 +35,12 @@ def find(folder=None) -> dict[str, Entry]:
     Raises InputError for a file that is not an effect, for a name that does not match its
     file and for a user's effect that takes the name of one of the library.
     """
-    entries = dict(_entries(FOLDER, _files(FOLDER)))
+    entries = dict(_entries(FOLDER, files(FOLDER)))
     if folder is not None:
         folder = Path(folder)
         if not folder.is_dir():
             raise InputError("no such folder", file=folder, place="effects_folder")
-        own = _entries(folder, _files(folder))
+        own = _entries(folder, files(folder))
         for name in own.keys() & entries.keys():
             raise InputError(f"effect {name!r} is already in the library", file=own[name].path)
         entries.update(own)
@@ -85,7 +85,7 @@ def check_plausible(chosen) -> None:
                 )
 
 
-def _files(folder: Path) -> tuple[tuple[str, int], ...]:
+def files(folder: Path) -> tuple[tuple[str, int], ...]:
     """Names of the effects that lie in a folder, in their order, and when each file was changed."""
     with os.scandir(folder) as listed:
         found = [(file.name[:-3], file.stat().st_mtime_ns) for file in listed if file.name.endswith(".py")]

@@ -6,7 +6,7 @@ from ridecomfort.steps import written
 from ridecomfort.steps.command import Command
 
 
-def main(results, config, output, workers="1"):
+def main(results, config, output, workers):
     difference = study_results.difference(results, config)
     written.tables(differing.tables(difference), output / "tables")
     written.figures(differing.figures(difference), output / "figures", int(workers))

@@ -6,7 +6,7 @@ from ridecomfort.steps import written
 from ridecomfort.steps.command import Command
 
 
-def main(results, config, output, workers="1"):
+def main(results, config, output, workers):
     diagnosis = study_results.diagnosis(results, config)
     written.tables(diagnosed.tables(diagnosis), output / "tables")
     written.figures(diagnosed.figures(diagnosis), output / "figures", int(workers))

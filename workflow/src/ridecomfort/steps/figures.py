@@ -8,7 +8,7 @@ from ridecomfort.steps import written
 from ridecomfort.steps.command import Command
 
 
-def main(results, config, output, workers="1"):
+def main(results, config, output, workers):
     study = study_results.load(results, config)
     drawn = {name: partial(figures.draw, study, name) for name in catalogue.figures(config["sites"])}
     written.figures(drawn, output, int(workers))
