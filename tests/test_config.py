@@ -156,6 +156,14 @@ def test_a_whole_number_may_be_written_with_a_point(project):
     assert_said(project, {"sites": ["own"], "runs": "4000"}, "runs: '4000', expected a whole number; YAML reads this as text, write 4000 ", config.STUDY)
 
 
+def test_a_diagnosis_is_told_the_bounds_of_what_is_calibrated_and_a_parameter_that_is_not_may_be_uncertain(project):
+    chosen = {"parameters": ["damping_front", "spring_stiffness_front"], "bounds": {"damping_front": [900, 4000]}}
+    study = config.load({"sites": ["own"], "calibration": chosen, "diagnosis": {"uncertain": {"tyre_friction": 0.1}}}, project)
+    settings = stepsettings.of_step(study, "diagnose", model="base")
+    assert settings["bounds"] == {"damping_front": [900, 4000], "spring_stiffness_front": [15000, 40000]}
+    assert settings["uncertain"]["tyre_friction"] == 0.1
+
+
 def test_a_key_that_stands_twice_is_refused(project):
     (project / config.SITES / "own.yaml").write_text("road:\n  file: road.crg\ntitle: one\ntitle: two\n")
     assert_said(project, {"sites": ["own"]}, "line 4: is not valid YAML (key 'title' stands in line 3 already)", project / config.SITES / "own.yaml")

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from ridecomfort import simulate
 from ridecomfort.calibrated import with_values
@@ -35,6 +36,34 @@ def test_what_a_vehicle_has_not_is_no_size_of_it(made):
     drives = [again.drive for again in made.replays[:1]]
     free = opening.car([opening.Site("trial", made.replays[0].road, drives)], without, library_names=["crosswind"]).free
     assert {"anti_roll_stiffness_rear"} == {size.key for size in made.free} - {size.key for size in free}
+
+
+def test_what_was_calibrated_is_fitted_again_within_its_bounds_and_nothing_twice(made):
+    """Of the paper's five, those that the user took out are not."""
+    calibration = xr.Dataset(
+        {"value": ("parameter", [30000.0, 500.0]), "lower": ("parameter", [20000.0, 300.0]), "upper": ("parameter", [40000.0, 900.0])},
+        {"parameter": ["spring_stiffness_front", "roll_inertia"]},
+    )
+    road = {"trial": (made.replays[0].road, [made.replays[0].drive])}
+    free = opening.opened(road, made.vehicle, calibration=calibration, among=["crosswind"], workers=1).free
+    keys = [size.key for size in free]
+    assert len(set(keys)) == len(keys) and set(keys) == {"spring_stiffness_front", *opening.UNCERTAIN}
+    (inertia,) = (size for size in free if size.key == "roll_inertia")
+    assert (inertia.neutral, inertia.lower, inertia.upper) == (500.0, 300.0, 900.0)
+    narrower = {"roll_inertia": (400.0, 600.0)}
+    free = opening.opened(road, made.vehicle, calibration=calibration, bounds=narrower, among=["crosswind"], workers=1).free
+    assert next((size.lower, size.upper) for size in free if size.key == "roll_inertia") == (400.0, 600.0)
+
+
+def test_drives_on_other_stretches_are_no_repeats_of_one_another(made):
+    drive, road = made.replays[0].drive, made.replays[0].road
+    half = int(0.6 * drive.sizes["time"])
+    parts = [drive.isel(time=slice(0, half)), drive.isel(time=slice(drive.sizes["time"] - half, None))]
+    parts = [part.assign_coords(time=part["time"] - part["time"][0]) for part in parts]
+    cars = opening.car([opening.Site("trial", road, parts)], made.vehicle, library_names=["crosswind"])
+    assert len({record.condition for record in cars.records}) == 2
+    whole = opening.car([opening.Site("trial", road, [drive, drive])], made.vehicle, library_names=["crosswind"])
+    assert len({record.condition for record in whole.records}) == 1
 
 
 def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):

@@ -40,8 +40,10 @@ def test_noise_of_the_road_alone_gives_way_to_a_force_that_is_more_than_noise_an
 
 @pytest.mark.parametrize("is_road_open", [False, True])
 def test_outside_stays_where_such_a_force_explains_more(is_road_open):
-    other = replace(NOTHING, verdict="outside")
+    other = replace(NOTHING, verdict="outside", effects=(FOUND,), share=0.4, held_out_share=0.4)
     assert reconsidered(other, SURE, is_road_open) is other
+    no_more = replace(SURE, share=0.42, held_out_share=0.42)
+    assert reconsidered(other, no_more, is_road_open).verdict == ("named" if is_road_open else "outside")
 
 
 @pytest.mark.parametrize("kind", ["named", "cluster"])

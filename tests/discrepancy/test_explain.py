@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy import opening
-from ridecomfort.discrepancy.explain import explain
+from ridecomfort.discrepancy.explain import explain, joined
 from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, judged
 
 from .coloured import coloured
@@ -71,5 +70,19 @@ def test_errors_that_are_slower_than_the_vehicle_are_not_its_to_explain():
         np.testing.assert_allclose(explain(slow)[name], explain(compared)[name], rtol=0.01)
 
 
-def test_what_is_explained_is_judged_in_the_band_that_effects_are_searched_in():
-    assert (LOWEST, LOWEST_OF_DRIVER) == (opening.LOWEST, opening.LOWEST_OF_DRIVER)
+def test_drives_at_one_speed_on_other_stretches_repeat_nothing():
+    """Nor do those that have less than half of the shorter one in common."""
+    compared = comparison(repeats=2)[1]
+    for apart, floor in ((2000.0, "nil"), (800.0, "nil"), (200.0, "from repeats")):
+        moved = compared.copy(deep=True)
+        moved["s"] = moved["s"] + xr.DataArray([0.0, apart], dims="drive")
+        assert floor in explain(moved).attrs["floor"]
+
+
+def test_drives_that_repeat_one_another_all_have_a_stretch_in_common():
+    """The third has all of its own in common with the first, but hardly anything with both others."""
+    courses, numbers = [], []
+    for start, end in ((0.0, 2000.0), (0.0, 1020.0), (1000.0, 2000.0)):
+        numbers.append(joined(courses, np.linspace(start, end, 101), np.linspace(0.0, (end - start) / 20.0, 101)))
+    assert numbers == [0, 0, 1]
+    assert courses == [(20.0, 0.0, 1020.0), (20.0, 1000.0, 2000.0)]

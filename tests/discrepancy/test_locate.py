@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from ridecomfort.discrepancy import locate
 from ridecomfort.vocabulary import SIGNALS
@@ -70,5 +71,20 @@ def test_conditions_are_divided_into_classes_of_equal_duration(located, comparis
     assert fast == pytest.approx(0.32 * 200 / 1250, rel=0.05) and fast > 100 * slow
 
 
-def test_another_state_is_located_when_asked_for(comparison):
-    assert locate.locate(comparison, "calibrated").attrs["located_state"] == "calibrated"
+def test_the_last_state_is_located_and_another_when_asked_for(comparison, located):
+    worse = (comparison[["residual"]] * 2.0).assign_coords(state=["reference"])
+    both = comparison.drop_vars("residual").isel(state=[0, 0]).assign_coords(state=["reference", "calibrated"])
+    both["residual"] = xr.concat([worse, comparison[["residual"]]], "state")["residual"]
+    np.testing.assert_allclose(locate.locate(both)["error_power"], located["error_power"])
+    found = locate.locate(both, "reference")
+    assert found.attrs["located_state"] == "reference"
+    np.testing.assert_allclose(found["error_power"], 4.0 * located["error_power"])
+
+
+def test_an_error_as_large_as_the_signal_is_all_of_its_power_however_long_each_drive(comparison):
+    same = comparison.copy(deep=True)
+    same["measured"].loc[{"drive": "two"}] *= 3.0
+    same["s"].loc[{"drive": "two"}] *= 1.3  # at another speed, so that it repeats nothing
+    same["residual"] = same["measured"].expand_dims(state=["calibrated"]).where(~((same["drive"] == "two") & (same["time"] > 40.0)))
+    shares = locate.locate(same)["power_share"].sum(("stretch", "band")).sel(signal="a_z")
+    assert float(shares) == pytest.approx(1.0, abs=0.02)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import select, verdict
+from ridecomfort.discrepancy.experiment import Record
 from ridecomfort.discrepancy.judged import band
-from ridecomfort.discrepancy.shared import is_material
+from ridecomfort.discrepancy.shared import is_material, shared_error
 
 from .linear import RATE, SAMPLES, Linear
 
@@ -46,6 +48,32 @@ def test_an_error_of_drives_that_were_not_repeated_matters_from_some_percent_of_
     powers = {index: np.sum(frame.cleaned(index, part) ** 2, axis=1) for index, part in residuals.items()}
     measured = {index: np.sin(np.arange(SAMPLES) / 7.0) * np.sqrt(2.0 * power / share / SAMPLES)[:, None] for index, power in powers.items()}
     assert is_material(frame, residuals, measured) is matters
+
+
+class Plain:
+    """Series that are white and clean already."""
+
+    scale = 1.0
+
+    def __call__(self, series):
+        return series
+
+
+@pytest.mark.parametrize("lengths", [(6000,), (6000, 6000), (6000, 1000)])
+def test_an_error_that_is_all_shared_is_so_however_long_each_condition(lengths):
+    rng = np.random.default_rng(5)
+    records, series = [], []
+    for number, length in enumerate(lengths):
+        place = 0.2 * np.arange(length)
+        records += 2 * [Record("", "fit", "road", f"condition {number}", RATE, (0.3, 40.0), place, 20.0)]
+        series += 2 * [rng.standard_normal((2, length))]
+    indices = list(range(len(records)))
+    frame = SimpleNamespace(
+        experiment=SimpleNamespace(records=records, channels=("a", "b")), indices=indices,
+        whitening=dict.fromkeys(indices, Plain()), cleaned=lambda index, residual: residual,
+    )  # fmt: skip
+    found = shared_error(frame, dict(enumerate(series)))
+    assert found.share == pytest.approx(1.0) and found.z > 10.0
 
 
 def test_without_repeats_nothing_is_known_to_be_shared():

@@ -89,6 +89,34 @@ def test_a_netcdf_file_in_other_units_and_names_is_converted(tmp_path):
     assert drive.attrs["gravity"] == 0
 
 
+def netcdf(path, **units):
+    """A drive whose clock runs for 10 s and whose variables have these units."""
+    time = np.arange(0, 10, 0.01)
+    values = {"v_x": 20.0 + 0 * time, **{name: 0.1 * np.sin(time) for name in SIGNALS}}
+    drive = xr.Dataset({name: ("t", row, {"units": units[name]} if name in units else {}) for name, row in values.items()}, {"t": time})
+    if "time" in units:
+        drive = drive.assign_coords(t=("t", 1e3 * time, {"units": units["time"]}))
+    drive.to_netcdf(path)
+    return path, 0.1 * np.sin(time)
+
+
+def test_a_netcdf_file_has_the_units_and_axes_of_its_columns_where_it_does_not_say_itself(tmp_path):
+    path, wave = netcdf(tmp_path / "drive.nc", time="ms", yaw_rate="deg/s")
+    columns = {"time": {"column": "t", "unit": "ms"}, "a_y": {"column": "a_y", "unit": "g", "factor": -1}}
+    drive = readers.read(path, columns | {"yaw_rate": {"column": "yaw_rate", "unit": "deg/s", "factor": -1}})
+    assert float(drive["time"][-1]) == pytest.approx(9.99)
+    np.testing.assert_allclose(drive["a_y"], -STANDARD_GRAVITY * wave, atol=1e-9)
+    np.testing.assert_allclose(drive["yaw_rate"], -np.radians(wave), atol=1e-9)
+    np.testing.assert_allclose(drive["a_x"], wave, atol=1e-9)
+
+
+def test_a_netcdf_file_whose_units_are_others_than_those_of_the_columns_is_refused(tmp_path):
+    path, _ = netcdf(tmp_path / "drive.nc", yaw_rate="deg/s")
+    columns = {"time": {"column": "t", "unit": "s"}, "yaw_rate": {"column": "yaw_rate", "unit": "rad/s"}}
+    with pytest.raises(InputError, match=r"drive.nc: yaw_rate: unit 'rad/s' for yaw_rate, but its variable has units 'deg/s'"):
+        readers.read(path, columns)
+
+
 def test_places_at_the_car_become_places_about_its_centre_of_gravity(tmp_path, car):
     entry = {
         "columns": COLUMNS,
@@ -134,6 +162,14 @@ def test_what_is_wrong_in_a_table_is_said_in_one_line(tmp_path, frame, columns, 
     assert "\n" not in message and message.startswith(str(path))
     for word in words:
         assert word in message, message
+
+
+def test_blank_lines_are_counted_though_they_are_no_rows(tmp_path):
+    path = write(tmp_path, broken("ax [g]", 10, "n/a?"))
+    lines = path.read_text().split("\n")
+    path.write_text("\n".join([*lines[:5], "", *lines[5:8], "  ", *lines[8:]]))
+    with pytest.raises(InputError, match="line 14, column 'ax"):
+        readers.read(path, COLUMNS)
 
 
 @pytest.mark.parametrize(

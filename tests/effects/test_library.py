@@ -58,6 +58,13 @@ def test_refuses_a_function_that_does_not_take_what_its_port_sees(tmp_path):
         library.find(tmp_path)
 
 
+def test_refuses_parameters_in_another_order_than_their_values_are_handed_over_in(tmp_path):
+    source = (library.FOLDER / "suspension_friction.py").read_text(encoding="utf-8").replace('"suspension_friction"', '"mine"')
+    (tmp_path / "mine.py").write_text(source.replace("front, rear, presliding):", "rear, front, presliding):"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"mine.py: act takes \(.*rear, front, presliding\), expected \(.*front, rear, presliding\)"):
+        library.find(tmp_path)
+
+
 def test_refuses_a_name_that_python_cannot_say(tmp_path):
     put(tmp_path, "my-effect")
     with pytest.raises(InputError, match="letters, digits and _"):

@@ -139,6 +139,7 @@ def test_own_site_has_no_published_rows(own_site):
         assert not any("paper" in row for row in each.rows) and not any("paper" in note for note in each.notes)
         assert all(0 < row < len(each.rows) for row in each.breaks)
     assert not any("tand-in" in note for each in found.values() for note in each.notes)
+    assert any("exact: in the frequency domain" in note for note in found["weighting"].notes)  # what is not about the paper stays
 
 
 def test_effects_have_no_published_bounds(paper_like):

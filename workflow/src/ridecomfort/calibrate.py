@@ -9,8 +9,8 @@ a trust region that bends at the bounds; MINPACK's own "lm" knows no bounds).
 
 What alignment may have left of every drive's clock, path, speed and mounting (``drive.leftover``) is
 projected out of the residuals, about a first rough fit. The clock no further than CLOCK_LEFT: a damping
-would be fitted to a delay, or a delay to a damping. The intervals are those of an M-estimator whose residuals
-are correlated in any way within 2 s and among the signals; what alignment left moves them as far as it moves the fit.
+would be fitted to a delay, or a delay to a damping. The intervals are those of a jackknife over stretches of the road
+(``identifiability.assess``); what alignment left moves them as far as it moves the fit.
 """
 
 from __future__ import annotations
@@ -324,7 +324,7 @@ def _dataset(task, start, chosen, in_sequence, steps: Mapping[str, Descent], kno
             "signal_share": (("parameter", "signal"), knowledge.information),
             "singular_value": ("rank", knowledge.singular_values),
             "cost": ("step", np.array([step.cost for step in steps.values()])),
-            "iterations": ("step", np.array([len(step.path) for step in steps.values()])),
+            "iterations": ("step", np.array([max(len(step.path) - 1, 0) for step in steps.values()])),
             "evaluations": ("step", np.array([step.evaluations for step in steps.values()])),
             "stopped": ("step", np.array([step.stopped for step in steps.values()])),
             "step_value": (("step", "parameter"), np.stack([task.values(step.point) for step in steps.values()])),

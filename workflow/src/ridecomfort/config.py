@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import yaml
@@ -57,7 +57,7 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
     study = Study(settings, sites, standin, folder)
     _check_effects(study, given)
     _check_parameters(settings["calibration"], _source("calibration", given))
-    _check_uncertain(settings["diagnosis"]["uncertain"], _source("diagnosis", given))
+    _check_uncertain(settings["diagnosis"]["uncertain"], settings["calibration"]["parameters"], _source("diagnosis", given))
     _check_vehicles(study, given)
     _check_calibrations(study)
     _check_handed_in(study)
@@ -194,11 +194,12 @@ def _check_parameters(calibration: Mapping, source) -> None:
             raise InputError(what, file=source, place=f"calibration: start: {name}")
 
 
-def _check_uncertain(uncertain: Mapping[str, float], source) -> None:
+def _check_uncertain(uncertain: Mapping[str, float], calibrated: Sequence[str], source) -> None:
+    fitted = {*CALIBRATED} & {*calibrated}  # others may stand among what is uncertain by default and be calibrated all the same
     for name in uncertain:
-        if name not in parameters.PARAMETERS or name in CALIBRATED:
-            why = "is calibrated" if name in CALIBRATED else "is no parameter of a vehicle"
-            known = ", ".join(key for key in parameters.PARAMETERS if key not in CALIBRATED)
+        if name not in parameters.PARAMETERS or name in fitted:
+            why = "is calibrated" if name in fitted else "is no parameter of a vehicle"
+            known = ", ".join(key for key in parameters.PARAMETERS if key not in fitted)
             raise InputError(f"{name!r} {why}; expected of {known}", file=source, place="diagnosis: uncertain")
 
 

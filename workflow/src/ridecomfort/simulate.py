@@ -10,6 +10,7 @@ import xarray as xr
 from numba import njit
 from numba.core.errors import NumbaError
 
+from .drive.sampling import HALF_WIDTH, KAISER
 from .effects import compose, library
 from .errors import InputError
 from .road import surface
@@ -257,7 +258,8 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
 @lru_cache
 def _taps(every: int) -> np.ndarray:
     """A low pass at the rate of the steps that is flat to 0.40 and closed from 0.60 of the records' rate."""
-    taps = np.sinc(np.arange(-5 * every, 5 * every + 1) / every) * np.kaiser(10 * every + 1, 4.0)
+    half = HALF_WIDTH * every
+    taps = np.sinc(np.arange(-half, half + 1) / every) * np.kaiser(2 * half + 1, KAISER)
     return taps / taps.sum()
 
 

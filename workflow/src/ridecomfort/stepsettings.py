@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 
 from .study import Study
-from .vocabulary import CALIBRATED, STANDARD_GRAVITY
+from .vocabulary import STANDARD_GRAVITY
 
 
 def of_step(study: Study, step: str, site: str | None = None, model: str | None = None) -> dict:
@@ -22,7 +22,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
         "effects_folder": chosen["effects_folder"] if study.has_own_effects(model) else None,
         "simulation": simulation,
     }
-    comfort = chosen["comfort"]
+    comfort, calibration = chosen["comfort"], chosen["calibration"]
     sections = {**at, **{key: comfort[key] for key in ("critical_length", "sections")}}
     match step:
         case "standin_road":
@@ -47,7 +47,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             drives = [{key: value for key, value in drive.items() if key != "noise_density"} for drive in own["drives"]]
             return {**at, "drives": drives, "alignment": chosen["alignment"], "simulation": simulation}
         case "calibrate":
-            return {**simulated, "calibration": chosen["calibration"]}
+            return {**simulated, "calibration": calibration}
         case "compare":
             return {**simulated, "noise_density": _noise_densities(own["drives"])}
         case "critical":
@@ -72,7 +72,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 "effects_folder": chosen["effects_folder"],
                 "sites": study.diagnosed,
                 "fitted_on": study.diagnosed[:1],
-                "bounds": {name: chosen["calibration"]["bounds"][name] for name in CALIBRATED},
+                "bounds": {name: pair for name, pair in calibration["bounds"].items() if name in calibration["parameters"]},
                 "uncertain": chosen["diagnosis"]["uncertain"],
                 "noise_density": {name: _noise_densities(study.sites[name]["drives"]) for name in study.diagnosed},
                 "seed": chosen["seed"],

@@ -20,8 +20,8 @@ from .rung import Rung, climb
 from .selection import Selection, State, shares
 
 WIDER = {"m": 1.0, "1": 1.0, "kg m2": 2.0}
-"""By unit, times as far as a bound, and as small a part of it, that a parameter may go: lengths are known to a tape measure, shares by
-drawings and friction by what rubber does (one of 0.2 on a dry road is a tyre that is soft to the side), inertias by mass and size..."""
+"""Factor by unit that the upper bound is multiplied by and the lower one divided by: lengths are known to a tape measure, shares by drawings,
+friction by what rubber does (one of 0.2 on a dry road is a tyre that is soft to the side), inertias by mass and size..."""
 
 ANY = 3.0
 """...and stiffnesses and dampings by nothing but their effect."""
@@ -105,10 +105,9 @@ def without_effects(rung: Rung, each: Callable = map) -> Rung | None:
 
 
 def searched(before: Selection, after: Selection) -> BeyondBounds | None:
-    """Parameters beyond their bounds in a search of its own, ``after``, whose model is better than that of the search ``before``, which
-    kept to the bounds, as are the parameters alone; None where one is not, or none lies beyond.
-
-    It is better by a share that is worth a word, or where the parameters alone leave LEFT of what all effects did.
+    """Parameters beyond their bounds, found by the search ``after``, which allowed that. None unless they alone explain a share that is worth
+    a word, at least one lies outside of its bounds, and the model is better than that of the search ``before``, which kept to them: by
+    such a share, or by parameters that alone leave no more than LEFT of what all effects did.
     """
     gained = shares(before, before.states[-1], after.states[-1], after)
     alone = shares(before, before.states[0], after.states[0], after)

@@ -21,7 +21,7 @@ HELD = 0.95
 """Share of a column's power that its window holds."""
 
 FINER = 4.0
-"""Parts of a block that windows are made of."""
+"""Parts of a block that windows are made of, and of which the second form of the test by blocks, which sees rare events better."""
 
 NEAR = 0.5
 """s around the true place in which a shifted column still resembles itself."""

@@ -48,7 +48,7 @@ def basis(columns: np.ndarray) -> np.ndarray:
     if not len(columns):
         return columns
     values, vectors = np.linalg.eigh(columns @ columns.T)
-    kept = values > 1e-9 * values[-1]
+    kept = values > max(1e-9, len(columns) * np.finfo(values.dtype).eps) * values[-1]
     return (vectors[:, kept] / np.sqrt(values[kept])).T @ columns
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -13,8 +14,8 @@ from .experiment import Record
 from .floor import deviations
 from .judged import judged, lowest
 
-SAME_SPEED = 0.05
-"""Relative difference of mean speeds within which drives repeat one another."""
+SAME_SPEED, COMMON = 0.05, 0.5
+"""Relative difference of mean speeds within which drives repeat one another, and share of the shorter that both must have driven."""
 
 REPEATS = "from repeats"
 NIL = "taken as nil: no drive was repeated"
@@ -23,6 +24,14 @@ ASSUMED = "assumed from the noise densities of the instruments: no drive was rep
 
 INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 """Instrument that a signal of this unit is recorded with."""
+
+
+class Course(NamedTuple):
+    """What drives that repeat one another drove: the mean ``speed`` of the first (m/s), ``start`` and ``end`` (m)."""
+
+    speed: float
+    start: float
+    end: float
 
 
 @dataclass(frozen=True)
@@ -85,15 +94,28 @@ def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
 
 def repeats(comparison: xr.Dataset) -> list[list[int]]:
     """Numbers of the drives that repeat one another, at least two in each list."""
-    groups: list[tuple[float, list[int]]] = []
-    for number, speed in enumerate(comparison["v_x"].mean("time").values):
-        for known, own in groups:
-            if abs(known - speed) < SAME_SPEED * known:
-                own.append(number)
-                break
-        else:
-            groups.append((float(speed), [number]))
-    return [own for _, own in groups if len(own) > 1]
+    courses: list[Course] = []
+    groups: list[list[int]] = []
+    for number, place in enumerate(comparison["s"].transpose("drive", "time").values):
+        known = np.isfinite(place)
+        group = joined(courses, place[known], comparison["time"].values[known])
+        groups += [[]] * (len(courses) - len(groups))
+        groups[group] = [*groups[group], number]
+    return [own for own in groups if len(own) > 1]
+
+
+def joined(courses: list[Course], place: np.ndarray, time: np.ndarray) -> int:
+    """Number of the first of ``courses`` that a drive (places in m over time in s) repeats, which is cut to what they have in common; of a
+    course of its own, which is added, where there is none."""
+    own = Course(float(np.ptp(place) / np.ptp(time)), float(np.min(place)), float(np.max(place)))
+    for number, known in enumerate(courses):
+        start, end = max(own.start, known.start), min(own.end, known.end)
+        enough = COMMON * min(own.end - own.start, known.end - known.start)
+        if abs(known.speed - own.speed) < SAME_SPEED * known.speed and end - start > enough:
+            courses[number] = Course(known.speed, start, end)
+            return number
+    courses.append(own)
+    return len(courses) - 1
 
 
 def _squares(comparison: xr.Dataset) -> np.ndarray:

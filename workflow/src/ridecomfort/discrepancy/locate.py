@@ -80,7 +80,8 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
         own, length = _by_stretch([(d.own.place, d.own.noise) for d in drives if d.own], edges, bands, rate)
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
         floor = np.where(length[:, None] > 0, own, mean)
-    measured = np.mean([[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives], axis=0).T
+    powers = [[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives]
+    measured = np.average(powers, axis=0, weights=[len(d.place) for d in drives]).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
     whole = above.sum(axis=(1, 2), keepdims=True)
     conditions, condition_edges, levels, by_condition = _conditions(drives, bands)

@@ -20,7 +20,7 @@ from ..vocabulary import SIGNALS, VARIABLES
 from .candidates import candidate
 from .car import Car
 from .experiment import Record, Size
-from .explain import INSTRUMENT, SAME_SPEED
+from .explain import INSTRUMENT, Course, joined
 from .judged import LOWEST, LOWEST_OF_DRIVER
 
 CALIBRATION_PROBE = 0.02
@@ -78,16 +78,16 @@ def car(
 ) -> Car:
     """The experiment of these drives. ``vehicle`` and ``effects`` are the calibrated ones.
 
-    Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, the others of those sites and one of
-    each speed of the other sites are held out.
-    ``bounds``: of calibrated parameters, beside tab:constraints. ``uncertain``: share by which further
+    Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, the others of those sites and, of drives that
+    repeat one another, one on the other sites are held out.
+    ``bounds``: of the parameters that are calibrated (default tab:constraints). ``uncertain``: share by which further
     parameters of the vehicle may be wrong (default UNCERTAIN). ``noise_density``: of the instruments by site and drive, as for
     ``explain.explain``. ``library_names``: the effects to look
     among, by default all of the library and of the user's folder but those of the model. ``each_record``: a ``map`` over drives.
     """
     effects = {name: dict(sizes or {}) for name, sizes in (effects or {}).items()}
     fitted_on = list(fitted_on) if fitted_on else [sites[0].name]
-    sites = [site if site.name in fitted_on else replace(site, drives=_once_a_speed(site.drives)) for site in sites]
+    sites = [site if site.name in fitted_on else replace(site, drives=_not_repeated(site.drives)) for site in sites]
 
     options = {"effects_folder": effects_folder, **(options or {})}
 
@@ -99,7 +99,7 @@ def car(
     known = library.find(effects_folder)
     chosen = [entry.effect for entry, _ in library.choose(effects, effects_folder)]
     effects |= {effect.name: effect.values(effects[effect.name]) for effect in chosen}
-    free = _parameters(vehicle, {**calibrate.BOUNDS, **(bounds or {})}, UNCERTAIN if uncertain is None else uncertain)
+    free = _parameters(vehicle, calibrate.BOUNDS if bounds is None else bounds, UNCERTAIN if uncertain is None else uncertain)
     for effect in chosen:
         own = candidate(effect)
         free += [replace(size, neutral=effects[effect.name][size.key.partition(".")[2]]) for size in own.sizes]
@@ -113,33 +113,38 @@ def car(
 
 
 def opened(
-    measured: Mapping[str, tuple], vehicle, *, calibration: xr.Dataset | None = None, effects=None, among=None, workers=None, **settings
-) -> Car:
+    measured: Mapping[str, tuple], vehicle, *, calibration: xr.Dataset | None = None, effects=None, bounds=None, among=None, workers=None,
+    **settings,
+) -> Car:  # fmt: skip
     """The experiment of ``measured`` drives, mapping of site to (road, aligned drives), beside a vehicle and its ``calibration``.
 
-    ``among``: names of the effects to look among; ``workers``: drives side by side, by default one for each core; ``settings`` as for
-    ``car``.
+    What was calibrated is fitted again, within ``bounds`` or those of the calibration; without one, the parameters of tab:constraints
+    and of ``bounds`` are. ``among``: names of the effects to look among; ``workers``: drives side by side, by default one for each core;
+    ``settings`` as for ``car``.
     """
     vehicle, effects = apply(calibration, vehicle, effects)
     count = pool.workers() if workers is None else workers
     each = pool.side_by_side(count)
-    return car(sites_of(measured), vehicle, effects=effects, library_names=among, each_record=each, **settings)
+    limits = _calibrated_bounds(calibration, bounds or {})
+    return car(sites_of(measured), vehicle, effects=effects, bounds=limits, library_names=among, each_record=each, **settings)
 
 
-def _same(speed: float, speeds: Sequence[float]) -> float | None:
-    """The first of ``speeds`` at which a drive repeats one at ``speed``."""
-    return next((known for known in speeds if abs(known - speed) < SAME_SPEED * known), None)
+def _calibrated_bounds(calibration: xr.Dataset | None, given: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
+    """Bounds of the parameters of the vehicle that are calibrated."""
+    if calibration is None:
+        return {**calibrate.BOUNDS, **given}
+    names = map(str, calibration["parameter"].values)
+    own = {name: pair for name, *pair in zip(names, calibration["lower"].values, calibration["upper"].values)}
+    return {name: given.get(name, pair) for name, pair in own.items() if "." not in name}
 
 
-def _once_a_speed(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
-    """The first drive of every mean speed."""
-    speeds, kept = [], []
+def _not_repeated(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
+    """The drives but those that repeat one before."""
+    courses: list[Course] = []
+    first = {}
     for drive in drives:
-        speed = float(drive["v_x"].mean())
-        if _same(speed, speeds) is None:
-            speeds.append(speed)
-            kept.append(drive)
-    return kept
+        first.setdefault(joined(courses, drive["s"].values, drive["time"].values), drive)
+    return list(first.values())
 
 
 def sites_of(measured: Mapping[str, tuple]) -> list[Site]:
@@ -166,9 +171,11 @@ def _settled(again: Replay) -> Replay:
 
 
 def _parameters(vehicle, calibrated: Mapping[str, Sequence[float]], uncertain: Mapping[str, float]) -> list[Size]:
-    """Parameters of the vehicle that are fitted, within the bounds of calibration or the share by which they may be wrong."""
+    """Parameters of the vehicle that are fitted, within the bounds of calibration or, others, the share by which they may be wrong."""
     free = [_parameter(name, vehicle[name], pair) for name, pair in calibrated.items() if "." not in name]
     for name, share in uncertain.items():
+        if name in calibrated:
+            continue
         span = PARAMETERS[name]
         lower, upper = (min(max(vehicle[name] * factor, span.lower), span.upper) for factor in (1 - share, 1 + share))
         if lower < upper:  # what a vehicle has not, as a bar, is no size of it
@@ -185,25 +192,23 @@ def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[
     """A record for every replay, in their order, that of the sites and their drives."""
     records, rest = [], iter(replays)
     for site in sites:
-        speeds: list[float] = []
+        courses: list[Course] = []
         for drive in site.drives:
             role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
             density = noise_density.get(site.name, {}).get(str(drive.attrs["name"]), {})
             noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
-            records.append(replace(_record(site.name, next(rest), role, speeds, len(sites) > 1), noise=noise))
+            records.append(replace(_record(site.name, next(rest), role, courses, len(sites) > 1), noise=noise))
     return records
 
 
-def _record(site: str, again: Replay, role: str, speeds: list[float], several: bool) -> Record:
+def _record(site: str, again: Replay, role: str, courses: list[Course], several: bool) -> Record:
     place, time = again.place[again.compared], again.time[again.compared]
-    speed = float(np.ptp(place) / np.ptp(time))
-    same = _same(speed, speeds)
-    if same is None:
-        speeds.append(speed)
+    number = joined(courses, place, time)
+    speed = courses[number].speed
     rate = float((len(time) - 1) / np.ptp(time))
     band = (LOWEST, min(HIGHEST * float(again.drive.attrs["cut_off"]), 0.45 * rate))
     name = str(again.drive.attrs["name"])
     return Record(
-        f"{site} {name}" if several else name, role, site, f"{site} at {3.6 * (same or speed):.0f} km/h", rate, band,
-        place, BLOCK * (same or speed), tuple(LOWEST_OF_DRIVER.get(name, LOWEST) for name in SIGNALS),
+        f"{site} {name}" if several else name, role, site, f"{site}, course {number + 1}, at {3.6 * speed:.0f} km/h", rate, band,
+        place, BLOCK * speed, tuple(LOWEST_OF_DRIVER.get(name, LOWEST) for name in SIGNALS),
     )  # fmt: skip

@@ -11,6 +11,12 @@ from ..errors import InputError
 from . import experiment as exp
 from .experiment import Experiment, Frame, Size
 
+Job = tuple[str, int]
+"""A candidate and the number of its shape."""
+
+Raw = Mapping[str, Mapping[int, np.ndarray]]
+"""Change of the residuals per probe of each size, by record."""
+
 MANY = 4
 """Sizes from which on steps twice as long are worth the drives that probes start from."""
 
@@ -24,7 +30,7 @@ class Probe:
     values: Mapping[str, float]
     residuals: Mapping[int, np.ndarray]
 
-    def __call__(self, job: tuple[str, int]) -> dict[str, dict[int, np.ndarray]]:
+    def __call__(self, job: Job) -> dict[str, dict[int, np.ndarray]]:
         candidate = next(c for c in self.experiment.candidates if c.name == job[0])
         columns = {}
         for size in candidate.sizes:

@@ -10,6 +10,7 @@ import numpy as np
 from . import event, evidence
 from .evidence import Evidence
 from .experiment import Candidate, Frame
+from .probe import Job, Raw
 
 LEVEL = 0.05
 """Probability of a false alarm over the whole library."""
@@ -26,17 +27,8 @@ HELD_OUT_Z = 2.0
 DECOY_LEVEL = 0.005
 """p-value at which a decoy ranks, where another is significant, too; one alone would do so by chance now and then."""
 
-FINER = 4.0
-"""Parts of a block in the second form of the test, which sees rare events better."""
-
 BY_BLOCKS, BY_SHAPE = 1.5, 3.0
 """Factors of the p-values: three forms of the test are tried, two of which ``evidence`` has accounted for."""
-
-Job = tuple[str, int]
-"""A candidate and the number of its shape."""
-
-Columns = Mapping[str, Mapping[int, np.ndarray]]
-"""Change of the residuals per probe of each size, by record."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +62,7 @@ class Proposal:
 
 
 def propose(
-    frame: Frame, residuals: Mapping[int, np.ndarray], free: np.ndarray, columns: Mapping[Job, Columns],
+    frame: Frame, residuals: Mapping[int, np.ndarray], free: np.ndarray, columns: Mapping[Job, Raw],
     candidates: Mapping[str, Candidate], seed: Sequence[int],
 ) -> Proposal:  # fmt: skip
     """Test ``columns`` on the white residuals of the fitted records; ``free``: white directions that are fitted anyway.
@@ -94,7 +86,7 @@ def propose(
     group += range(len(columns), len(columns) + DECOYS)
     sign += [0] * DECOYS
     found = evidence.score_test(
-        frame.flat(residuals), free, np.stack([*rows, *decoys]), [frame.blocks(), frame.blocks(FINER)],
+        frame.flat(residuals), free, np.stack([*rows, *decoys]), [frame.blocks(), frame.blocks(event.FINER)],
         group=group, sign=sign, seed=sum(seed),
     )  # fmt: skip
     by_shape, rare = event.p_values(frame, found.residual, found.projected, np.array(group), np.array(sign))
@@ -119,7 +111,7 @@ def propose(
     )
 
 
-def _decoys(frame: Frame, columns: Sequence[Columns], rng: np.random.Generator) -> np.ndarray:
+def _decoys(frame: Frame, columns: Sequence[Raw], rng: np.random.Generator) -> np.ndarray:
     rows = []
     for _ in range(DECOYS):
         column = next(iter(columns[rng.integers(len(columns))].values()))

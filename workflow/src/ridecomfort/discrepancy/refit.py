@@ -160,9 +160,9 @@ def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size], held: bool = False)
 
     Errors depend on one another where drives come by the same place, and all along a drive, whose path, clock and mounting
     are its own: clustered both ways (Cameron, Gelbach and Miller 2011, eq. 2.8), degrees of freedom by Satterthwaite (1946).
-    A size of an effect that ended at a bound is held there for the intervals of the others. A parameter that did is not: it may
-    be anywhere within its bounds if it went there by the fault of something else, and no farther off than they are wide. ``held``: it is
-    held, too, as it is where only the question is asked whether a size is there at all.
+    A size of an effect that ended at a bound is held there for the intervals of the others. A parameter of the vehicle at its bound stays
+    free: something else may have driven it there, so that its whole range counts as possible. ``held``: it is held, too, which suits
+    the question whether a size is there at all.
     """
     free = {size.key for size in frame.experiment.free}
     moving = [size for size in sizes if (size.key in free and not held) or is_within(size, fit.values)]

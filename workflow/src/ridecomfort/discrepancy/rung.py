@@ -11,13 +11,11 @@ from ..errors import InputError
 from . import experiment as exp
 from . import floor, probe, realign, refit
 from .experiment import Experiment, Frame, Size
+from .probe import Raw
 from .refit import Fit
 
 FITS = 2
 """Fits from one alignment, each in the frame of the residuals of the one before: an error in what makes it white comes out too small."""
-
-Raw = Mapping[str, Mapping[int, np.ndarray]]
-"""Change of the residuals per probe of each size, by record."""
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from ..errors import InputError
 from . import cluster, floor, probe, realign, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment
+from .probe import Job, Raw
 from .propose import HELD_OUT_Z, propose
 from .refit import Fit
 from .rung import Rung, begin, climb, final_fit, roles
@@ -40,10 +41,10 @@ MINOR = 0.05
 """Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
 
 WEAK = 16.0
-"""Fall of the white loss of held-out drives below which not even the truth reaches HELD_OUT_Z half of the time: a change of that size
-falls by itself on average, with a standard deviation of twice its root. There a fall confirms what the fitted drives leave no doubt of that
-is more than chance without it, when the loss rises by as much on average. So it does for a first effect, however large; a later one may be
-what the shape of those before it leaves, on all drives, and has to do better."""
+"""White power of what an effect changes on the held-out drives below which even the true effect misses HELD_OUT_Z half of the time: if
+it is there their loss falls by that power on average, with a standard deviation of twice its root; if not, it rises by as much. Below
+this a fall beyond chance (ABSENT_Z) confirms an effect that the fitted drives leave no doubt of. A first effect is confirmed so at any
+power; a later one, which may be what the shape of those before it leaves on all drives, must reach HELD_OUT_Z."""
 
 ABSENT_Z = 1.645
 """z of that chance: one in twenty."""
@@ -149,7 +150,7 @@ class _Search:
     def _state(self, name: str, fit: Fit, check) -> State:
         return State(name, fit, *self.rung.squares(fit, check))
 
-    def _probe(self, base: Fit) -> dict[tuple[str, int], dict[str, dict[int, np.ndarray]]]:
+    def _probe(self, base: Fit) -> dict[Job, Raw]:
         """Change of the residuals per probe of every size of every candidate and shape, in single precision."""
         jobs = [(c.name, shape) for c in self.rung.experiment.candidates for shape in range(len(c.shapes))]
         results = self.each(probe.Probe(*probe.coarsely(self.rung.experiment, base.values, base.residuals)), jobs)
@@ -273,7 +274,7 @@ def _merit(trial: Trial) -> tuple[bool, float]:
 class _Try:
     tries: Tries
 
-    def __call__(self, job: tuple[str, int]) -> Trial | None:
+    def __call__(self, job: Job) -> Trial | None:
         return self.tries.first(job)
 
 

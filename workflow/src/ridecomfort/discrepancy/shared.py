@@ -71,13 +71,14 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     pairs = list(_pairs(frame, {index: frame.whitening[index](part) for index, part in cleaned.items()}))
     if not pairs:
         return Shared(float("nan"), float("nan"), float("nan"), None)
-    sums, power = [], 0.0
+    by_block: dict[tuple[str, int], float] = {}
+    power = 0.0
     for record, one, other in pairs:
-        numbers = np.unique(record.blocks(FINER), return_inverse=True)[1]
-        sums.append(np.bincount(numbers, (one * other).sum(axis=0)))
+        blocks, numbers = np.unique(record.blocks(FINER), return_inverse=True)
+        for block, product in zip(blocks.tolist(), np.bincount(numbers, (one * other).sum(axis=0)).tolist()):
+            by_block[record.condition, block] = by_block.get((record.condition, block), 0.0) + product
         power += np.sqrt(np.sum(one**2) * np.sum(other**2))
-    length = min(len(part) for part in sums)
-    total = sum(part[:length] for part in sums)
+    total = np.array(list(by_block.values()))
     z = float(total.sum() / np.sqrt(np.sum(total**2)))
     # Equally loud all along the road: were rough places the same ones in all repeats, neighbouring frequencies would not be independent.
     even = {index: part / frame.whitening[index].scale for index, part in cleaned.items()}

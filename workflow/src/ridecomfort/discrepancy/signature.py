@@ -16,7 +16,10 @@ import numpy as np
 import xarray as xr
 from scipy.linalg import block_diag
 
+from ..calibrated import with_values
 from ..effects import library
+from ..vehicle.constants import DAMPING, SPRING, STATIC_DEFLECTION, wheel_table
+from ..vehicle.parameters import Vehicle
 from . import evidence, probe
 from .experiment import Candidate, Frame, Size
 from .made import beside
@@ -46,6 +49,9 @@ SEEN: Mapping[str, Seen] = {
 STEP, STEADY = 1e-3, 1000
 """s, and the number of such steps, over which the states of an effect settle at steady motion."""
 
+SPIN = 70.0
+"""rad/s of the wheels meanwhile, as at 80 km/h."""
+
 ARGUMENTS = {place.port: ", ".join(place.arguments) for place in PLACES.values()}
 
 
@@ -71,7 +77,8 @@ def signature(
         curves = list(each(_Estimate(frame, residuals, free), list(zip(found, SEEN.values()))))
     known = library.find(effects_folder)
     names = [name for name in named or {} if known[name].effect.port in ARGUMENTS]
-    return _dataset(curves, names, [_shapes(known[name], (named or {})[name]) for name in names])
+    vehicle, _ = with_values(rung.experiment.vehicle, {}, values)
+    return _dataset(curves, names, [_shapes(known[name], (named or {})[name], vehicle) for name in names])
 
 
 @dataclass(frozen=True)
@@ -132,9 +139,10 @@ def _without_line(knots: np.ndarray, spread: np.ndarray) -> np.ndarray:
     return block_diag(*parts)
 
 
-def _shapes(entry: library.Entry, sizes: Mapping[str, float]) -> dict[str, np.ndarray]:
-    """Force of an effect at the knots of what it may depend on, (axle, knot), by what that is; of one with states, in steady motion."""
-    sizes = entry.effect.values(sizes)
+def _shapes(entry: library.Entry, sizes: Mapping[str, float], vehicle: Vehicle) -> dict[str, np.ndarray]:
+    """Force of an effect of a vehicle at the knots of what it may depend on, (axle, knot), by what that is; of one with states, in steady
+    motion."""
+    sizes, wheels = entry.effect.values(sizes), wheel_table(vehicle)
     found = {}
     for label, seen in SEEN.items():
         if seen.port != entry.effect.port:
@@ -142,9 +150,11 @@ def _shapes(entry: library.Entry, sizes: Mapping[str, float]) -> dict[str, np.nd
         force = np.zeros((len(AXLES), len(seen.knots)))
         for a, wheel in enumerate((0, 2)):
             for k, knot in enumerate(seen.knots):
-                known = {"wheel": wheel, "deflection": 0.0, "velocity": 0.0, "stiffness": 28000.0, "damping": 2100.0}
-                known |= {"force_x": 0.0, "force_y": 0.0, "rest": 0.015, "rotation": 0.0, "spin": 70.0}
-                known |= {"stiffness": 300000.0, "deflection": 0.015} if seen.port == "tyre_vertical" else {}
+                known = {"wheel": wheel, "deflection": 0.0, "velocity": 0.0, "force_x": 0.0, "force_y": 0.0, "rotation": 0.0, "spin": SPIN}
+                known |= {"stiffness": wheels[wheel, SPRING], "damping": wheels[wheel, DAMPING]}
+                if seen.port == "tyre_vertical":
+                    rest = wheels[wheel, STATIC_DEFLECTION]
+                    known |= {"stiffness": vehicle["tyre_radial_stiffness"], "rest": rest, "deflection": rest}
                 known[seen.expression.partition(" ")[0]] += knot
                 force[a, k] = _steady(entry, [known[name] for name in ARGUMENTS[seen.port].split(", ")], sizes)
         found[label] = force

@@ -28,7 +28,8 @@ STRIDE = 256
 """Samples to whole numbers of which the length of a transform is rounded up."""
 
 LEAST = 1e-8
-"""Share of the mean variance, all channels in units of their own, that a direction keeps: a sensor that repeats another."""
+"""Added to the power of each channel, as a share of its mean over frequency, so that the matrix can be inverted even where one channel
+copies another."""
 
 
 @dataclass(frozen=True)

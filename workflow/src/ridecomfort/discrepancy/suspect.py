@@ -1,4 +1,4 @@
-"""Signs that the measurement, and not the model, is wrong: noise in the scanned road, clock, gain, tilt."""
+"""Signs that the measurement, and not the model, is wrong: noise in the scanned road, clock, gain, sign."""
 
 from __future__ import annotations
 

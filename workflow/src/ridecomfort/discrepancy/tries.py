@@ -11,8 +11,9 @@ from ..errors import InputError
 from . import evidence, floor, probe, refit
 from . import experiment as exp
 from .experiment import Candidate, Size
+from .probe import Job, Raw
 from .refit import Fit
-from .rung import Raw, Rung, roles
+from .rung import Rung, roles
 from .selection import Trial
 
 CONTENT = 0.98
@@ -38,9 +39,6 @@ SCALES = 0.05
 
 LEAST_MOVED = 0.1
 """Probes that a shape must move by to be another."""
-
-Job = tuple[str, int]
-"""A candidate and the number of its shape."""
 
 
 @dataclass(frozen=True)

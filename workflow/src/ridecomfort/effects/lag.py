@@ -5,7 +5,8 @@ from __future__ import annotations
 from numba import njit
 
 SHORTEST = 0.005
-"""s; five steps of the kernel. States that answer faster could not be integrated explicitly."""
+"""s; five steps of the kernel, two and a half where directions are probed. States that answer faster could not be integrated
+explicitly."""
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)

@@ -120,8 +120,9 @@ def _load(path: Path, changed: int) -> Entry:
 
 
 def _check_arguments(effect: Effect, act: Callable, path: Path) -> None:
-    """Raise InputError where ``act`` does not take what its port sees, its states and its parameters."""
+    """Raise InputError where ``act`` does not take what its port sees, its states and its parameters, in this order, by which a kernel is
+    handed them."""
     expected = [*PORTS[effect.port].sees, *effect.states, *(parameter.name for parameter in effect.parameters)]
     taken = list(inspect.signature(act).parameters)
-    if len(taken) != len(expected):
+    if len(taken) != len(expected) or any(name != own and name in expected for name, own in zip(taken, expected)):
         raise InputError(f"act takes ({', '.join(taken)}), expected ({', '.join(expected)})", file=path)

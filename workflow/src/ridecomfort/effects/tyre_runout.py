@@ -1,10 +1,7 @@
 """Tyres that are not round."""
 
 from ridecomfort.effects.contract import Effect, Parameter
-from ridecomfort.effects.wave import wave
-
-PHASE = 2.4
-"""rad from wheel to wheel; the golden angle, by which no two wheels ever turn in step."""
+from ridecomfort.effects.wave import PHASE, wave
 
 effect = Effect(
     name="tyre_runout",

@@ -6,6 +6,9 @@ from math import floor, pi
 
 from numba import njit
 
+PHASE = 2.4
+"""rad from wheel to wheel; the golden angle, by which no two wheels ever turn in step."""
+
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def wave(angle):

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from . import catalogue, published
+from .classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
 from .study import Study
 from .table import Column, Source, Table
 from .tables.agreement import DIFFERENCE, POOLED, pair_title, place_title
@@ -272,11 +273,10 @@ CLAIMS: tuple[Callable[[Evidence], list[Answer]], ...] = (
 )
 """One rule a claim, in the order of ``published.figures()["claims"]``."""
 
-_STYLES = ("PT", "ND", "AG")
 _CLASSES = {
-    "thresholding_table": [(axis, style) for axis in ("a_x", "a_y", "a_z") for style in _STYLES],
-    "rid_comf_res": [("iso2631", band) for band in ("LU", "FU", "U", "VU", "EU")],
-    "rid_comf_res2": [("iri", quality) for quality in ("G", "F", "M", "P")],
+    "thresholding_table": [(axis, style) for axis in ("a_x", "a_y", "a_z") for style in STYLES],
+    "rid_comf_res": [("iso2631", band) for band in CRITICAL_BANDS],
+    "rid_comf_res2": [("iri", quality) for quality in CRITICAL_QUALITIES],
 }
 _METHODS = {
     "Thresholding": [key for key in _CLASSES["thresholding_table"] if key != ("a_z", "PT")],

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import xarray as xr
+
 from ... import store
 from ...errors import InputError
 from ...vocabulary import DRIVE
@@ -13,20 +15,23 @@ SUFFIXES = (".nc", ".nc4")
 
 
 def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
-    """Quantities of a drive in SI units by the ``units`` of each variable, and the attributes that the file holds.
+    """Quantities of a drive in SI units, and the attributes that the file holds.
 
-    The file has one dimension, ``time`` (s); ``columns`` may map quantities to
-    variables of other names. ``e`` that is all NaN counts as not measured. A file
-    without the attribute ``gravity`` holds accelerations, as simulators give them.
+    The file has one dimension, time. ``columns`` may map quantities (and ``time``) to variables of other names, with the unit of
+    those that have no ``units`` of their own and, for axes that point the other way, ``factor: -1``. ``e`` that is
+    all NaN counts as not measured. A file without the attribute ``gravity`` holds accelerations, as simulators give them.
+    Raises InputError naming the variable.
     """
     dataset = store.read(path)
-    named = {quantity: entry["column"] for quantity, entry in (columns or {}).items() if quantity != "time"}
-    clock = (columns or {}).get("time", {}).get("column", "time")
+    named = dict(columns or {})
+    clock = named.get("time", {}).get("column", "time")
     if clock not in dataset.variables:
         raise InputError(f"has no variable {clock!r} for time", file=path)
+    time = _scale("time", dataset[clock], named.get("time", {}), path) * dataset[clock].values
     quantities = {}
     for quantity in DRIVE:
-        variable = named.get(quantity, quantity)
+        entry = named.get(quantity, {})
+        variable = entry.get("column", quantity)
         if variable not in dataset:
             if quantity in named:
                 raise InputError(f"has no variable {variable!r} for {quantity}", file=path)
@@ -36,10 +41,7 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
             raise InputError(f"{variable} has dims {series.dims} (expected time alone)", file=path)
         if quantity == "e" and series.isnull().all():
             continue
-        scale = 1.0
-        if "units" in series.attrs:
-            scale = units.factor(quantity, series.attrs["units"], file=path, place=variable)
-        quantities[quantity] = dataset[clock].values, scale * series.values
+        quantities[quantity] = time, entry.get("factor", 1.0) * _scale(quantity, series, entry, path) * series.values
     attributes = {"gravity": bool(dataset.attrs.get("gravity", 0))}
     for name in ("name", "role", "lateral_position"):
         if name in dataset.attrs:
@@ -47,3 +49,15 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     if "sensor_x" in dataset.attrs:
         attributes["sensor"] = tuple(float(dataset.attrs[f"sensor_{axis}"]) for axis in "xyz")
     return quantities, attributes
+
+
+def _scale(quantity: str, series: xr.DataArray, entry: Mapping, path) -> float:
+    """What the values of a variable are multiplied with to be in SI units: by its own ``units``, else by the unit of its ``entry``."""
+    stated, given = series.attrs.get("units"), entry.get("unit")
+    scales = [units.factor(quantity, unit, file=path, place=str(series.name)) for unit in (stated, given) if unit is not None]
+    if len(set(scales)) > 1:
+        raise InputError(
+            f"unit {given!r} for {quantity}, but its variable has units {stated!r} (expected the unit of the variable)",
+            file=path, place=str(series.name),
+        )  # fmt: skip
+    return scales[0] if scales else 1.0

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from .. import style
+from ..classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
 from ..notation import symbol
 from ..study import Study
 
@@ -33,8 +34,7 @@ def thresholding_results_2(study: Study) -> Figure:
 
 def ride_comfors(study: Study) -> Figure:
     """fig:ride_comfors: vibration total value of ISO 2631 with its bands and critical sections."""
-    bands = ("LU", "FU", "U", "VU", "EU")
-    drawn, panels = _panels(study, 1, len(bands))
+    drawn, panels = _panels(study, 1, len(CRITICAL_BANDS))
     for site, ((signal, strip),) in zip(study.sites, panels):
         dataset = site.iso2631
         s, values = dataset["s"].values, dataset["a_v"].values
@@ -48,16 +48,15 @@ def ride_comfors(study: Study) -> Figure:
         signal.set_ylim(0, top)
         signal.set_ylabel(style.axis_label("a_v"))
         signal.set_title(site.label)
-        _strip(strip, dataset, "band", bands)
+        _strip(strip, dataset, "band", CRITICAL_BANDS)
     _finish(drawn, panels)
     return drawn
 
 
 def iri_thresholds(study: Study) -> Figure:
     """fig:IRI_thresholds: IRI of the survey and in full resolution, classes at the mean speed of the runs."""
-    qualities = ("G", "F", "M", "P")
     resolution = study.settings["comfort"]["iri"]["segment"]
-    drawn, panels = _panels(study, 1, len(qualities))
+    drawn, panels = _panels(study, 1, len(CRITICAL_QUALITIES))
     for site, ((signal, strip),) in zip(study.sites, panels):
         dataset = site.iri
         s, survey, full = dataset["s"].values, dataset["iri"].values, dataset["iri_full"].values
@@ -78,23 +77,22 @@ def iri_thresholds(study: Study) -> Figure:
         signal.set_ylim(0, top)
         signal.set_ylabel("IRI [m/km]")
         signal.set_title(site.label)
-        _strip(strip, dataset, "quality", qualities)
+        _strip(strip, dataset, "quality", CRITICAL_QUALITIES)
     handles, labels = panels[0][0][0].get_legend_handles_labels()
     _finish(drawn, panels, handles, labels)
     return drawn
 
 
 def _thresholding(study: Study, axes: tuple[str, ...]) -> Figure:
-    styles = ("PT", "ND", "AG")
     shown: dict = {}
-    drawn, panels = _panels(study, len(axes), len(styles), 1.25 if len(axes) > 1 else 1.6)
+    drawn, panels = _panels(study, len(axes), len(STYLES), 1.25 if len(axes) > 1 else 1.6)
     for site, row in zip(study.sites, panels):
         for axis, (signal, strip) in zip(axes, row):
             dataset = site.thresholds
             values = dataset[axis].values
             signal.plot(dataset["s"].values, values, color=style.SIGNAL, linewidth=0.5)
             low, high = _range(values)
-            for name in styles:
+            for name in STYLES:
                 for edge in ("lower", "upper"):
                     level = float(dataset[edge].sel(axis=axis, style=name))
                     if low <= level <= high:
@@ -103,8 +101,8 @@ def _thresholding(study: Study, axes: tuple[str, ...]) -> Figure:
             signal.set_ylim(low, high)
             signal.set_ylabel(style.axis_label(axis))
             signal.set_title(f"{site.label}, {symbol(axis)}")
-            _strip(strip, dataset.sel(axis=axis), "style", styles)
-    named = [name for name in styles if name in shown]
+            _strip(strip, dataset.sel(axis=axis), "style", STYLES)
+    named = [name for name in STYLES if name in shown]
     _finish(drawn, panels, [shown[name] for name in named], [f"threshold {name}" for name in named])
     return drawn
 

@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from .. import published, style
+from ..classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
 from ..notation import symbol
 from ..study import Study
 
@@ -15,10 +16,10 @@ _CLASSES = (
     [
         ("thresholding_table", "thresholds", (axis, name))
         for axis in ("a_x", "a_y", "a_z")
-        for name in ("PT", "ND", "AG")
+        for name in STYLES
     ]
-    + [("rid_comf_res", "iso2631", (name,)) for name in ("LU", "FU", "U", "VU", "EU")]
-    + [("rid_comf_res2", "iri", (name,)) for name in ("G", "F", "M", "P")]
+    + [("rid_comf_res", "iso2631", (name,)) for name in CRITICAL_BANDS]
+    + [("rid_comf_res2", "iri", (name,)) for name in CRITICAL_QUALITIES]
 )
 _DIAMOND = {"marker": "D", "linestyle": "", "color": style.PAPER, "markersize": 3.6, "markerfacecolor": "white"}
 _TITLES = {"rid_comf_res": "ISO 2631", "rid_comf_res2": "IRI"}

@@ -225,10 +225,8 @@ def _sources(sites) -> list[Source]:
 def _notes(study: Study, notes=(), normalisation: bool = True) -> tuple[str, ...]:
     notes = list(notes)
     if normalisation:
-        notes.append(
-            "NRMSE: RMSE over the range (largest − smallest value) of the measured signal; the paper does not "
-            "state how it normalises."
-        )
+        notes.append("NRMSE: RMSE over the range (largest − smallest value) of the measured signal.")
+        notes.append("The paper does not state how it normalises.")
     if study.standin_note():
         notes.append(study.standin_note())
     return tuple(notes)

@@ -7,6 +7,7 @@ import xarray as xr
 
 from ...comfort import bands
 from .. import catalogue, published
+from ..classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
 from ..notation import symbol
 from ..study import Study
 from ..table import Column, Source, Table
@@ -27,7 +28,7 @@ def thresholding_table(study: Study) -> Table:
     rows = [
         (rf"$\pm a_{{{axis[-1]},{style}}}$", (axis, style))
         for axis in ("a_x", "a_y", "a_z")
-        for style in ("PT", "ND", "AG")
+        for style in STYLES
     ]
     return _detections(
         study,
@@ -52,7 +53,7 @@ def rid_comf_res(study: Study) -> Table:
         "rid_comf_res",
         "iso2631",
         "Band",
-        [(band, (band,)) for band in ("LU", "FU", "U", "VU", "EU")],
+        [(band, (band,)) for band in CRITICAL_BANDS],
         lambda dataset, key: dataset.sel(band=key[0]),
         notes=("Bands overlap on purpose (ISO 2631-1, Annex C): a section may count in two of them.",),
     )
@@ -65,7 +66,7 @@ def rid_comf_res2(study: Study) -> Table:
         "rid_comf_res2",
         "iri",
         "Class",
-        [(quality, (quality,)) for quality in ("G", "F", "M", "P")],
+        [(quality, (quality,)) for quality in CRITICAL_QUALITIES],
         lambda dataset, key: dataset.sel(quality=key[0]),
     )
 
@@ -84,10 +85,10 @@ def exceedance(study: Study) -> Table:
         [
             ("thresholds", "Thresholding", f"{axis}, {style}", {"axis": axis, "style": style})
             for axis in ("a_x", "a_y", "a_z")
-            for style in ("PT", "ND", "AG")
+            for style in STYLES
         ]
-        + [("iso2631", "ISO 2631", band, {"band": band}) for band in ("LU", "FU", "U", "VU", "EU")]
-        + [("iri", "IRI", quality, {"quality": quality}) for quality in ("G", "F", "M", "P")]
+        + [("iso2631", "ISO 2631", band, {"band": band}) for band in CRITICAL_BANDS]
+        + [("iri", "IRI", quality, {"quality": quality}) for quality in CRITICAL_QUALITIES]
     )
     rows = []
     for dataset, method, name, place in classes:

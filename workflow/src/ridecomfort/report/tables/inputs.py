@@ -7,13 +7,13 @@ import xarray as xr
 
 from ...vocabulary import SIGNALS, VARIABLES
 from .. import catalogue, published
+from ..classes import QUALITIES, STYLES
 from ..notation import symbol, unit
 from ..study import Site, Study
 from ..table import Column, Source, Table
 from .comfort import OURS, PAPER, windows
 
 GON_PER_RAD = 200.0 / np.pi
-QUALITIES = ("VG", "G", "F", "M", "P")
 ERRATUM = "†"
 
 
@@ -174,7 +174,7 @@ def thresholds_manual(study: Study) -> Table:
         columns.append(Column(f"{axis}_lower", (symbol(axis), "lower"), ".2f"))
         columns.append(Column(f"{axis}_upper", (symbol(axis), "upper"), ".2f"))
     rows = []
-    for style in ("PT", "ND", "AG"):
+    for style in STYLES:
         chosen = dataset.sel(style=style)
         ours = [float(chosen[edge].sel(axis=axis)) for axis in ("a_x", "a_y", "a_z") for edge in ("lower", "upper")]
         rows.append((style, OURS, *ours))
@@ -185,7 +185,7 @@ def thresholds_manual(study: Study) -> Table:
     )
     origins: dict[str, list[str]] = {}
     for axis in ("a_x", "a_y", "a_z"):
-        for style in ("PT", "ND", "AG"):
+        for style in STYLES:
             origins.setdefault(str(dataset["source"].sel(axis=axis, style=style).values), []).append(f"{symbol(axis)} {style}")
     notes = (
         "Bands of this study from: " + "; ".join(f"{origin} ({', '.join(where)})" for origin, where in origins.items()) + ".",

@@ -6,11 +6,10 @@ import numpy as np
 import xarray as xr
 
 from .. import catalogue
+from ..classes import QUALITIES
 from ..study import Study
 from ..table import Column, Source, Table
 from .comfort import notes_with_standin
-
-QUALITIES = ("VG", "G", "F", "M", "P")
 
 
 def iri_resolution(study: Study) -> Table:

@@ -33,8 +33,8 @@ def weighting(study: Study) -> Table:
     )
     notes = (
         "exact: in the frequency domain (comfort.weighting.weight), as everywhere in this study. causal: second-order "
-        "sections fitted to the analogue response, for streaming. bilinear: the paper's way, the bilinear transform "
-        "without prewarping (eq:transf, with the sampling period).",
+        "sections fitted to the analogue response, for streaming. bilinear: the bilinear transform without prewarping.",
+        "bilinear is the paper's way (eq:transf, with the sampling period).",
         "0.5 to 80 Hz lies above most of what Wf, for 0.1 to 0.5 Hz, lets pass: what deviates there is next to nothing.",
     )
     caption = catalogue.INPUT_TABLES["weighting"]
