@@ -7,7 +7,7 @@ parameters. Everything else, which effect, how sure, how large, is done with tho
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
@@ -117,6 +117,12 @@ class Experiment(Protocol):
         """The same in steps twice as long, whose residuals change with its values nearly alike, and which is simulated sooner."""
 
 
+def by_record(experiment: Experiment, function: Callable, indices: Iterable[int]) -> dict:
+    """What a function of the number of a record returns, by that number."""
+    indices = list(indices)
+    return dict(zip(indices, experiment.each_record(function, indices)))
+
+
 @dataclass
 class Frame:
     """Records made white and free of their nuisances, as one long vector for least squares."""
@@ -128,8 +134,7 @@ class Frame:
     spans: dict[int, Span] = field(init=False)
 
     def __post_init__(self):
-        each = self.experiment.each_record
-        self.spans = dict(zip(self.indices, each(lambda i: Span(self.nuisances[i], self.whitening[i]), self.indices)))
+        self.spans = by_record(self.experiment, lambda i: Span(self.nuisances[i], self.whitening[i]), self.indices)
 
     def flat(self, parts: Mapping[int, np.ndarray]) -> np.ndarray:
         """White vector of a residual or column per record, nuisances projected out."""
@@ -156,13 +161,17 @@ class Frame:
         """Amounts (direction,) of its nuisances that a residual (channel, sample) holds."""
         return self.spans[index].amounts(self.whitening[index](residual))
 
+    def all_amounts(self, residuals: Mapping[int, np.ndarray]) -> dict[int, np.ndarray]:
+        """``amounts`` of several records."""
+        return by_record(self.experiment, lambda index: self.amounts(index, residuals[index]), residuals)
+
     def cleaned(self, index: int, residual: np.ndarray) -> np.ndarray:
         """A residual (channel, sample) less what its nuisances explain of it."""
         return self.spans[index].cleaned(residual)
 
     def all_cleaned(self, residuals: Mapping[int, np.ndarray]) -> dict[int, np.ndarray]:
         """``cleaned`` of several records."""
-        return {index: self.cleaned(index, residual) for index, residual in residuals.items()}
+        return by_record(self.experiment, lambda index: self.cleaned(index, residuals[index]), residuals)
 
     def parts(self, rows: np.ndarray) -> list[np.ndarray]:
         """Vectors (..., element) taken apart by record, each (..., channel, sample)."""
@@ -199,13 +208,13 @@ def frame(
     """
     indices = sorted(residuals)
     found = condition_spectra(experiment, residuals if cleaned is None else cleaned)
-    whitening = {}
-    for index in indices:
+
+    def whitening(index: int) -> Whitening:
         record = experiment.records[index]
         plain = Whitening(found[record.condition], record.rate, record.band)
-        scale = spectrum.local_scale(plain((cleaned or residuals)[index]), record.rate)
-        whitening[index] = Whitening(found[record.condition], record.rate, record.band, scale)
-    made = Frame(experiment, indices, whitening, dict(nuisances))
+        return replace(plain, scale=spectrum.local_scale(plain((cleaned or residuals)[index]), record.rate))
+
+    made = Frame(experiment, indices, by_record(experiment, whitening, indices), dict(nuisances))
     if cleaned is not None:
         return made
     return frame(experiment, residuals, nuisances, made.all_cleaned(residuals))
@@ -226,14 +235,12 @@ def condition_spectra(experiment: Experiment, residuals: Mapping[int, np.ndarray
 
 def simulate(experiment: Experiment, values: Mapping[str, float], indices: Iterable[int]) -> dict[int, np.ndarray]:
     """Residuals of several records."""
-    indices = list(indices)
-    return dict(zip(indices, experiment.each_record(lambda index: experiment.residual(values, index), indices)))
+    return by_record(experiment, lambda index: experiment.residual(values, index), indices)
 
 
 def nuisances(experiment: Experiment, values: Mapping[str, float], indices: Iterable[int]) -> dict[int, Rows]:
     """Nuisances of several records."""
-    indices = list(indices)
-    return dict(zip(indices, experiment.each_record(lambda index: taken_apart(experiment.nuisances(values, index)), indices)))
+    return by_record(experiment, lambda index: taken_apart(experiment.nuisances(values, index)), indices)
 
 
 def secant(

@@ -26,7 +26,7 @@ def aligned(
     moved, experiment = closer(experiment, values, residuals, frame)
     if moved is residuals:
         return residuals, frame, experiment
-    frame = exp.frame(experiment, moved, frame.nuisances, {i: frame.cleaned(i, moved[i]) for i in moved})
+    frame = exp.frame(experiment, moved, frame.nuisances, frame.all_cleaned(moved))
     residuals, experiment = closer(experiment, values, moved, frame)
     return residuals, frame, experiment
 
@@ -35,12 +35,12 @@ def closer(
     experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray], frame: Frame
 ) -> tuple[Mapping[int, np.ndarray], Experiment]:
     """Residuals with those records realigned that this brings closer in ``frame``, and the experiment in which they are."""
-    loss = {i: _loss(frame, i, residuals[i]) for i in residuals}
+    loss = _losses(frame, residuals)
     for _ in range(ROUNDS):
         before = sum(loss.values())
-        amounts = {i: frame.amounts(i, residuals[i]) for i in residuals}
+        amounts = frame.all_amounts(residuals)
         realigned, moved = experiment.realigned(amounts).retuned(values, list(residuals))
-        after = {i: _loss(frame, i, moved[i]) for i in residuals}
+        after = _losses(frame, moved)
         better = [i for i in residuals if after[i] < loss[i]]
         if better and len(better) < len(residuals):
             realigned = experiment.taking(realigned, better)
@@ -52,5 +52,5 @@ def closer(
     return residuals, experiment
 
 
-def _loss(frame: Frame, index: int, residual: np.ndarray) -> float:
-    return float(np.sum(frame.flat_of(index, residual) ** 2))
+def _losses(frame: Frame, residuals: Mapping[int, np.ndarray]) -> dict[int, float]:
+    return exp.by_record(frame.experiment, lambda i: float(np.sum(frame.flat_of(i, residuals[i]) ** 2)), residuals)

@@ -205,7 +205,7 @@ def information(frame: Frame, residuals: Mapping[int, np.ndarray]) -> float:
 
     Larger is better; it needs no spectrum known beforehand, so that it compares models whose errors differ in colour.
     """
-    cleaned = {index: frame.cleaned(index, residuals[index]) / frame.whitening[index].scale for index in frame.indices}
+    cleaned = {index: part / frame.whitening[index].scale for index, part in frame.all_cleaned(residuals).items()}
     found = exp.condition_spectra(frame.experiment, cleaned)
     total = 0.0
     for index in frame.indices:
@@ -221,16 +221,16 @@ def advantage(frame: Frame, one: Mapping[int, np.ndarray], other: Mapping[int, n
     Both are made white by the mean of their spectra, so that neither is favoured. Where they differ at a few
     places only, the z is that of an error there which looks like the difference (``event``).
     """
-    cleaned = [{i: frame.cleaned(i, part[i]) for i in frame.indices} for part in (one, other)]
+    cleaned = [frame.all_cleaned(part) for part in (one, other)]
     spectra = [exp.condition_spectra(frame.experiment, part) for part in cleaned]
-    white: tuple[list, list] = [], []
-    for index in frame.indices:
+
+    def white(index: int) -> np.ndarray:
         record = frame.experiment.records[index]
         mean = (spectra[0][record.condition] + spectra[1][record.condition]) * 0.5
         whitening = spectrum.Whitening(mean, record.rate, record.band, frame.whitening[index].scale)
-        for part, own in zip(white, cleaned):
-            part.append(whitening(own[index]).ravel())
-    better, worse = (np.concatenate(part) for part in white)
+        return whitening(np.stack([own[index] for own in cleaned])).reshape(2, -1)
+
+    better, worse = np.concatenate(list(frame.experiment.each_record(white, frame.indices)), axis=1)
     sums = np.bincount(np.unique(frame.blocks(), return_inverse=True)[1], worse**2 - better**2)
     sums = sums[sums != 0]
     fall = float(sums.sum())

@@ -67,7 +67,7 @@ class Shared:
 
 def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     """What repeats share of their residuals."""
-    cleaned = {index: frame.cleaned(index, residuals[index]) for index in frame.indices}
+    cleaned = frame.all_cleaned({index: residuals[index] for index in frame.indices})
     pairs = list(_pairs(frame, {index: frame.whitening[index](part) for index, part in cleaned.items()}))
     if not pairs:
         return Shared(float("nan"), float("nan"), float("nan"), None)
