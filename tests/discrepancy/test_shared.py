@@ -70,7 +70,7 @@ def test_an_error_that_is_all_shared_is_so_however_long_each_condition(lengths):
     indices = list(range(len(records)))
     frame = SimpleNamespace(
         experiment=SimpleNamespace(records=records, channels=("a", "b")), indices=indices,
-        whitening=dict.fromkeys(indices, Plain()), cleaned=lambda index, residual: residual,
+        whitening=dict.fromkeys(indices, Plain()), all_cleaned=dict,
     )  # fmt: skip
     found = shared_error(frame, dict(enumerate(series)))
     assert found.share == pytest.approx(1.0) and found.z > 10.0
