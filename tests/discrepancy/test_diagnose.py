@@ -76,7 +76,7 @@ def test_a_name_that_leaves_little_but_that_for_certain_gives_way_to_a_force_tha
 
 
 def test_an_error_of_the_measurement_alone_gives_way_to_a_force_that_explains_more_or_as_much_by_fewer_sizes():
-    tilted = replace(FOUND, name="road_bank", sizes=({}, {}))
+    tilted = replace(FOUND, name="road_bank", sizes=({}, {}), is_of_measurement=True)
     error = replace(NOTHING, verdict="suspect", effects=(tilted,), share=0.6, held_out_share=0.5)
     assert reconsidered(error, SURE, is_error_alone=True).verdict == "outside"
     as_much = replace(SURE, share=0.59, held_out_share=0.49)
@@ -87,6 +87,18 @@ def test_an_error_of_the_measurement_alone_gives_way_to_a_force_that_explains_mo
     fitted = replace(as_much, place="strut", terms={"slow_velocity": {"front": 900.0}}, settings={"slow_velocity": {"frequency": 7.0, "linear": 0.2}})
     assert reconsidered(error, fitted, is_error_alone=True) is error
     assert reconsidered(error, replace(SURE, p_value=0.03), is_error_alone=True) is error
+
+
+def test_an_error_of_the_measurement_that_gave_way_is_not_named_after_all():
+    """Its share would be enough, were it an effect; those of the vehicle beside it stay."""
+    error = replace(FOUND, name="road_grade", sizes=({}, {}), share=0.5, held_out_share=0.5, is_of_measurement=True)
+    as_much = replace(SURE, share=0.57, held_out_share=0.52)
+    suspect = replace(NOTHING, verdict="suspect", effects=(error,), share=0.5, held_out_share=0.5)
+    found = named_all_the_same(reconsidered(suspect, as_much, is_error_alone=True), as_much)
+    assert (found.verdict, found.effects, found.share, found.held_out_share) == ("outside", (), 0.0, 0.0)
+    beside = replace(suspect, effects=(error, FOUND), share=0.8, held_out_share=0.8)
+    found = reconsidered(beside, SURE, is_error_alone=True)
+    assert found.effects == (FOUND,) and found.share == FOUND.share
 
 
 def beyond(share=0.3, held_out_share=0.2, is_first=False):

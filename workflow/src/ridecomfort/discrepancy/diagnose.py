@@ -120,10 +120,12 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
         is_better = is_better or verdict.is_shared and is_sure(proposal) and _leaves_less(verdict, proposal)
     explains = f"{100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})"
     is_error_worse = is_error_alone and is_sure(proposal) and (is_better or _leaves_less(verdict, proposal))
-    if verdict.verdict in ("named", "cluster") and is_better or is_error_worse:
+    if is_error_worse:
+        return _said(_of_vehicle(verdict), "outside", f"{said} explains more: {explains}")
+    if verdict.verdict in ("named", "cluster") and is_better:
         return _said(verdict, "outside", f"{said} explains more: {explains}")
     if is_error_alone and is_sure(proposal) and _is_simpler(verdict, proposal):
-        return _said(verdict, "outside", f"{said} explains as much by fewer sizes: {explains}")
+        return _said(_of_vehicle(verdict), "outside", f"{said} explains as much by fewer sizes: {explains}")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     if verdict.verdict == "outside" and verdict.effects and is_road_open and not more:
         if not verdict.share >= LITTLE:
@@ -177,6 +179,13 @@ def _is_simpler(verdict: Verdict, proposal: Discovery) -> bool:
         numbers += sum(values[own.name] != own.typical for own in shaping(proposal.place, term) if own.name in values)
     fewer = numbers < sum(len(effect.sizes) for effect in verdict.effects)
     return fewer and proposal.share > verdict.share - EQUAL and not proposal.held_out_share < verdict.held_out_share - EQUAL
+
+
+def _of_vehicle(verdict: Verdict) -> Verdict:
+    """A verdict without the errors of the measurement that it found, which stood in for something else."""
+    effects = tuple(effect for effect in verdict.effects if not effect.is_of_measurement)
+    share, held_out = (sum((getattr(effect, key) for effect in effects), 0.0) for key in ("share", "held_out_share"))
+    return replace(verdict, effects=effects, share=share, held_out_share=held_out, is_like_error=True)
 
 
 def _said(verdict: Verdict, kind: str, reason: str) -> Verdict:
