@@ -98,40 +98,65 @@ def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = Fal
     """A verdict in the light of a force of any form.
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
-    (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. What is named becomes "outside" where
-    such a force explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error
-    beside what is named, EQUAL more of the first and not much less of the others will do, or, where little is left, HALF of that. Where the
-    road may be another than that of its file, by noise of its points or by what lies between them (``is_road_open``), which repeats share
-    as well, "outside" becomes what the library has unless such a force explains more ("suspect" where that is little), and "suspect" for
-    that becomes "outside" if such a force explains more than noise could. Where an error of the measurement was found and nothing else
-    speaks against the data (``is_error_alone``), it gives way to such a force like a name, and to one that explains as much by fewer sizes.
+    (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. ``is_road_open``: whether the road may be
+    another than that of its file, by noise of its points or by what lies between them. ``is_error_alone``: whether an error of the
+    measurement was found and nothing else speaks against the data.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
-    # Beside noise of the road, which weighs more the weaker an effect is, any fall on drives held out will do.
-    is_more_than_noise = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > LITTLE and not proposal.held_out_share <= 0
-    if verdict.verdict == "nothing" and is_sure(proposal) or verdict.verdict == "suspect" and not is_error_alone and is_more_than_noise:
-        return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
-    held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
-    more = is_sure(proposal) and proposal.share > BETTER * verdict.share
-    if verdict.is_left and verdict.share < DOUBTFUL:  # which the force may be, where it is better at all
-        is_better = is_sure(proposal) and proposal.share > verdict.share + EQUAL and not BETTER * proposal.held_out_share < held_out
-    else:
-        is_better = more and not proposal.held_out_share < held_out
-        is_better = is_better or verdict.is_shared and is_sure(proposal) and _leaves_less(verdict, proposal)
-    explains = f"{100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})"
-    is_error_worse = is_error_alone and is_sure(proposal) and (is_better or _leaves_less(verdict, proposal))
-    if is_error_worse:
-        return _said(_of_vehicle(verdict), "outside", f"{said} explains more: {explains}")
-    if verdict.verdict in ("named", "cluster") and is_better:
-        return _said(verdict, "outside", f"{said} explains more: {explains}")
-    if is_error_alone and is_sure(proposal) and _is_simpler(verdict, proposal):
-        return _said(_of_vehicle(verdict), "outside", f"{said} explains as much by fewer sizes: {explains}")
-    kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
-    if verdict.verdict == "outside" and verdict.effects and is_road_open and not more:
-        if not verdict.share >= LITTLE:
-            return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
-        return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
+    match verdict.verdict:
+        case "nothing":
+            return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_sure(proposal) else verdict
+        case "suspect":
+            return _error_or_force(verdict, proposal, said) if is_error_alone else _noise_or_force(verdict, proposal, said)
+        case "outside":
+            return _road_or_force(verdict, proposal) if is_road_open else verdict
+    return _said(verdict, "outside", f"{said} explains more: {_explained(proposal)}") if _is_better(verdict, proposal) else verdict
+
+
+def _noise_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
+    """Noise of the road, which repeats share as well, gives way to a force that explains more than noise could."""
+    # Beside that noise, which weighs more the weaker an effect is, any fall on drives held out will do.
+    is_more = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > LITTLE and not proposal.held_out_share <= 0
+    return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_more else verdict
+
+
+def _error_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
+    """An error of the measurement gives way to a force like a name, and to one that explains as much by fewer sizes."""
+    if is_sure(proposal) and (_is_better(verdict, proposal) or _leaves_less(verdict, proposal)):
+        return _said(_of_vehicle(verdict), "outside", f"{said} explains more: {_explained(proposal)}")
+    if is_sure(proposal) and _is_simpler(verdict, proposal):
+        return _said(_of_vehicle(verdict), "outside", f"{said} explains as much by fewer sizes: {_explained(proposal)}")
     return verdict
+
+
+def _road_or_force(verdict: Verdict, proposal: Discovery) -> Verdict:
+    """Where the road may be another than that of its file, "outside" becomes what the library has, "suspect" if that is little, unless a
+    force explains BETTER as much."""
+    if not verdict.effects or is_sure(proposal) and proposal.share > BETTER * verdict.share:
+        return verdict
+    if not verdict.share >= LITTLE:
+        return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
+    kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
+    return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
+
+
+def _is_better(verdict: Verdict, proposal: Discovery) -> bool:
+    """Whether a force is sure and explains so much more than what was found that this stands in for it.
+
+    It explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error beside what was
+    found, EQUAL more of the first and not much less of the others will do, or, where little is left, leaving HALF of that.
+    """
+    held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
+    if not is_sure(proposal):
+        return False
+    if verdict.is_left and verdict.share < DOUBTFUL:
+        return proposal.share > verdict.share + EQUAL and not BETTER * proposal.held_out_share < held_out
+    is_more = proposal.share > BETTER * verdict.share and not proposal.held_out_share < held_out
+    return is_more or verdict.is_shared and _leaves_less(verdict, proposal)
+
+
+def _explained(proposal: Discovery) -> str:
+    return f"{100 * proposal.share:.0f} % (p = {proposal.p_value:.2g})"
 
 
 def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
