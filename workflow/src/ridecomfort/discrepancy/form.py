@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from .places import AXLES, FORCE, LINEAR, PLACES, STRONGEST, WHEELS, Term, expression, parameter, scale, settings
 
@@ -49,46 +50,32 @@ def _factor(key: str, term: Term) -> str:
     return names[0]
 
 
+@dataclass(frozen=True)
+class _Written:
+    """A term as source text: its ``parameters`` in the file's ``Effect``, the ``names`` of these, its ``states``, and the ``slopes`` of those
+    and ``lines`` of its force in ``act``."""
+
+    parameters: list[str]
+    names: list[str]
+    states: list[str]
+    slopes: list[str]
+    lines: list[str]
+
+
 def effect_source(name: str, place: str, terms: Factors, sentence: str, shaped: Settings = {}) -> str:
     """Text of an effect file (``effects.contract``) with these terms, their factors and what shapes them as typical values.
 
     A term whose linear part is given as nil has none.
     """
     where = PLACES[place]
-    parameters, lines, arguments, states, slopes = [], [], [], [], []
-    for key, factors in terms.items():
-        term, values = where.terms[key], shaped.get(key, {})
-        reach = STRONGEST / scale(place, key)
-        for part in term.parts:
-            typical = float(factors.get(part, FORCE / scale(place, key)))
-            limit = float(f"{WIDTH * abs(typical) if factors.get(part) else reach:.3g}")
-            of_turn = f", cosine and sine of {term.turn}" if term.turn else ""
-            meaning = f"factor of {term.expression}{of_turn}" + (f", {part}" if part else "")
-            parameters.append(
-                f'        Parameter("{parameter(key, part)}", "{term.unit}", 0.0, {typical:.6g}, ({-limit:g}, {limit:g}), "{meaning}"),'
-            )
-            arguments.append(parameter(key, part))
-        own = {state.name: parameter(key, state.name) for state in term.states}
-        is_linear = values.get(LINEAR.name) != 0.0
-        for setting in settings(place, key):
-            if setting is not LINEAR or is_linear:
-                own[setting.name] = parameter(key, setting.name)
-                value, (lower, upper) = values.get(setting.name, setting.typical), setting.plausible
-                parameters.append(
-                    f'        Parameter("{own[setting.name]}", "{setting.unit}", {value:.6g}, {value:.6g}, ({lower:g}, {upper:g}), '
-                    f'"{setting.meaning}"),'
-                )
-                arguments.append(own[setting.name])
-        value = f"{_factor(key, term)} * ({_renamed(expression(place, key, is_linear), own)})"
-        lines.append(f"    {term.result} += {value}")
-        if term.ahead:
-            lines.append(f"    {'moment_z +=' if term.result == 'force_y' else 'moment_y -='} {term.ahead} * {value}")
-        states += [own[state.name] for state in term.states]
-        slopes += [f"    {own[state.name]}_slope = {_renamed(state.slope, own)}" for state in term.states]
-    body = "\n".join([*(f"    {result} = 0.0" for result in where.results if result not in where.arguments), *slopes, *lines])
+    written = [_written(place, key, factors, shaped.get(key, {})) for key, factors in terms.items()]
+    every = lambda part: [one for term in written for one in getattr(term, part)]
+    states = every("states")
+    nil = [f"    {result} = 0.0" for result in where.results if result not in where.arguments]
+    body = "\n".join([*nil, *every("slopes"), *every("lines")])
     used = sorted({function for function in ("tanh", "cos", "sin") if re.search(rf"\b{function}\(", body)})
     imports = f"from math import {', '.join(used)}\n\n" if used else ""
-    listed = "\n".join(parameters)
+    listed = "\n".join(every("parameters"))
     returned = ", ".join([*where.results, *(f"{state}_slope" for state in states)])
     named = ", ".join(f'"{state}"' for state in states) + ("," if len(states) == 1 else "")
     remembered = f"    states=({named}),\n" if states else ""
@@ -97,8 +84,41 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str, shaped: 
         f'effect = Effect(\n    name="{name}",\n    sentence="{sentence}",\n'
         f'    source="estimated from measured drives by ridecomfort.discrepancy.discover",\n    port="{where.port}",\n'
         f"    parameters=(\n{listed}\n    ),\n{remembered})\n\n\n"
-        f"def act({', '.join([*where.arguments, *states, *arguments])}):\n{body}\n    return {returned}\n"
+        f"def act({', '.join([*where.arguments, *states, *every('names')])}):\n{body}\n    return {returned}\n"
     )
+
+
+def _written(place: str, key: str, factors: Mapping[str, float], values: Mapping[str, float]) -> _Written:
+    """A term with its factors by part of the car, and the ``values`` of what shapes it."""
+    term, one = PLACES[place].terms[key], scale(place, key)
+    parameters, names = [], []
+    for part in term.parts:
+        typical = float(factors.get(part, FORCE / one))
+        limit = float(f"{WIDTH * abs(typical) if factors.get(part) else STRONGEST / one:.3g}")
+        of_turn = f", cosine and sine of {term.turn}" if term.turn else ""
+        meaning = f"factor of {term.expression}{of_turn}" + (f", {part}" if part else "")
+        names.append(parameter(key, part))
+        parameters.append(_parameter(names[-1], term.unit, "0.0", typical, (-limit, limit), meaning))
+    is_linear = values.get(LINEAR.name) != 0.0
+    own = {state.name: parameter(key, state.name) for state in term.states}
+    states = list(own.values())
+    for setting in settings(place, key):
+        if setting is not LINEAR or is_linear:
+            own[setting.name] = parameter(key, setting.name)
+            value = values.get(setting.name, setting.typical)
+            names.append(own[setting.name])
+            parameters.append(_parameter(names[-1], setting.unit, f"{value:.6g}", value, setting.plausible, setting.meaning))
+    force = f"{_factor(key, term)} * ({_renamed(expression(place, key, is_linear), own)})"
+    lines = [f"    {term.result} += {force}"]
+    if term.ahead:
+        lines.append(f"    {'moment_z +=' if term.result == 'force_y' else 'moment_y -='} {term.ahead} * {force}")
+    slopes = [f"    {own[state.name]}_slope = {_renamed(state.slope, own)}" for state in term.states]
+    return _Written(parameters, names, states, slopes, lines)
+
+
+def _parameter(name: str, unit: str, neutral: str, typical: float, plausible: tuple[float, float], meaning: str) -> str:
+    lower, upper = plausible
+    return f'        Parameter("{name}", "{unit}", {neutral}, {typical:.6g}, ({lower:g}, {upper:g}), "{meaning}"),'
 
 
 def _renamed(text: str, names: Mapping[str, str]) -> str:
