@@ -10,7 +10,7 @@ from matplotlib.text import Text
 
 from ridecomfort.discrepancy import select, tries
 from ridecomfort.discrepancy.score import score
-from ridecomfort.discrepancy.verdict import KINDS
+from ridecomfort.discrepancy.verdict import SAID
 from ridecomfort.report import catalogue, diagnosed, style, table
 from ridecomfort.report.figures import evidence
 from tests.report import differing as made_up
@@ -24,7 +24,7 @@ def words(made):
     return " ".join(str(cell) for row in made.rows for cell in row)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", SAID)
 def test_every_verdict_is_said_with_its_reasons_and_what_to_do_next(kind):
     verdict = {**(made_up.VERDICT if kind in ("named", "cluster") else made_up.nothing()), "verdict": kind}
     tables = diagnosed.tables(made_up.diagnosis(verdict))

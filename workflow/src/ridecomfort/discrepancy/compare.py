@@ -13,6 +13,7 @@ import xarray as xr
 
 from ..drive.record import unstack
 from ..drive.replay import CLOCK_LEFT, Replay, replay
+from ..drive.sampling import rate_of
 from ..vocabulary import SIGNALS
 from .explain import explain
 from .wheels import wheels
@@ -107,7 +108,7 @@ def _below(again: Replay, vehicle, simulated: np.ndarray) -> np.ndarray:
     """The series BELOW of a drive, (4, time), from its simulated signals (6, time); NaN in the run-in."""
     kept = again.compared
     drive = again.drive
-    rate = (len(again.time) - 1) / (again.time[-1] - again.time[0])
+    rate = rate_of(again.time)
     aside = drive["e"].values
     if not np.isfinite(aside).all():
         aside = np.full(len(again.time), np.nan_to_num(float(drive.attrs.get("lateral_position", 0.0))))

@@ -9,6 +9,7 @@ import xarray as xr
 
 from ..comfort import bands, iso2631, sections, thresholds
 from ..comfort.seat import Seat
+from ..drive.sampling import rate_of
 from . import explain
 
 METHODS = ("thresholds", "iso2631")
@@ -81,7 +82,7 @@ def _graded(signals, time, own, places, along, table, edges, settings) -> np.nda
         for k, style in enumerate(styles):
             band = table[name][style]
             passed[k] |= along.whole((over_s[name] < band.lower) | (over_s[name] > band.upper))
-    rate = (len(time) - 1) / (time[-1] - time[0])
+    rate = rate_of(time)
     options = {key: settings[key] for key in ("time_constant", "weightings", "factors") if key in settings}
     if "averaging" in settings:
         options["method"] = settings["averaging"]

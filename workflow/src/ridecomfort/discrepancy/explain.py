@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from ..drive.sampling import rate_of
 from ..vocabulary import VARIABLES
 from .experiment import Record
 from .floor import deviations
@@ -84,7 +85,7 @@ def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
             kept = np.isfinite(residual).all(axis=0)
             place = row["s"].values[kept]
             records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
-            residuals.append(judged(residual[:, kept], _rate(comparison), signals))
+            residuals.append(judged(residual[:, kept], rate_of(comparison["time"].values), signals))
         start, end = max(record.place[0] for record in records), min(record.place[-1] for record in records)
         for drive, record, part in zip(group, records, deviations(records, residuals)):
             inside = (record.place >= start) & (record.place <= end)
@@ -124,21 +125,15 @@ def _squares(comparison: xr.Dataset) -> np.ndarray:
     found = np.empty(residual.shape[:-1])
     for state, drive in np.ndindex(found.shape[:2]):
         kept = np.isfinite(residual[state, drive]).all(axis=0)
-        part = judged(residual[state, drive][:, kept], _rate(comparison), comparison["signal"].values)
+        part = judged(residual[state, drive][:, kept], rate_of(comparison["time"].values), comparison["signal"].values)
         found[state, drive] = np.mean(part**2, axis=1)
     return found
 
 
 def highest(comparison: xr.Dataset) -> np.ndarray:
     """Hz up to which the records of each drive hold anything, (drive,)."""
-    half = np.full(comparison.sizes["drive"], 0.5 * _rate(comparison))
+    half = np.full(comparison.sizes["drive"], 0.5 * rate_of(comparison["time"].values))
     return np.minimum(half, comparison["cut_off"].values) if "cut_off" in comparison else half
-
-
-def _rate(comparison: xr.Dataset) -> float:
-    """Records per second."""
-    time = comparison["time"].values
-    return float((len(time) - 1) / (time[-1] - time[0]))
 
 
 def _of_instruments(comparison: xr.Dataset, density: Mapping[str, Mapping[str, float]]) -> np.ndarray:

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from scipy.signal import stft
 
+from ..drive.sampling import rate_of
 from . import explain, judged
 from .response import responses
 
@@ -129,7 +130,7 @@ def _drive(row: xr.Dataset, own: explain.OwnNoise | None) -> Drive:
     series = {str(name): row[name].values[kept] for name in row.data_vars if row[name].dims == ("time",)}
     signals = [row[name].transpose("signal", "time").values[:, kept] for name in ("measured", "simulated")]
     series |= {str(name): values for name, values in zip(row["signal"].values, signals[1])}
-    rate = float((len(time) - 1) / (time[-1] - time[0]))
+    rate = rate_of(time)
     both = (judged.judged(each, rate, row["signal"].values) for each in (residual[:, kept], signals[0]))
     return Drive(rate, residual[:, kept], *signals, *both, series, own)
 

@@ -13,6 +13,7 @@ from .. import simulate as simulator
 from ..calibrated import apply
 from ..drive.record import unstack
 from ..drive.replay import Replay, replay
+from ..drive.sampling import rate_of
 from ..effects import library
 from ..effects.contract import COMPILED
 from ..vehicle.parameters import PARAMETERS
@@ -205,7 +206,7 @@ def _record(site: str, again: Replay, role: str, courses: list[Course], several:
     place, time = again.place[again.compared], again.time[again.compared]
     number = joined(courses, place, time)
     speed = courses[number].speed
-    rate = float((len(time) - 1) / np.ptp(time))
+    rate = rate_of(time)
     band = (LOWEST, min(HIGHEST * float(again.drive.attrs["cut_off"]), 0.45 * rate))
     name = str(again.drive.attrs["name"])
     return Record(

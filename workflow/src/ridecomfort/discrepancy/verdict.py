@@ -54,7 +54,14 @@ TOLD, LEAST_TOLD = 3, 0.001
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
-KINDS = ("named", "cluster", "outside", "nothing", "suspect")
+SAID = {
+    "named": "Missing: {names}.",
+    "cluster": "Missing: {names}; the data do not tell those apart.",
+    "outside": "Something is missing that is not in the library.",
+    "nothing": "Nothing is missing beyond the noise.",
+    "suspect": "The data are suspect: {names}.",
+}
+"""What every kind of verdict says of the ``names`` of effects."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +88,7 @@ class Named:
 
 @dataclass(frozen=True)
 class Verdict:
-    """``verdict`` is one of KINDS; ``effects`` in the order in which they were found; ``reasons`` in words; ``is_shared``: whether repeats
+    """``verdict`` is one of SAID; ``effects`` in the order in which they were found; ``reasons`` in words; ``is_shared``: whether repeats
     surely share an error still, ``is_left``: one that is worth explaining."""
 
     verdict: str
@@ -105,16 +112,18 @@ class Verdict:
     def words(self) -> str:
         """The verdict as a few sentences."""
         told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
-        names = ", ".join(effect.name for effect in told)
-        first = {
-            "named": f"Missing: {names}.",
-            "cluster": "Missing is one of: " + "; ".join(" or ".join((e.name, *e.like)) for e in self.effects) + ".",
-            "outside": "Something is missing that is not in the library.",
-            "nothing": "Nothing is missing beyond the noise.",
-            "suspect": f"The data are suspect: {names}." if names else "The data are suspect; no effect is named.",
-        }[self.verdict]
-        begun = (reason if "_" in reason.partition(" ")[0] else f"{reason[0].upper()}{reason[1:]}" for reason in self.reasons)
-        return " ".join([first, *(f"{reason}." for reason in begun)])
+        names = [" or ".join((effect.name, *effect.like)) for effect in told]
+        return " ".join([first_sentence(self.verdict, names), *map(sentence, self.reasons)])
+
+
+def first_sentence(kind: str, names: Sequence[str]) -> str:
+    """The sentence that a verdict begins with."""
+    return SAID[kind].format(names=", ".join(names) or "no effect is named")
+
+
+def sentence(reason: str) -> str:
+    """A reason as a sentence; one that begins with the name of an effect keeps it as it is written."""
+    return f"{reason}." if "_" in reason.partition(" ")[0] else f"{reason[:1].upper()}{reason[1:]}."
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:

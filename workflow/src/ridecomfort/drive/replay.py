@@ -18,7 +18,7 @@ from ..errors import InputError
 from ..vehicle.driver import PREVIEW_TIME, path_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from .record import upward
-from .sampling import resampled, resampled_slopes
+from .sampling import rate_of, resampled, resampled_slopes
 
 RUN_IN = 50.0
 """m that the model drives before it is compared: 2 s at 25 m/s, when a bounce of 1.3 Hz, damped by a third, is down to
@@ -134,7 +134,7 @@ class Replay:
         By the quantity that is asked for; one that was not measured, or that the simulator does not tell, is left out.
         """
         found = {}
-        rate = (len(self.time) - 1) / (self.time[-1] - self.time[0])
+        rate = rate_of(self.time)
         travelled = np.maximum.accumulate(run["s"].values)
         for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
             missing = self.drive[name].values - np.interp(self.place, travelled, run[name].values)
@@ -202,7 +202,7 @@ def replay(
     """
     options = dict(options or {})
     time = drive["time"].values
-    rate = (len(time) - 1) / (time[-1] - time[0])
+    rate = rate_of(time)
     speed = smooth(drive["v_x"].values, rate, speed_bandwidth(drive["v_x"].values, rate))
     surface = getattr(road, "road", road)
     place = fused_place(drive, rate, surface)

@@ -28,6 +28,11 @@ FINE = 32
 """Points an interval at which the filter is tabulated: between them it is straight to one in ten thousand."""
 
 
+def rate_of(time: np.ndarray) -> float:
+    """Samples a second of uniform time stamps (s)."""
+    return float((len(time) - 1) / (time[-1] - time[0]))
+
+
 def check_clock(time: np.ndarray, *, file=None, place: str = "time") -> None:
     """Raise InputError unless the time stamps are finite and strictly increasing (rows count from 1)."""
     if time.ndim != 1 or len(time) < 2:

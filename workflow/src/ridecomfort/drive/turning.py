@@ -6,6 +6,8 @@ import numpy as np
 import xarray as xr
 from scipy.signal import butter, sosfiltfilt
 
+from .sampling import rate_of
+
 TURNING, MARGIN = 0.2, 3.0
 """Hz below which a body turns as its path does, and s at either end that a low pass of that takes to settle."""
 
@@ -19,7 +21,7 @@ def gyroscope_gain(drive: xr.Dataset, road: xr.Dataset) -> tuple[float, float]:
     The body sideslips, but turns as far as the road does by the end of a bend. Both are nan where no path was measured or it hardly bends.
     """
     time, s, e = (drive[name].values for name in ("time", "s", "e"))
-    rate = (len(time) - 1) / (time[-1] - time[0])
+    rate = rate_of(time)
     if not np.isfinite(e).all() or len(time) < 4 * MARGIN * rate:
         return float("nan"), float("nan")
     sos = butter(2, TURNING, fs=rate, output="sos")

@@ -6,23 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ...discrepancy.verdict import LITTLE
+from ...discrepancy.verdict import LITTLE, first_sentence, sentence
 from ...effects.contract import PORTS
 from .. import catalogue
 from ..notation import unit, words
 from ..study import Diagnosis
 from ..table import Column, Source, Table
 from . import advice
-
-SAID = {
-    "named": "Missing: {names}.",
-    "cluster": "Missing: {names}; the data do not tell those apart.",
-    "outside": "Something is missing that is not in the library.",
-    "nothing": "Nothing is missing beyond the noise.",
-    "suspect": "The data are suspect: {names}.",
-}
-
-NO_EFFECT = "no effect is named"
 
 FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
 """What is said where those are all that was found."""
@@ -41,21 +31,21 @@ def verdict(found: Diagnosis) -> Table:
     """The verdict in words: what it is, why, and what to do next."""
     said = found.verdict
     told = [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
-    names = ", ".join(_alike(effect) for effect in told) or NO_EFFECT
+    names = [_alike(effect) for effect in told]
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
-    first = FILE_ALONE if advice.is_file_alone(said) else SAID[said["verdict"]].format(names=names)
+    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names)
     rows = [("verdict", f"{first} ({said['verdict']})")]
-    rows += [("reason", _sentence(reason)) for reason in said["reasons"]]
+    rows += [("reason", sentence(reason)) for reason in said["reasons"]]
     if beyond:
         rows.append(("the vehicle", advice.farther(beyond)))
     if advice.library_helps(said):
         held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
         checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
-        taken = f"{names} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is missing."
+        taken = f"{', '.join(names)} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is missing."
         rows.append(("in the library", taken))
     if proposal.get("form"):
         rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
-        rows.append(("in it", _sentence(PORTS[proposal["port"]].meaning)))
+        rows.append(("in it", sentence(PORTS[proposal["port"]].meaning)))
         rows.append(("it removes", _promise(proposal)))
     rows.append(("next, after the vehicle" if beyond else "next", advice.next_step(found)))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
@@ -164,11 +154,6 @@ def outcome(name: str, winner: str, objection: str) -> str:
 
 def _alike(effect) -> str:
     return " or ".join(words(name) for name in (effect["name"], *effect["like"]))
-
-
-def _sentence(text: str) -> str:
-    """A reason as a sentence; one that begins with the name of an effect keeps it as it is written."""
-    return f"{text}." if "_" in text.partition(" ")[0] else f"{text[:1].upper()}{text[1:]}."
 
 
 def _percent(share: float | None) -> float | None:
