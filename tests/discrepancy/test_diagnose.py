@@ -75,6 +75,18 @@ def test_a_name_that_leaves_little_but_that_for_certain_gives_way_to_a_force_tha
     assert reconsidered(hardly, replace(exact, share=0.995, held_out_share=0.995)) is hardly
 
 
+def test_a_doubtful_name_gives_way_to_a_force_that_fits_drives_better_beyond_chance_and_leaves_less():
+    named = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.77, held_out_share=0.78)
+    force = replace(SURE, share=0.81, held_out_share=0.89)
+    assert reconsidered(named, force, fits_better=True).verdict == "outside"
+    assert reconsidered(named, force) is named
+    assert reconsidered(named, replace(force, share=0.79, held_out_share=0.82), fits_better=True) is named
+    firm = replace(named, share=0.83, held_out_share=0.8)
+    assert reconsidered(firm, replace(force, share=0.93), fits_better=True) is firm
+    nobody = replace(named, held_out_share=float("nan"))
+    assert reconsidered(nobody, replace(force, share=0.85, held_out_share=float("nan")), fits_better=True).verdict == "outside"
+
+
 def test_an_error_of_the_measurement_alone_gives_way_to_a_force_that_explains_more_or_as_much_by_fewer_sizes():
     tilted = replace(FOUND, name="road_bank", sizes=({}, {}), is_of_measurement=True)
     error = replace(NOTHING, verdict="suspect", effects=(tilted,), share=0.6, held_out_share=0.5)

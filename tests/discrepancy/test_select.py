@@ -43,6 +43,17 @@ def test_what_no_held_out_drive_meets_must_remove_more(met, share, is_kept):
     assert objection == ("" if is_kept else "removes 3.0 % of the explainable error, and no drive held out meets it")
 
 
+def test_an_error_of_the_measurement_is_suspect_by_name_unless_drives_held_out_refute_it():
+    model = Linear(1, {"effect_2.size": 1.0})
+    model.candidates = tuple(replace(one, instrument=one.name == "effect_2") for one in model.candidates)
+    selection, found = judged(model)
+    assert found.verdict == "suspect" and "effect_2 is an error of the measurement, not of the vehicle" in found.reasons
+    first, last = selection.states
+    refuted = replace(selection, states=(first, replace(last, held_out_squares=1.1 * first.held_out_squares)))
+    found = verdict.judge(refuted, model.candidates)
+    assert found.verdict == "outside" and not found.effects and found.is_like_error
+
+
 class Opposed(Linear):
     """The same where effect_2 has two sizes of either sign whose columns are mostly alike, and of opposite signs in truth."""
 

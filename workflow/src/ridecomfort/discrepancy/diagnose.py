@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from .. import pool
-from . import opening
+from . import opening, refit
 from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, without_effects
 from .car import Car
 from .discover import Discovery, discovered
@@ -35,6 +35,12 @@ EQUAL = 0.02
 """Share of the explainable error by which two explanations that count as equal may differ."""
 
 
+SURELY, MOST_LEFT = 3.0, 0.75
+"""z above which one of two models fits drives better beyond chance, and share of what the other leaves of the explainable error, on fitted
+and held-out drives together, that it may leave at most to be another explanation. In twenty blind trials whose names were right and
+removed less than DOUBTFUL, the z of a force were at most 2.2 on fitted and 1.8 on held-out drives."""
+
+
 def diagnose(
     measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0, name: str = "discovered",
     workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,
@@ -53,7 +59,7 @@ def diagnose(
     if not table.attrs["suspected"] and verdict.verdict != "nothing" and not verdict.share > NEARLY_ALL:
         found, again = _with_vehicle_right(experiment, selection, signatures, common)
         if again is not None:
-            table, verdict, rung = again
+            table, verdict, selection, rung = again
     verdict = heard(verdict, table.attrs["turns"], table.attrs["suspected"] == "road")
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"]) and not table.attrs["turns"]
     is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
@@ -61,7 +67,7 @@ def diagnose(
     proposal = None
     if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
         proposal = discovered(rung, name=name, **common)
-        verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone)
+        verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, _fits_better(proposal, selection))
         if not (table.attrs["turns"] or table.attrs["road"]):
             verdict = named_all_the_same(verdict, proposal)
         proposal = proposal if verdict.verdict == "outside" else None
@@ -72,9 +78,10 @@ def diagnose(
 
 def _with_vehicle_right(
     experiment: Car, selection: Selection, signatures: bool, common: Mapping
-) -> tuple[BeyondBounds | None, tuple[xr.Dataset, Verdict, Rung] | None]:
-    """Parameters of the vehicle beyond their bounds, if they explain more, and what a search says that begins with them put right, with the
-    rung it begins at, if that is the better one and leaves nothing out, or sees that the data are wrong. ``experiment``: as its drives came."""
+) -> tuple[BeyondBounds | None, tuple[xr.Dataset, Verdict, Selection, Rung] | None]:
+    """Parameters of the vehicle beyond their bounds, if they explain more, and what a search finds that begins with them put right, with
+    the rung it begins at, if that is the better one and leaves nothing out, or sees that the data are wrong. ``experiment``: as its drives
+    came."""
     common["say"]("trying parameters of the vehicle beyond their bounds")
     found, wide = beyond_bounds(selection, common["each"]) or (None, None)
     rung = without_effects(wide, common["each"]) if wide else before_effects(selection, common["each"])
@@ -85,7 +92,7 @@ def _with_vehicle_right(
     table, verdict, again = ranked(came, rung, signatures=signatures, **common)
     first = searched(selection, again)
     is_explained = verdict.verdict in ("named", "cluster", "nothing") or table.attrs["suspected"] == "data"
-    return (first, (table, verdict, rung)) if is_explained and first is not None else (found, None)
+    return (first, (table, verdict, again, rung)) if is_explained and first is not None else (found, None)
 
 
 def _is_doubtful(verdict: Verdict) -> bool:
@@ -94,23 +101,37 @@ def _is_doubtful(verdict: Verdict) -> bool:
     return verdict.verdict in ("named", "cluster") and verdict.share < most
 
 
-def reconsidered(verdict: Verdict, proposal: Discovery, is_road_open: bool = False, is_error_alone: bool = False) -> Verdict:
+def _fits_better(proposal: Discovery, selection: Selection) -> bool:
+    """Whether the model with a force fits drives better than that with what the library has, beyond chance: the fitted ones and those held
+    out, if any (Vuong 1989)."""
+    if not proposal.place:
+        return False
+    force, theirs = proposal.selection, selection.states[-1].fit.residuals
+    pairs = [(force.frame, force.states[-1].fit.residuals, theirs)]
+    pairs += [(force.check_frame, force.check, selection.check)] if force.check_frame is not None else []
+    return all(refit.advantage(frame, with_force, without)[1] > SURELY for frame, with_force, without in pairs)
+
+
+def reconsidered(
+    verdict: Verdict, proposal: Discovery, is_road_open: bool = False, is_error_alone: bool = False, fits_better: bool = False
+) -> Verdict:
     """A verdict in the light of a force of any form.
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
     (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. ``is_road_open``: whether the road may be
     another than that of its file, by noise of its points or by what lies between them. ``is_error_alone``: whether an error of the
-    measurement was found and nothing else speaks against the data.
+    measurement was found and nothing else speaks against the data. ``fits_better``: whether the force fits drives better beyond chance than
+    what was found.
     """
     said = f"a force at the {proposal.place} that the library does not hold"
     match verdict.verdict:
         case "nothing":
             return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_sure(proposal) else verdict
         case "suspect":
-            return _error_or_force(verdict, proposal, said) if is_error_alone else _noise_or_force(verdict, proposal, said)
+            return _error_or_force(verdict, proposal, said, fits_better) if is_error_alone else _noise_or_force(verdict, proposal, said)
         case "outside":
             return _road_or_force(verdict, proposal) if is_road_open else verdict
-    return _said(verdict, "outside", f"{said} explains more: {_explained(proposal)}") if _is_better(verdict, proposal) else verdict
+    return _said(verdict, "outside", f"{said} explains more: {_explained(proposal)}") if _is_better(verdict, proposal, fits_better) else verdict
 
 
 def _noise_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
@@ -120,9 +141,9 @@ def _noise_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict
     return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_more else verdict
 
 
-def _error_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
+def _error_or_force(verdict: Verdict, proposal: Discovery, said: str, fits_better: bool) -> Verdict:
     """An error of the measurement gives way to a force like a name, and to one that explains as much by fewer sizes."""
-    if is_sure(proposal) and (_is_better(verdict, proposal) or _leaves_less(verdict, proposal)):
+    if is_sure(proposal) and (_is_better(verdict, proposal, fits_better) or _leaves_less(verdict, proposal)):
         return _said(_of_vehicle(verdict), "outside", f"{said} explains more: {_explained(proposal)}")
     if is_sure(proposal) and _is_simpler(verdict, proposal):
         return _said(_of_vehicle(verdict), "outside", f"{said} explains as much by fewer sizes: {_explained(proposal)}")
@@ -140,11 +161,12 @@ def _road_or_force(verdict: Verdict, proposal: Discovery) -> Verdict:
     return _said(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
 
 
-def _is_better(verdict: Verdict, proposal: Discovery) -> bool:
+def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool:
     """Whether a force is sure and explains so much more than what was found that this stands in for it.
 
-    It explains BETTER as much of the fitted drives, and no less of those held out; where repeats surely share an error beside what was
-    found, EQUAL more of the first and not much less of the others will do, or, where little is left, leaving HALF of that.
+    It explains BETTER as much of the fitted drives, and no less of those held out; or what was found is DOUBTFUL, and the force
+    ``fits_better`` and leaves MOST_LEFT of it at most. Where repeats surely share an error beside what was found, EQUAL more of the fitted
+    drives and not much less of the others will do, or, where little is left, leaving HALF of that.
     """
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     if not is_sure(proposal):
@@ -152,7 +174,13 @@ def _is_better(verdict: Verdict, proposal: Discovery) -> bool:
     if verdict.is_left and verdict.share < DOUBTFUL:
         return proposal.share > verdict.share + EQUAL and not BETTER * proposal.held_out_share < held_out
     is_more = proposal.share > BETTER * verdict.share and not proposal.held_out_share < held_out
+    is_more = is_more or fits_better and verdict.share < DOUBTFUL and _left(proposal) <= MOST_LEFT * _left(verdict)
     return is_more or verdict.is_shared and _leaves_less(verdict, proposal)
+
+
+def _left(found: Verdict | Discovery) -> float:
+    """Share of the explainable error that is left, the mean of fitted drives and of those held out, if any."""
+    return float(np.mean([1.0 - share for share in (found.share, found.held_out_share) if np.isfinite(share)]))
 
 
 def _explained(proposal: Discovery) -> str:

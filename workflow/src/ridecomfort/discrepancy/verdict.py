@@ -211,8 +211,8 @@ def judge(
     vehicle = [effect for effect in effects if effect not in wrong]
     if wrong:
         names = ", ".join(effect.name for effect in wrong)
-        # An error of the measurement that leaves much is what something else, not in the library, looks like.
-        is_little = is_little or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
+        # An error of the measurement that leaves much, or that drives held out refute, is what something else, not in the library, looks like.
+        is_little = is_little or balance.held_out <= 0 or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
         if is_little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
             effects, wrong, is_like_error = vehicle, [], True
             reasons.append(f"{names} would help, an error of the measurement that may stand in for something else")
