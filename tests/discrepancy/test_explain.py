@@ -81,8 +81,8 @@ def test_drives_at_one_speed_on_other_stretches_repeat_nothing():
 
 def test_drives_that_repeat_one_another_all_have_a_stretch_in_common():
     """The third has all of its own in common with the first, but hardly anything with both others."""
-    courses, numbers = [], []
+    passages, numbers = [], []
     for start, end in ((0.0, 2000.0), (0.0, 1020.0), (1000.0, 2000.0)):
-        numbers.append(joined(courses, np.linspace(start, end, 101), np.linspace(0.0, (end - start) / 20.0, 101)))
+        numbers.append(joined(passages, np.linspace(start, end, 101), np.linspace(0.0, (end - start) / 20.0, 101)))
     assert numbers == [0, 0, 1]
-    assert courses == [(20.0, 0.0, 1020.0), (20.0, 1000.0, 2000.0)]
+    assert passages == [(20.0, 0.0, 1020.0), (20.0, 1000.0, 2000.0)]

@@ -27,7 +27,7 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 """Instrument that a signal of this unit is recorded with."""
 
 
-class Course(NamedTuple):
+class Passage(NamedTuple):
     """What drives that repeat one another drove: the mean ``speed`` of the first (m/s), ``start`` and ``end`` (m)."""
 
     speed: float
@@ -95,28 +95,28 @@ def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
 
 def repeats(comparison: xr.Dataset) -> list[list[int]]:
     """Numbers of the drives that repeat one another, at least two in each list."""
-    courses: list[Course] = []
+    passages: list[Passage] = []
     groups: list[list[int]] = []
     for number, place in enumerate(comparison["s"].transpose("drive", "time").values):
         known = np.isfinite(place)
-        group = joined(courses, place[known], comparison["time"].values[known])
-        groups += [[]] * (len(courses) - len(groups))
+        group = joined(passages, place[known], comparison["time"].values[known])
+        groups += [[]] * (len(passages) - len(groups))
         groups[group] = [*groups[group], number]
     return [own for own in groups if len(own) > 1]
 
 
-def joined(courses: list[Course], place: np.ndarray, time: np.ndarray) -> int:
-    """Number of the first of ``courses`` that a drive (places in m over time in s) repeats, which is cut to what they have in common; of a
-    course of its own, which is added, where there is none."""
-    own = Course(float(np.ptp(place) / np.ptp(time)), float(np.min(place)), float(np.max(place)))
-    for number, known in enumerate(courses):
+def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray) -> int:
+    """Number of the first of ``passages`` that a drive (places in m over time in s) repeats, which is cut to what they have in common; of a
+    passage of its own, which is added, where there is none."""
+    own = Passage(float(np.ptp(place) / np.ptp(time)), float(np.min(place)), float(np.max(place)))
+    for number, known in enumerate(passages):
         start, end = max(own.start, known.start), min(own.end, known.end)
         enough = COMMON * min(own.end - own.start, known.end - known.start)
         if abs(known.speed - own.speed) < SAME_SPEED * known.speed and end - start > enough:
-            courses[number] = Course(known.speed, start, end)
+            passages[number] = Passage(known.speed, start, end)
             return number
-    courses.append(own)
-    return len(courses) - 1
+    passages.append(own)
+    return len(passages) - 1
 
 
 def _squares(comparison: xr.Dataset) -> np.ndarray:

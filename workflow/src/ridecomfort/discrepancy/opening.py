@@ -21,7 +21,7 @@ from ..vocabulary import SIGNALS, VARIABLES
 from .candidates import candidate
 from .car import Car
 from .experiment import Record, Size
-from .explain import INSTRUMENT, Course, joined
+from .explain import INSTRUMENT, Passage, joined
 from .judged import LOWEST, LOWEST_OF_DRIVER
 
 CALIBRATION_PROBE = 0.02
@@ -141,10 +141,10 @@ def _calibrated_bounds(calibration: xr.Dataset | None, given: Mapping[str, Seque
 
 def _not_repeated(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
     """The drives but those that repeat one before."""
-    courses: list[Course] = []
+    passages: list[Passage] = []
     first = {}
     for drive in drives:
-        first.setdefault(joined(courses, drive["s"].values, drive["time"].values), drive)
+        first.setdefault(joined(passages, drive["s"].values, drive["time"].values), drive)
     return list(first.values())
 
 
@@ -193,23 +193,23 @@ def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[
     """A record for every replay, in their order, that of the sites and their drives."""
     records, rest = [], iter(replays)
     for site in sites:
-        courses: list[Course] = []
+        passages: list[Passage] = []
         for drive in site.drives:
             role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
             density = noise_density.get(site.name, {}).get(str(drive.attrs["name"]), {})
             noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
-            records.append(replace(_record(site.name, next(rest), role, courses, len(sites) > 1), noise=noise))
+            records.append(replace(_record(site.name, next(rest), role, passages, len(sites) > 1), noise=noise))
     return records
 
 
-def _record(site: str, again: Replay, role: str, courses: list[Course], several: bool) -> Record:
+def _record(site: str, again: Replay, role: str, passages: list[Passage], several: bool) -> Record:
     place, time = again.place[again.compared], again.time[again.compared]
-    number = joined(courses, place, time)
-    speed = courses[number].speed
+    number = joined(passages, place, time)
+    speed = passages[number].speed
     rate = rate_of(time)
     band = (LOWEST, min(HIGHEST * float(again.drive.attrs["cut_off"]), 0.45 * rate))
     name = str(again.drive.attrs["name"])
     return Record(
-        f"{site} {name}" if several else name, role, site, f"{site}, course {number + 1}, at {3.6 * speed:.0f} km/h", rate, band,
+        f"{site} {name}" if several else name, role, site, f"{site}, passage {number + 1}, at {3.6 * speed:.0f} km/h", rate, band,
         place, BLOCK * speed, tuple(LOWEST_OF_DRIVER.get(name, LOWEST) for name in SIGNALS),
     )  # fmt: skip
