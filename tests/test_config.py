@@ -218,6 +218,7 @@ STUDY_MISTAKES = [
     ({"calibration": {"parameters": ["dampers"]}}, "calibration: parameters: 'dampers' is no parameter of a vehicle"),
     ({"calibration": {"bounds": {"damping_front": [0, 9000]}}}, "calibration: bounds: 'damping_front' is not calibrated"),
     ({"calibration": {"bounds": {"tyre_friction": [1.4, 0.7]}}}, "tyre_friction: [1.4, 0.7], expected the lower value first"),
+    ({"calibration": {"profiles": ["damping_front"]}}, "calibration: profiles: 'damping_front' is not calibrated"),
     ({"calibration": {"start": [{"damping_front": 1500}]}}, "calibration: start: 'damping_front' is not calibrated"),
     ({"calibration": {"start": [{"tyre_friction": 2}]}}, "start: tyre_friction: 2, expected within the bounds 0.7 to 1.4"),
     ({"calibration": {"start": {"tyre_friction": 1}}}, "calibration: start: {'tyre_friction': 1}, expected a list"),

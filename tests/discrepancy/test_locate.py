@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy import locate
+from ridecomfort.discrepancy import findings, locate
 from ridecomfort.vocabulary import SIGNALS
 
 from .drives import put_between_1400_and_1600_m
@@ -69,6 +69,13 @@ def test_conditions_are_divided_into_classes_of_equal_duration(located, comparis
     slow, fast = located["condition_error"].sel(condition="speed", signal="a_z").isel(band=band).values[np.isfinite(level)]
     # It lasts 200 m of the 1,250 m that are driven at 25 m/s.
     assert fast == pytest.approx(0.32 * 200 / 1250, rel=0.05) and fast > 100 * slow
+
+
+def test_a_signal_of_the_wrong_sign_is_told_before_all_that_is_found_of_it(comparison, located):
+    assert not findings.doubts(located)
+    turned = comparison.copy(deep=True)
+    turned["residual"].loc[{"signal": "a_y"}] = -1.98 * turned["measured"].sel(signal="a_y")
+    assert findings.words(locate.locate(turned))[0] == "a_y runs against the model (correlation -1.00): is its sign right?"
 
 
 def test_the_last_state_is_located_and_another_when_asked_for(comparison, located):

@@ -62,8 +62,10 @@ def test_records_are_aligned_fitted_and_compared(files, car_file):
     model = {"site": "here", "effects": {}, "effects_folder": None, "simulation": SIMULATION}
     settings = {"bounds": {}, "signals": list(SIGNALS), "tolerance": 1e-4, "restarts": 0, "seed": 1, "applied": "joint"}
     common["measured"] = files / "measured.nc"
+    settings["profiles"] = ["top_mount.stiffness_front"]  # of an effect that this model has not
     calibrate.main(**common, config=model | {"calibration": settings}, output=files / "calibration.nc")
     found = store.read(files / "calibration.nc")
+    assert "profile" not in found.dims
     assert list(found["parameter"].values) == list(CALIBRATED) and found.attrs["calibrated_on"] == "here"
     assert float(found["value"][0]) == pytest.approx(22000.0, rel=0.03)
 

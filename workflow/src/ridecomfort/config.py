@@ -184,6 +184,10 @@ def _check_parameters(calibration: Mapping, source) -> None:
             if name not in known:
                 what = "is not calibrated; expected of" if key == "bounds" else "is no parameter of a vehicle; known are"
                 raise InputError(f"{name!r} {what} {', '.join(known)}", file=source, place=f"calibration: {key}")
+    for name in calibration["profiles"]:
+        if "." not in name and name not in chosen:
+            what = f"{name!r} is not calibrated; expected of {', '.join(chosen)}, or a size of an effect as effect.parameter"
+            raise InputError(what, file=source, place="calibration: profiles")
     for name, value in (pair for start in calibration["start"] for pair in start.items()):
         if name not in chosen:
             what = f"{name!r} is not calibrated; expected of {', '.join(chosen)}"

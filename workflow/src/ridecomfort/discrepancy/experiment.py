@@ -57,6 +57,11 @@ class Size:
     probe: float
     shaping: bool = False
 
+    def holds(self, value: float) -> bool:
+        """Whether a value is plausible, to a thousandth of the range."""
+        room = 1e-3 * (self.upper - self.lower)
+        return bool(self.lower - room <= value <= self.upper + room)
+
     @property
     def sign(self) -> int:
         """1 where only amounts above (or, with a negative probe, below) the neutral one are plausible."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from .judged import LOWEST_OF_DRIVER
+from .judged import AGAINST, LOWEST_OF_DRIVER, wrong_sign
 
 NAMED = 0.01
 """Share of the signal's power below which a finding is not worth a sentence."""
@@ -97,9 +97,15 @@ def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
     return found
 
 
+def doubts(located: xr.Dataset) -> list[str]:
+    """Signals whose sign is in doubt, in words: what else is found of them means nothing then."""
+    found = zip(located["signal"].values, located["correlation"].values)
+    return [wrong_sign(str(name), float(own)) for name, own in found if own < AGAINST]
+
+
 def words(located: xr.Dataset, count: int = 5) -> list[str]:
-    """The findings as sentences."""
-    return [finding.words() for finding in findings(located, count)]
+    """Doubts and findings as sentences."""
+    return [*doubts(located), *(finding.words() for finding in findings(located, count))]
 
 
 def _stretch(located: xr.Dataset, share: np.ndarray) -> tuple[float, float] | None:

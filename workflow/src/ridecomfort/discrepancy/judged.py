@@ -28,6 +28,21 @@ def judged(series: np.ndarray, rate: float, signals: Sequence[str]) -> np.ndarra
     return np.fft.irfft(np.where(frequency >= lowest(signals)[:, None], bins, 0.0), series.shape[-1], axis=-1)
 
 
+AGAINST = -0.3
+"""Correlation with the model below which a signal is taken for one of the wrong sign."""
+
+
+def correlation(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Correlation (signal,) about nil of two series (signal, sample), nil where one of them is."""
+    power = np.sqrt(np.sum(one**2, axis=-1) * np.sum(other**2, axis=-1))
+    return np.sum(one * other, axis=-1) / np.where(power > 0, power, 1.0)
+
+
+def wrong_sign(name: str, found: float) -> str:
+    """What is said of a signal whose correlation with the model is that."""
+    return f"{name} runs against the model (correlation {found:.2f}): is its sign right?"
+
+
 def band(series: np.ndarray, rate: float, edges: tuple[float, float]) -> np.ndarray:
     """Series (..., sample) at ``rate`` Hz with nothing left outside of a band (Hz)."""
     bins = np.fft.rfft(series, axis=-1)

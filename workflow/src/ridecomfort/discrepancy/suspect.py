@@ -12,7 +12,7 @@ from . import experiment as exp
 from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
-from .judged import judged
+from .judged import AGAINST, correlation, judged, wrong_sign
 
 ROAD_BAND = (0.1, 0.8)
 """Cycles per metre in which the spectrum of a road follows a power law (ISO 8608 holds to 2.83)."""
@@ -35,9 +35,6 @@ OTHERWISE = 0.5
 SMOOTHER = 1.35
 """Place on the way from cubic interpolation (0) to linear (1) from which on records speak for neither: up to 1.15 where the true
 road is linear, 1.5 to 2.2 with noise of 0.1 mm in its file, 1.3 to 2.3 with tyres that envelop 0.2 m."""
-
-AGAINST = -0.3
-"""Correlation with the model below which a signal is taken for one of the wrong sign."""
 
 GAIN = 0.02
 """Difference of a recorded gain from one that is more than a calibrated instrument has."""
@@ -168,9 +165,7 @@ def of_signs(experiment: Car, residuals) -> list[str]:
         record, again = experiment.records[index], experiment.replays[index]
         measured = again.measured()[:, again.compared]
         pair = judged(np.stack([measured, measured + residual]), record.rate, experiment.channels)
-        power = np.sqrt(np.sum(pair**2, axis=-1)).prod(axis=0)
-        found = np.sum(pair.prod(axis=0), axis=-1) / np.where(power > 0, power, 1.0)
-        for name, correlation in zip(experiment.channels, found):
-            if correlation < AGAINST:
-                reasons.append(f"{record.name}: {name} runs against the model (correlation {correlation:.2f}): is its sign right?")
+        for name, found in zip(experiment.channels, correlation(*pair)):
+            if found < AGAINST:
+                reasons.append(f"{record.name}: {wrong_sign(name, found)}")
     return reasons

@@ -201,8 +201,7 @@ def implausible(candidate: Candidate, values: Mapping[str, float]) -> str:
     """The first size that lies outside its plausible range, in words; empty where all lie within."""
     for size in candidate.sizes:
         value = values.get(size.key, size.neutral)
-        room = 1e-3 * (size.upper - size.lower)
-        if not size.lower - room <= value <= size.upper + room:
+        if not size.holds(value):
             return f"{size.key} = {value:.3g} {size.unit} lies outside what is plausible ({size.lower:g} to {size.upper:g})"
     return ""
 

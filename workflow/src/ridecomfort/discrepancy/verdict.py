@@ -123,7 +123,8 @@ def first_sentence(kind: str, names: Sequence[str]) -> str:
 
 def sentence(reason: str) -> str:
     """A reason as a sentence; one that begins with the name of an effect keeps it as it is written."""
-    return f"{reason}." if "_" in reason.partition(" ")[0] else f"{reason[:1].upper()}{reason[1:]}."
+    begun = reason if "_" in reason.partition(" ")[0] else f"{reason[:1].upper()}{reason[1:]}"
+    return begun if begun.endswith("?") else f"{begun}."
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:
@@ -373,7 +374,7 @@ def _size(size: Size, value: float, interval: tuple[float, float]) -> dict:
         "unit": size.unit,
         "interval": [float(end) for end in interval],
         "plausible": [float(size.lower), float(size.upper)],
-        "is_plausible": bool(size.lower <= value <= size.upper),
+        "is_plausible": size.holds(value),
     }
 
 

@@ -12,6 +12,8 @@ def main(road, measured, vehicle, config, output):
     chosen = library.choose(config["effects"], config["effects_folder"])
     settings = dict(config["calibration"])
     bounds, units = calibrate.effect_parameters(chosen, held=config["effects"])
+    # A model that has not the effect has no profile of its size.
+    settings["profiles"] = [name for name in settings["profiles"] if "." not in name or name in bounds]
     result = calibrate.calibrate(
         store.read(measured),
         simulate.prepare(store.read(road)),

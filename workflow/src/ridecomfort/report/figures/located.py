@@ -39,6 +39,7 @@ def located(study: Difference, site: str) -> Figure:
     found = chosen.comparison
     errors = findings.findings(found)
     lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
+    lines = [f"!  {doubt}" for doubt in findings.doubts(found)] + lines
     lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines] or [NOTHING]
     model = study.model.replace(JOIN, f" {JOIN} ")
     words = [*lines, fill(f"{chosen.label}, model {model}, {found.attrs['located_state']}; {floor_note(chosen)}", LONGEST)]

@@ -71,6 +71,7 @@ def findings(study: Difference) -> Table:
             rows.append((site.label, None, "none", "", "", "", None, None))
         rule = "largest shares over bands, attribute words has them as sentences"
         sources.append(Source(site.label, site.files.get("comparison", ""), "power_share, explainable_share, condition_error", rule))
+        notes += [f"{site.label}: {doubt}" for doubt in located.doubts(site.comparison)]
         notes.append(f"{site.label}: state {site.comparison.attrs['located_state']}; {floor_note(site)}")
     return _table(study, "findings", columns, rows, sources, notes, breaks[1:])
 
