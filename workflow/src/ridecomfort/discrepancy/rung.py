@@ -14,6 +14,9 @@ from .experiment import Experiment, Frame, Size
 from .probe import Raw
 from .refit import Fit
 
+ASLEEP, WAKING = 0.05, 6
+"""Share of what is plausible within which a size counts as one that ended where it starts, and steps of a fit from far off."""
+
 FITS = 2
 """Fits from one alignment, each in the frame of the residuals of the one before: an error in what makes it white comes out too small."""
 
@@ -75,7 +78,11 @@ def climb(
 
 
 def final_fit(rung: Rung, sizes: Sequence[Size]) -> tuple[Fit, Frame]:
-    """The fit whose sizes are told, with its frame: the drives aligned once more for what was found."""
+    """The fit whose sizes are told, with its frame: the drives aligned once more for what was found.
+
+    A size of an effect that ended where it starts, and can be larger only, may do better far off (a lag of some milliseconds is none): it is
+    fitted from the middle of what is plausible, too.
+    """
     values = rung.fit.values
     residuals, frame, experiment = realign.aligned(rung.experiment, values, rung.frame.indices)
     for number in range(FITS):
@@ -83,7 +90,24 @@ def final_fit(rung: Rung, sizes: Sequence[Size]) -> tuple[Fit, Frame]:
             frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
         fit = refit.refit(experiment, frame, values, sizes, probe.white(frame, rung.raw), iterations=2, residuals=residuals)
         values, residuals = fit.values, fit.residuals
+    free = {size.key for size in rung.experiment.free}
+    for size in sizes:
+        way = abs(values.get(size.key, size.neutral) - size.neutral)
+        if size.key not in free and size.sign and not size.shaping and way < ASLEEP * (size.upper - size.lower):
+            fit = min(fit, _woken(experiment, frame, fit, sizes, size, rung.raw), key=lambda one: one.loss)
     return fit, frame
+
+
+def _woken(experiment: Experiment, frame: Frame, fit: Fit, sizes: Sequence[Size], size: Size, raw: Raw) -> Fit:
+    """A fit again, from the middle of what is plausible of one size; the same where that cannot be simulated."""
+    start = {**fit.values, size.key: 0.5 * (size.lower + size.upper)}
+    try:
+        residuals = exp.simulate(experiment, start, frame.indices)
+        own = probe.secants(experiment, start, residuals, [size])
+        columns = probe.white(frame, {**raw, **own})
+        return refit.refit(experiment, frame, start, sizes, columns, renewed=[size.key], iterations=WAKING, residuals=residuals)
+    except (InputError, ValueError):
+        return fit
 
 
 def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Experiment, Frame, Fit, Raw]:

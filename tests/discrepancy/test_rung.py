@@ -1,0 +1,41 @@
+"""A rung's last fit, whose sizes are told."""
+
+from __future__ import annotations
+
+import pytest
+
+from ridecomfort.discrepancy.rung import climb, final_fit
+
+from .linear import Linear
+
+KEY = "effect_2.size"
+
+
+class Bent(Linear):
+    """The same where a small size of effect_2 acts the other way: nil is a minimum of the error, the truth of 2.5 another."""
+
+    def __init__(self, seed):
+        super().__init__(seed, {KEY: self.bent(2.5)})
+
+    @staticmethod
+    def bent(size):
+        return size * (size - 1.0)
+
+    def residual(self, values, index):
+        return super().residual({**values, KEY: self.bent(values.get(KEY, 0.0))}, index)
+
+
+def test_a_size_that_ended_where_it_starts_is_fitted_from_far_off_too():
+    model = Bent(3)
+    sizes = [*model.free, model.candidates[2].sizes[0]]
+    rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes)
+    assert rung.fit.values[KEY] == pytest.approx(0.0, abs=0.1)
+    fit, _ = final_fit(rung, sizes)
+    assert fit.values[KEY] == pytest.approx(2.5, abs=0.05)
+
+
+def test_where_nil_is_best_it_stays():
+    model = Linear(3, {})
+    sizes = [*model.free, model.candidates[2].sizes[0]]
+    fit, _ = final_fit(climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes), sizes)
+    assert fit.values[KEY] == pytest.approx(0.0, abs=0.1)
