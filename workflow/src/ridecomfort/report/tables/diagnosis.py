@@ -14,6 +14,9 @@ from ..study import Diagnosis
 from ..table import Column, Source, Table
 from . import advice
 
+SUSPECT = "The data are suspect: what stands here explains their error as they are, and may be what is wrong with them."
+"""What is said of effects that were found on such data."""
+
 FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
 """What is said where those are all that was found."""
 
@@ -93,6 +96,7 @@ def missing_effects(found: Diagnosis) -> Table:
         "the evidence has the refit that it was chosen by, above the floor of that round, and the error ladder what is left when the "
         "study calibrates anew, site by site. They are of all sizes of an effect together and stand beside its first. Absorbed: "
         "share of the effect's response that calibration can take up, and so hide.",
+        *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
 
