@@ -14,7 +14,7 @@ from ..drive.replay import Replay, Simulated
 from ..effects import library
 from ..vocabulary import SIGNALS
 from . import nuisances
-from .experiment import Candidate, Record, Size
+from .experiment import Candidate, Record, Size, by_record
 
 ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
 """m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected, and how often that is done."""
@@ -117,7 +117,7 @@ class Car:
             simulated = again.sample(run)
             return again, simulated, self._missing(values, again, simulated) if exactly else self.exactness.get(index, 0.0)
 
-        found = dict(zip(indices, self.each_record(driven, indices)))
+        found = by_record(self, driven, indices)
         retuned = replace(
             self,
             replays=[found[index][0] if index in found else again for index, again in enumerate(self.replays)],

@@ -105,7 +105,7 @@ def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Map
 
     ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure.
     """
-    cleaned = {index: frame.cleaned(index, residuals[index]) for index in frame.indices}
+    cleaned = frame.all_cleaned({index: residuals[index] for index in frame.indices})
     pairs = list(_pairs(frame, cleaned))
     if not pairs:
         return any(
