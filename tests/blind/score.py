@@ -21,6 +21,9 @@ FORM = 0.8
 CLOSE = 0.05
 """Share of its true value within which a parameter counts as told."""
 
+LEVEL = 0.05
+"""p-value of the best of the whole library, below which it is an alarm where nothing is missing."""
+
 VISIBLE = 0.8
 """Share of a kappa that must be reached for a trial to count as one of that kappa."""
 
@@ -40,7 +43,7 @@ def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
         "first_right": bool(found) and found[0] in draw.right, "in_cluster": bool(likely & draw.right),
         "wrong_named": verdict.verdict == "named" and not set(found) <= draw.there, "exact": set(found) == set(draw.right),
         "covered": sum(sizes), "sizes": len(sizes), "share": verdict.share, "held_out_share": verdict.held_out_share,
-        **{name: float(table[name]) for name in SHARED},
+        "p_value": float(table["p_value"][0].min()), **{name: float(table[name]) for name in SHARED},
     }  # fmt: skip
 
 
@@ -103,6 +106,7 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
         line(f"found, clean, kappa {kappa:g}", at, lambda row: row["in_cluster"])
     for kind in ("nothing", "path error", "clock error, aligned", "another interpolation"):
         line(f"an effect named where nothing is missing: {kind}", of(kind), lambda row: row["found"])
+        line(f"p of the whole library below {100 * LEVEL:.0f} %: {kind}", of(kind), lambda row: row["p_value"] < LEVEL)
     line("wrong effect named with confidence", rows, lambda row: row["wrong_named"])
     for kind in ("outside", "outside, messy"):
         said = f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3'

@@ -39,9 +39,22 @@ def test_an_error_that_is_even_along_the_road_has_no_stretch(located):
 
 
 def test_low_classes_are_said_with_the_other_word(located):
-    turned = located.copy(deep=True)
-    turned["condition_error"] = turned["condition_error"].isel({"class": slice(None, None, -1)})
+    turned = located.sel(condition=["speed"])
+    turned = turned.assign({key: turned[key].isel({"class": slice(None, None, -1)}) for key in ("condition_error", "condition_measured")})
     assert "speeds below" in findings.findings(turned)[0].when
+
+
+def test_what_grows_less_than_the_signal_is_relatively_most_where_that_is_small(located):
+    """As friction: the error is largest on rough road, and in percent of the signal on smooth road."""
+    rough = located.copy(deep=True)
+    error, measured = rough["condition_error"], rough["condition_measured"]
+    growing = np.linspace(1.0, 2.0, located.sizes["class"])
+    error[...] = growing[None, :, None, None]
+    measured[...] = 1.0
+    measured.loc[dict(condition="speed")] = (growing**3)[:, None, None]
+    assert "speeds below" in findings.findings(rough)[0].when
+    error.loc[dict(condition="speed", **{"class": 0})] = 0.1
+    assert findings.findings(rough)[0].when == ""
 
 
 def test_nothing_is_said_of_what_is_not_worth_a_sentence(located):

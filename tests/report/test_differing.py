@@ -108,7 +108,7 @@ def test_what_is_written_below_the_maps_has_room(study, monkeypatch):
     """Layout does not know of it: as many findings as there may be, each of two lines."""
     site = study.sites[0]
     long = findings.findings(site.comparison)[0]
-    monkeypatch.setattr(type(long), "words", lambda self: f"{self.signal}, " + "mostly at suspension velocities above 0.04 m/s, " * 4)
+    monkeypatch.setattr(type(long), "words", lambda self: f"{self.signal}, " + "relatively most at suspension velocities above 0.04 m/s, " * 4)
     monkeypatch.setattr(findings, "findings", lambda found: [long] * 5)
     with style.styled():
         made = located.located(Difference((site,), study.ladder), site.name)

@@ -19,8 +19,9 @@ HALF = 0.5
 EVERYWHERE = 0.35
 """Share of the road from which on an error counts as spread all along it."""
 
-PREVAILING = 1.5
-"""How many times its mean an error has in the class of a condition that is named for it."""
+PREVAILING, HELD = 1.5, 0.1
+"""How many times its share of the signal's power an error has in the class of a condition that is named for it, and the least
+part of the error that this class holds."""
 
 STRAIGHT = 3000.0
 """m of radius above which a road is called straight."""
@@ -52,7 +53,7 @@ CONDITIONS: dict[str, tuple[Callable[[float], str], Callable[[float], str]]] = {
 class Finding:
     """An error above the floor: its signal, band in Hz, the stretch in m that holds half of it (None: all along the road).
 
-    ``when`` is the condition that it prevails under, in words (empty: none); ``power_share`` is over the
+    ``when`` is the condition under which it is largest beside the signal, in words (empty: none); ``power_share`` is over the
     signal's measured power, ``explainable_share`` over its error above the floor in all bands.
     """
 
@@ -72,8 +73,8 @@ class Finding:
         return "half of it at {:.2f}-{:.2f} km".format(*(place / 1000 for place in self.stretch))
 
     def words(self) -> str:
-        """Such as "a_z, 8-14 Hz, half of it at 1.20-1.50 km, mostly at speeds above 70 km/h: 12 % of its power"."""
-        when = f", mostly at {self.when}" if self.when else ""
+        """Such as "a_z, 8-14 Hz, half of it at 1.20-1.50 km, relatively most at speeds above 70 km/h: 12 % of its power"."""
+        when = f", relatively most at {self.when}" if self.when else ""
         return (
             f"{self.signal}, {self.lower:g}-{self.upper:g} Hz, {self.where}{when}: {100 * self.power_share:.1f} % of the "
             f"signal's power, {100 * self.explainable_share:.0f} % of its explainable error"
@@ -119,12 +120,16 @@ def _stretch(located: xr.Dataset, share: np.ndarray) -> tuple[float, float] | No
 
 
 def _when(located: xr.Dataset, signal: int, band: int) -> str:
-    """The condition whose uppermost or lowest class has most of an error above the floor, in words, empty if none does."""
+    """The condition in whose uppermost or lowest class an error above the floor is largest beside the signal, in words, empty if none is.
+
+    Beside the signal: rough stretches make any error larger, and only what grows otherwise than the signal says something of its cause.
+    """
     error = located["condition_error"].values[:, :, signal, band] - float(located["band_floor"][signal, band])
-    mean = error.mean(axis=1)
-    ratio = np.where(mean > 0, error[:, [-1, 0]].T / np.where(mean > 0, mean, 1.0), 0.0)
-    side, condition = np.unravel_index(int(ratio.argmax()), ratio.shape)
-    if ratio[side, condition] < PREVAILING:
+    measured = located["condition_measured"].values[:, :, signal, band]
+    part, of_signal = (each / each.sum(axis=1, keepdims=True) for each in (error, measured))
+    ratio = np.divide(part, of_signal, out=np.zeros_like(part), where=(part >= HELD) & (of_signal > 0))[:, [-1, 0]]
+    condition, side = np.unravel_index(int(ratio.argmax()), ratio.shape)
+    if ratio[condition, side] < PREVAILING:
         return ""
     edge = float(located["condition_edge"][condition, -2 if side == 0 else 1])
     return CONDITIONS[str(located["condition"].values[condition])][side](edge)

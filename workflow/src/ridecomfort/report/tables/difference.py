@@ -55,11 +55,14 @@ def findings(study: Difference) -> Table:
         Column("signal", ("", "Signal")),
         Column("band_Hz", ("", "Band [Hz]")),
         Column("where", ("", "Where")),
-        Column("when", ("", "Mostly at")),
+        Column("when", ("", "Relatively most at")),
         Column("power_pct", ("Error above the floor", "[% of the signal's power]"), ".1f"),
         Column("explainable_pct", ("Error above the floor", "[% of the explainable]"), ".0f"),
     )
-    notes = [f"Found is what reaches {100 * located.NAMED:g} % of the signal's power in a band, at most five a site."]
+    notes = [
+        f"Found is what reaches {100 * located.NAMED:g} % of the signal's power in a band, at most five a site. Relatively most: in "
+        "percent of the signal's power under the same condition."
+    ]
     rows, sources, breaks = [], [], []
     for site in study.sites:
         breaks.append(len(rows))
