@@ -167,10 +167,10 @@ def irregular():
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        (spoilt("a_y", 41, np.nan), ("a_y", "row 42", "0.41 s", "nan", "expected a number")),
-        (spoilt("roll_rate", 9, 45.0), ("roll_rate", "row 10", "45", "rad/s", "unit")),
+        (spoilt("a_y", 41, np.nan), ("a_y", "sample 42", "0.41 s", "nan", "expected a number")),
+        (spoilt("roll_rate", 9, 45.0), ("roll_rate", "sample 10", "45", "rad/s", "unit")),
         (spoilt("v_x", 0, 120.0), ("v_x", "120", "-5 to 90")),
-        (backwards(), ("time of pitch_rate", "row 701", "6.49 s after 6.99 s", "strictly increasing")),
+        (backwards(), ("time of pitch_rate", "sample 701", "6.49 s after 6.99 s", "strictly increasing")),
         (irregular(), ("time of a_y", "irregular", "0.06 s", "7.99 s")),
         ({k: v for k, v in quantities().items() if k != "yaw_rate"}, ("no yaw_rate", "a_x, a_y, a_z")),
         ({k: v for k, v in quantities().items() if k not in ("s", "v_x")}, ("neither v_x nor s",)),

@@ -34,17 +34,17 @@ def rate_of(time: np.ndarray) -> float:
 
 
 def check_clock(time: np.ndarray, *, file=None, place: str = "time") -> None:
-    """Raise InputError unless the time stamps are finite and strictly increasing (rows count from 1)."""
+    """Raise InputError unless the time stamps are finite and strictly increasing (samples count from 1)."""
     if time.ndim != 1 or len(time) < 2:
         raise InputError(f"{time.size} time stamps (expected a column of at least 2)", file=file, place=place)
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
-        raise InputError(f"row {bad[0] + 1} holds {time[bad[0]]} (expected a number)", file=file, place=place)
+        raise InputError(f"sample {bad[0] + 1} holds {time[bad[0]]} (expected a number)", file=file, place=place)
     back = np.flatnonzero(np.diff(time) <= 0)
     if back.size:
         i = back[0]
         raise InputError(
-            f"the clock does not advance at row {i + 2}: {time[i + 1]:.6g} s after {time[i]:.6g} s "
+            f"the clock does not advance at sample {i + 2}: {time[i + 1]:.6g} s after {time[i]:.6g} s "
             "(expected strictly increasing time)",
             file=file,
             place=place,

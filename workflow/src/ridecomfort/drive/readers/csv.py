@@ -20,7 +20,7 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
 
     ``columns`` maps quantities (and ``time``) to column, unit and, for axes that
     point the other way, ``factor: -1``. Without it the columns are named as in the
-    vocabulary and hold SI units. Raises InputError naming row and column.
+    vocabulary and hold SI units. Raises InputError naming line and column.
     """
     table = _table(path)
     if columns is None:
