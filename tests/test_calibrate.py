@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -296,6 +298,16 @@ def test_a_search_turns_back_where_a_vehicle_cannot_be_driven_but_must_not_start
     assert found.point[0] == pytest.approx(0.3, abs=1e-3)
     with pytest.raises(InputError, match="cannot be driven"):
         descent.descend(Overshooting(), np.array([0.05]), [0], 1e-6)
+
+
+def test_starts_that_end_elsewhere_are_said_with_the_parameter_they_differ_in():
+    task = SimpleNamespace(parameters=("one", "two"), values=lambda point: 10.0 * point)
+    best, near, far = (
+        SimpleNamespace(cost=cost, point=np.array(point)) for cost, point in ((1.0, (0.3, 0.5)), (1.005, (0.3, 0.5)), (1.2, (0.4, 0.1)))
+    )
+    assert calibrate._of_starts(task, [best, near], best, []) == []
+    (words,) = calibrate._of_starts(task, [best, near, far], best, [])
+    assert words.startswith("starts disagree: the worst of 3 ends at a cost 20.0 % above") and words.endswith("most in two, 1 against 5")
 
 
 @pytest.mark.parametrize("other", [0.0, 1e-6])

@@ -161,7 +161,7 @@ def calibrate(
     result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
     remarks = [
         *_clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge), *_of_clocks(result),
-        *_of_starts(fits, best, refused),
+        *_of_starts(task, fits, best, refused),
     ]  # fmt: skip
     result.attrs.update(
         applied=applied,
@@ -220,14 +220,20 @@ def _of_clocks(result: xr.Dataset) -> list[str]:
     return [said + "the model lacks a delay or a damping"] if eager.size else []
 
 
-def _of_starts(fits: Sequence[Descent], best: Descent, refused: Sequence[str]) -> list[str]:
+def _of_starts(task: Problem, fits: Sequence[Descent], best: Descent, refused: Sequence[str]) -> list[str]:
     """What is to be said of starts that led nowhere, or elsewhere."""
     said = []
     if refused:
         said.append(f"{len(refused)} of {len(refused) + len(fits)} starts led to a vehicle that does not drive ({refused[0]})")
-    worst = max(fit.cost for fit in fits) / best.cost - 1
-    if worst > DISAGREE:
-        said.append(f"starts disagree: the worst of {len(fits)} ends at a cost {100 * worst:.1f} % above the best, which is taken")
+    worst = max(fits, key=lambda fit: fit.cost)
+    above = worst.cost / best.cost - 1
+    if above > DISAGREE:
+        most = int(np.argmax(np.abs(worst.point - best.point)))
+        ends = [f"{task.values(fit.point)[most]:.4g}" for fit in (worst, best)]
+        said.append(
+            f"starts disagree: the worst of {len(fits)} ends at a cost {100 * above:.1f} % above the best, which is taken; they differ most "
+            f"in {task.parameters[most]}, {ends[0]} against {ends[1]}"
+        )
     return said
 
 
