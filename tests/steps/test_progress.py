@@ -89,6 +89,16 @@ def test_jobs_that_a_checkpoint_adds_count(watched, clock):
     assert shares == [50, 66, 100, 100] and watched.said()[-1].startswith("[100 %] all done")
 
 
+def test_what_is_done_never_becomes_less(watched):
+    log(watched, "run_info", stats={"diagnosis": 1, "report": 1, "total": 2})
+    for number, rules in enumerate((["diagnosis"], ["calibrate", "compare"])):
+        for rule in rules:
+            start(watched, f"{number} {rule}", rule)
+        for rule in rules:
+            log(watched, "job_finished", job_id=f"{number} {rule}")
+    assert [int(line[1:4]) for line in watched.said()] == [0, 50, 50, 50, 50, 75]
+
+
 def test_a_start_names_the_shard(watched):
     log(watched, "run_info", stats={"simulate": 2, "total": 2})
     start(watched, 1, "simulate", site="ts1", model="base", runs="0000-0249")

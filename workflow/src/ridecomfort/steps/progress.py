@@ -71,6 +71,7 @@ class Progress(logging.Handler):
         self.announced: set[tuple[str, str]] = set()
         self.together = 1
         self.done = 0
+        self.percent = 0
         self.begun = time.monotonic()
 
     def emit(self, record: logging.LogRecord) -> None:
@@ -176,7 +177,8 @@ class Progress(logging.Handler):
 
     def _print(self, text: str) -> None:
         total = sum(self.counts.values())
-        self._write(f"[{100 * self.done // total if total else 0:3} %] {text}")
+        self.percent = max(self.percent, 100 * self.done // total if total else 0)  # jobs that a diagnosis adds take nothing back
+        self._write(f"[{self.percent:3} %] {text}")
 
     def _write(self, text: str) -> None:
         print(text, file=self.stream, flush=True)
