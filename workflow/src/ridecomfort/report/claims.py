@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
-from . import catalogue, published
+from . import catalogue, notation, published
 from .classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
 from .study import Study
 from .table import Column, Source, Table
@@ -328,7 +328,7 @@ def _complete(values: Mapping, holds: Callable[[], bool]) -> str:
 
 
 def _title(method: str) -> str:
-    return {"iso2631": "ISO 2631", "iri": "IRI"}.get(method, method)
+    return notation.METHODS.get(method, method)
 
 
 def _list(values: Mapping, form: str = "d", unit: str = "") -> str:

@@ -30,6 +30,9 @@ SYMBOLS = {
 }
 """How the paper writes what the study's files name."""
 
+METHODS = {"thresholds": "thresholding", "iso2631": "ISO 2631", "iri": "IRI"}
+"""How the paper calls the comfort methods."""
+
 UNITS = {"m/s2": "m/s²", "N/m": "N/m", "N s/m": "N s/m", "1": "-", "rad/s": "rad/s", "1/m": "1/m"}
 """Units of the files as they are printed; any other unit is printed as it is."""
 

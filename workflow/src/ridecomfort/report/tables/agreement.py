@@ -7,12 +7,12 @@ import numpy as np
 from ...comfort import agreement as measures
 from ...comfort import enough, influence, methods
 from .. import catalogue
-from ..notation import symbol
+from ..notation import METHODS, symbol
 from ..study import Study
 from ..table import Column, Source, Table
 from .comfort import notes_with_standin
 
-METHODS = {"iso2631": "ISO 2631", "iri": "IRI", "thresholds": "thresholding", "a_z": "thresholding of $a_z$"}
+PAIRED = {**METHODS, "a_z": "thresholding of $a_z$"}
 GRADES = {"iso2631": methods.ISO_GRADES, "iri": methods.IRI_GRADES}
 POOLED = "pooled"
 DIFFERENCE = "ISO 2631 closer to the IRI than thresholding by"
@@ -23,7 +23,7 @@ WIDTHS = (0.1, 0.05)
 
 def pair_title(pair: str) -> str:
     """A pair of methods of ``methods.agree`` in print."""
-    return " – ".join(METHODS[method] for method in pair.split(" - "))
+    return " – ".join(PAIRED[method] for method in pair.split(" - "))
 
 
 def measure_title(measure: str) -> str:

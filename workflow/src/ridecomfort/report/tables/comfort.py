@@ -8,7 +8,7 @@ import xarray as xr
 from ...comfort import bands
 from .. import catalogue, published
 from ..classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
-from ..notation import symbol
+from ..notation import METHODS, symbol
 from ..study import Study
 from ..table import Column, Source, Table
 
@@ -17,8 +17,6 @@ PAPER = "paper"
 MISPRINT = "†"
 PERCEPTION = bands.PERCEPTION[0], bands.PERCEPTION[-1]
 """Threshold of vibration perception in m/s2, lower and upper value (sec:iso_comfort)."""
-
-TITLES = {"thresholds": "thresholding", "iso2631": "ISO 2631", "iri": "IRI"}
 
 COUNTS = (("C", "$C$ [-]", "d"), ("R_c", "$R_c$ [%]", ".2f"), ("N", "$N$ [-]", "d"), ("R_n", "$R_n$ [%]", ".2f"))
 
@@ -108,7 +106,7 @@ def exceedance(study: Study) -> Table:
     for site in study.sites:
         for dataset in ("thresholds", "iso2631", "iri"):
             file = site.files.get(dataset, "")
-            of = f"{site.label}, {TITLES[dataset]}"
+            of = f"{site.label}, {METHODS[dataset]}"
             sources.append(Source(f"{of}, mean run", file, "critical_count", "as in the file"))
             sources.append(
                 Source(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from ...discrepancy import judged
+from ...discrepancy import critical, judged
 from ...discrepancy import ladder as rungs
 from ...vocabulary import SIGNALS
 from .. import catalogue, notation
@@ -13,7 +13,7 @@ from ..study import Difference
 from ..table import Column, Source, Table
 from ..units import printed
 
-METHODS = {"thresholds": "Thresholds", "iso2631": "ISO 2631"}
+METHODS = {key: notation.METHODS[key] for key in critical.METHODS}
 FLOOR = "lowest floor"
 
 

@@ -11,7 +11,6 @@ from ..table import Column, Source, Table
 
 NAMES = ("Wb", "Wc", "Wd", "We", "Wf", "Wj", "Wk")
 RATES = (100, 200, 500, 1000)
-TITLES = {"exact": "exact", "causal": "causal", "bilinear": "bilinear"}
 FORMATS = {"exact": ".4f", "causal": ".4f", "bilinear": ".1f"}
 
 
@@ -19,9 +18,7 @@ def weighting(study: Study) -> Table:
     """Largest deviation of each weighting at each rate, by the way that the digital filter is made."""
     columns = [Column("weighting", ("", "Weighting"))]
     for rate in RATES:
-        columns += [
-            Column(f"{way}_{rate}_hz", (f"{rate} Hz", TITLES[way]), FORMATS[way]) for way in deviation.WAYS
-        ]
+        columns += [Column(f"{way}_{rate}_hz", (f"{rate} Hz", way), FORMATS[way]) for way in deviation.WAYS]
     rows = deviations()
     sources = (
         Source(
