@@ -137,7 +137,7 @@ def reconsidered(
 def _noise_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
     """Noise of the road, which repeats share as well, gives way to a force that explains more than noise could."""
     # Beside that noise, which weighs more the weaker an effect is, any fall on drives held out will do.
-    is_more = bool(proposal.place) and proposal.p_value <= SURE and proposal.share > LITTLE and not proposal.held_out_share <= 0
+    is_more = _is_no_chance(proposal) and proposal.share > LITTLE and not proposal.held_out_share <= 0
     return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_more else verdict
 
 
@@ -247,6 +247,15 @@ def _said(verdict: Verdict, kind: str, reason: str) -> Verdict:
 
 def is_sure(proposal: Discovery) -> bool:
     """Whether a proposed form is more than chance, by its p-value, its share, and what it does on drives held out, if any."""
-    if not proposal.place or proposal.p_value > SURE or not proposal.share > LITTLE:
+    if not (_is_no_chance(proposal) and proposal.share > LITTLE):
         return False
     return not np.isfinite(proposal.held_out_share) or proposal.held_out_share > CONFIRMED
+
+
+def _is_no_chance(proposal: Discovery) -> bool:
+    """Whether fitted drives are sure of a proposed form by its p-value, or by a large gain of which drives held out confirm most.
+
+    The p-value turns whole stretches round: of a force that is there at a few rough ones above all it says little, however much that explains.
+    """
+    is_confirmed = proposal.is_large and proposal.share > ENOUGH and proposal.held_out_share > ENOUGH
+    return bool(proposal.place) and (proposal.p_value <= SURE or is_confirmed)

@@ -46,6 +46,8 @@ class Discovery:
     by_place: dict[str, float]
     """Fall of twice the negative log-likelihood with the best term of every place."""
     selection: Selection
+    is_large: bool = False
+    """Whether the first term gains so much on the fitted drives that the error changes its colour by it."""
 
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
@@ -118,7 +120,9 @@ def _discovery(selection: Selection, name: str) -> Discovery:
     p_value = float(first.p_value[first.names.index(first.winner.name)])
     sentence = f"Found on measured drives, not in the library: at the {place}, {form}."
     source = effect_source(name, place, terms, sentence, shaped)
-    return Discovery(name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection)
+    return Discovery(
+        name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, first.is_large
+    )
 
 
 def _place(name: str) -> str:
