@@ -156,6 +156,11 @@ def test_a_question_among_the_reasons_stays_one():
     assert said.words().endswith("a_y runs against the model: is its sign right? The clock is off.")
 
 
+def test_names_that_begin_a_reason_are_written_as_they_are():
+    said = replace(NOTHING, reasons=("crosswind: does not improve the drives held out", "top_mount helps", "less than half"))
+    assert said.words().endswith("crosswind: does not improve the drives held out. top_mount helps. Less than half.")
+
+
 def test_what_is_left_is_said_in_percent_of_the_power_of_each_signal():
     found = with_remainder(OUTSIDE, {"a_x": 0.004, "a_y": 0.012, "a_z": 0.0004, "yaw_rate": 0.25, "roll_rate": 0.002})
     assert found.reasons[-1] == "left above the floor: 25.0 % of the power of yaw_rate, 1.2 % of the power of a_y and 0.4 % of the power of a_x"

@@ -122,8 +122,9 @@ def first_sentence(kind: str, names: Sequence[str]) -> str:
 
 
 def sentence(reason: str) -> str:
-    """A reason as a sentence; one that begins with the name of an effect keeps it as it is written."""
-    begun = reason if "_" in reason.partition(" ")[0] else f"{reason[:1].upper()}{reason[1:]}"
+    """A reason as a sentence; one that begins with the name of an effect or a drive keeps it as it is written."""
+    first = reason.partition(" ")[0]
+    begun = reason if "_" in first or first.endswith(":") else f"{reason[:1].upper()}{reason[1:]}"
     return begun if begun.endswith("?") else f"{begun}."
 
 
