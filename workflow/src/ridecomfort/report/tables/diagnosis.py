@@ -145,7 +145,8 @@ def evidence(found: Diagnosis) -> Table:
     )
     notes = (
         "Gain: fall of twice the negative log-likelihood. The p-value is that of the largest gain over the whole library, by block "
-        "wild bootstrap. Every effect is tested; the best are refitted together with the calibrated parameters, and what that removes "
+        "wild bootstrap: a screen of what is worth a refit, too small on short drives (docs/diagnosis.md). Every effect is tested; the "
+        "best are refitted together with the calibrated parameters, and what that removes "
         "is told above the floor as known in the round: for what an accepted effect removes in the end see the missing effects.",
     )
     return _table(found, "evidence", columns, rows, sources, notes, breaks[1:])
