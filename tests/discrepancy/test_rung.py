@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from copy import copy
+
 import pytest
 
 from ridecomfort.discrepancy.rung import climb, final_fit
@@ -39,3 +41,27 @@ def test_where_nil_is_best_it_stays():
     sizes = [*model.free, model.candidates[2].sizes[0]]
     fit, _ = final_fit(climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes), sizes)
     assert fit.values[KEY] == pytest.approx(0.0, abs=0.1)
+
+
+class Held(Linear):
+    """The same where drives, once they are aligned for a model, hold effect_2 back: they change otherwise than it does as it grows."""
+
+    size = 0.0
+
+    def retuned(self, values, indices, exactly=False):
+        tuned = copy(self)
+        tuned.size = values.get(KEY, 0.0)
+        return tuned, {index: tuned.residual(values, index) for index in indices}
+
+    def residual(self, values, index):
+        off = 5.0 * (values.get(KEY, 0.0) - self.size)
+        return super().residual(values, index) + off * self.columns[index]["effect_5.size"]
+
+
+def test_a_fit_that_alignment_holds_back_is_carried_on():
+    model = Held(3, {KEY: 2.5})
+    sizes = [*model.free, model.candidates[2].sizes[0]]
+    rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes)
+    assert rung.fit.values[KEY] < 0.5
+    fit, _ = final_fit(rung, sizes)
+    assert fit.values[KEY] == pytest.approx(2.5, abs=0.1)

@@ -17,6 +17,10 @@ from .refit import Fit
 ASLEEP, WAKING = 0.05, 6
 """Share of what is plausible within which a size counts as one that ended where it starts, and steps of a fit from far off."""
 
+MOVED, CARRIED, DOUBLINGS = 4.0, 6, 6
+"""Fall of the white loss for every size from which on a fit has moved since its drives were aligned (by chance each takes one), how often
+at most it is carried on then, and how often at most its way is doubled."""
+
 FITS = 2
 """Fits from one alignment, each in the frame of the residuals of the one before: an error in what makes it white comes out too small."""
 
@@ -77,25 +81,70 @@ def climb(
     return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, has_repeats)
 
 
-def final_fit(rung: Rung, sizes: Sequence[Size]) -> tuple[Fit, Frame]:
-    """The fit whose sizes are told, with its frame: the drives aligned once more for what was found.
+def final_fit(rung: Rung, sizes: Sequence[Size], each: Callable = map) -> tuple[Fit, Frame]:
+    """The fit whose sizes are told, with its frame: the drives aligned anew for what was found, as often as that moves the sizes.
 
     A size of an effect that ended where it starts, and can be larger only, may do better far off (a lag of some milliseconds is none): it is
     fitted from the middle of what is plausible, too.
     """
-    values = rung.fit.values
-    residuals, frame, experiment = realign.aligned(rung.experiment, values, rung.frame.indices)
+    start = rung.fit.values, *realign.aligned(rung.experiment, rung.fit.values, rung.frame.indices)
+    fit, frame, raw = *_at_own_spectrum(*start, sizes, rung.raw), rung.raw
+    for _ in range(CARRIED):
+        farther = _carried_on(rung.experiment, *start[:3], fit, frame, sizes)
+        if farther is None:
+            break
+        start = farther
+        values, residuals, _, experiment = start
+        raw = {**raw, **probe.secants(experiment, values, residuals, sizes, each)}
+        fit, frame = _at_own_spectrum(*start, sizes, raw)
+    experiment = start[-1]
+    free = {size.key for size in rung.experiment.free}
+    for size in sizes:
+        way = abs(fit.values.get(size.key, size.neutral) - size.neutral)
+        if size.key not in free and size.sign and not size.shaping and way < ASLEEP * (size.upper - size.lower):
+            fit = min(fit, _woken(experiment, frame, fit, sizes, size, raw), key=lambda one: one.loss)
+    return fit, frame
+
+
+def _at_own_spectrum(
+    values: Mapping[str, float], residuals, frame: Frame, experiment: Experiment, sizes: Sequence[Size], raw: Raw
+) -> tuple[Fit, Frame]:
+    """The fit of ``sizes`` to drives as they are aligned at these values, in the frame of the residuals that it nearly leaves."""
     for number in range(FITS):
         if number:
             frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
-        fit = refit.refit(experiment, frame, values, sizes, probe.white(frame, rung.raw), iterations=2, residuals=residuals)
+        fit = refit.refit(experiment, frame, values, sizes, probe.white(frame, raw), iterations=2, residuals=residuals)
         values, residuals = fit.values, fit.residuals
-    free = {size.key for size in rung.experiment.free}
-    for size in sizes:
-        way = abs(values.get(size.key, size.neutral) - size.neutral)
-        if size.key not in free and size.sign and not size.shaping and way < ASLEEP * (size.upper - size.lower):
-            fit = min(fit, _woken(experiment, frame, fit, sizes, size, rung.raw), key=lambda one: one.loss)
     return fit, frame
+
+
+def _carried_on(
+    experiment: Experiment, values: Mapping[str, float], residuals, aligned: Frame, fit: Fit, frame: Frame, sizes: Sequence[Size]
+) -> tuple[Mapping[str, float], Mapping[int, np.ndarray], Frame, Experiment] | None:
+    """Values, residuals, frame and experiment where the way from the ``values`` that drives were ``aligned`` for to a ``fit`` leads, doubled
+    while the drives, aligned anew, become more likely; None where it leads nowhere.
+
+    Drives that are aligned for a model, their driver tuned to it, hold its sizes back: a payload, with which all masses, springs
+    and dampers grow, came but a twentieth of its way from one alignment to the next.
+    """
+    if float(np.sum(frame.flat(residuals) ** 2)) - fit.loss < MOVED * len(sizes):
+        return None
+    way = {size: fit.values[size.key] - values.get(size.key, size.neutral) for size in sizes}
+    likely, farthest = refit.information(aligned, residuals), None
+    for doubling in range(DOUBLINGS):
+        reached = {
+            size.key: float(np.clip(values.get(size.key, size.neutral) + 2**doubling * own, *sorted((size.lower, size.upper))))
+            for size, own in way.items()
+        }
+        try:
+            found = {**values, **reached}, *realign.aligned(experiment, {**values, **reached}, frame.indices)
+        except (InputError, ValueError):
+            break
+        now = refit.information(found[2], found[1])
+        if now < likely + refit.WORTHWHILE:
+            break
+        likely, farthest = now, found
+    return farthest
 
 
 def _woken(experiment: Experiment, frame: Frame, fit: Fit, sizes: Sequence[Size], size: Size, raw: Raw) -> Fit:

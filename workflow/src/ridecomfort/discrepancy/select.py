@@ -127,7 +127,7 @@ class _Search:
             )
             states.append(self._state(turn.winner.name, self.rung.fit, self.rung.check))
         rung = self.rung
-        final, frame = final_fit(rung, self._sizes())
+        final, frame = final_fit(rung, self._sizes(), self.each)
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
         bounds = {key: found for key, found in refit.intervals(final, frame, self._sizes()).items() if key not in typical}
         # What shapes an effect means nothing where that is not there: it is held where only this is asked.
