@@ -164,6 +164,14 @@ def test_what_is_wrong_in_a_table_is_said_in_one_line(tmp_path, frame, columns, 
         assert word in message, message
 
 
+def test_of_a_header_that_is_none_only_the_beginning_is_shown(tmp_path):
+    path = tmp_path / "drive.csv"
+    path.write_text(", ".join(map(str, range(5000))) + "\n1\n")
+    with pytest.raises(InputError, match=r"found 0, 1, 2.* \.\.\.\)") as refused:
+        readers.read(path, COLUMNS)
+    assert len(str(refused.value)) < 600
+
+
 def test_blank_lines_are_counted_though_they_are_no_rows(tmp_path):
     path = write(tmp_path, broken("ax [g]", 10, "n/a?"))
     lines = path.read_text().split("\n")

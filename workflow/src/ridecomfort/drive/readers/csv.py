@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping, Sequence
+from textwrap import shorten
 
 import numpy as np
 import pandas as pd
@@ -13,6 +14,9 @@ from ...vocabulary import DRIVE
 from .. import units
 
 SUFFIXES = (".csv",)
+
+LONGEST = 300
+"""Letters of a line of names that are shown where one is missing; what is no table may have thousands."""
 
 
 def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
@@ -57,7 +61,8 @@ def _check_names(found: Sequence[str], columns: Mapping[str, Mapping], path) -> 
             expected = ", ".join(("time", *DRIVE))
             raise InputError(f"unknown quantity {quantity!r} (expected {expected})", file=path, place="columns")
         if entry["column"] not in found:
-            raise InputError(f"no column {entry['column']!r} for {quantity} (found {', '.join(found)})", file=path)
+            names = shorten(", ".join(found), LONGEST, placeholder=" ...")
+            raise InputError(f"no column {entry['column']!r} for {quantity} (found {names})", file=path)
 
 
 def _table(path) -> pd.DataFrame:
