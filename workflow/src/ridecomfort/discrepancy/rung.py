@@ -81,66 +81,74 @@ def climb(
     return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, has_repeats)
 
 
+@dataclass(frozen=True)
+class _Aligned:
+    """Records ``aligned`` for a model at ``values``: residuals, their frame and the experiment."""
+
+    values: Mapping[str, float]
+    residuals: Mapping[int, np.ndarray]
+    frame: Frame
+    experiment: Experiment
+
+    @classmethod
+    def at(cls, experiment: Experiment, values: Mapping[str, float], indices: Sequence[int]) -> _Aligned:
+        return cls(values, *realign.aligned(experiment, values, indices))
+
+
 def final_fit(rung: Rung, sizes: Sequence[Size], each: Callable = map) -> tuple[Fit, Frame]:
     """The fit whose sizes are told, with its frame: the drives aligned anew for what was found, as often as that moves the sizes.
 
     A size of an effect that ended where it starts, and can be larger only, may do better far off (a lag of some milliseconds is none): it is
     fitted from the middle of what is plausible, too.
     """
-    start = rung.fit.values, *realign.aligned(rung.experiment, rung.fit.values, rung.frame.indices)
-    fit, frame, raw = *_at_own_spectrum(*start, sizes, rung.raw), rung.raw
+    raw, start = rung.raw, _Aligned.at(rung.experiment, rung.fit.values, rung.frame.indices)
+    fit, frame = _at_own_spectrum(start, sizes, raw)
     for _ in range(CARRIED):
-        farther = _carried_on(rung.experiment, *start[:3], fit, frame, sizes)
+        farther = _carried_on(rung.experiment, start, fit, frame, sizes)
         if farther is None:
             break
         start = farther
-        values, residuals, _, experiment = start
-        raw = {**raw, **probe.secants(experiment, values, residuals, sizes, each)}
-        fit, frame = _at_own_spectrum(*start, sizes, raw)
-    experiment = start[-1]
+        raw = {**raw, **probe.secants(start.experiment, start.values, start.residuals, sizes, each)}
+        fit, frame = _at_own_spectrum(start, sizes, raw)
     free = {size.key for size in rung.experiment.free}
     for size in sizes:
         way = abs(fit.values.get(size.key, size.neutral) - size.neutral)
         if size.key not in free and size.sign and not size.shaping and way < ASLEEP * (size.upper - size.lower):
-            fit = min(fit, _woken(experiment, frame, fit, sizes, size, raw), key=lambda one: one.loss)
+            fit = min(fit, _woken(start.experiment, frame, fit, sizes, size, raw), key=lambda one: one.loss)
     return fit, frame
 
 
-def _at_own_spectrum(
-    values: Mapping[str, float], residuals, frame: Frame, experiment: Experiment, sizes: Sequence[Size], raw: Raw
-) -> tuple[Fit, Frame]:
-    """The fit of ``sizes`` to drives as they are aligned at these values, in the frame of the residuals that it nearly leaves."""
+def _at_own_spectrum(start: _Aligned, sizes: Sequence[Size], raw: Raw) -> tuple[Fit, Frame]:
+    """The fit of ``sizes`` to drives as they are aligned, in the frame of the residuals that it nearly leaves."""
+    values, residuals, frame = start.values, start.residuals, start.frame
     for number in range(FITS):
         if number:
-            frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
-        fit = refit.refit(experiment, frame, values, sizes, probe.white(frame, raw), iterations=2, residuals=residuals)
+            frame = exp.frame(start.experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
+        columns = probe.white(frame, raw)
+        fit = refit.refit(start.experiment, frame, values, sizes, columns, iterations=2, residuals=residuals)
         values, residuals = fit.values, fit.residuals
     return fit, frame
 
 
-def _carried_on(
-    experiment: Experiment, values: Mapping[str, float], residuals, aligned: Frame, fit: Fit, frame: Frame, sizes: Sequence[Size]
-) -> tuple[Mapping[str, float], Mapping[int, np.ndarray], Frame, Experiment] | None:
-    """Values, residuals, frame and experiment where the way from the ``values`` that drives were ``aligned`` for to a ``fit`` leads, doubled
-    while the drives, aligned anew, become more likely; None where it leads nowhere.
+def _carried_on(experiment: Experiment, start: _Aligned, fit: Fit, frame: Frame, sizes: Sequence[Size]) -> _Aligned | None:
+    """Where the way from what drives were aligned for to a ``fit`` leads, doubled while the drives of ``experiment``, aligned anew, become
+    more likely; None where it leads nowhere.
 
     Drives that are aligned for a model, their driver tuned to it, hold its sizes back: a payload, with which all masses, springs
     and dampers grow, came but a twentieth of its way from one alignment to the next.
     """
-    if float(np.sum(frame.flat(residuals) ** 2)) - fit.loss < MOVED * len(sizes):
+    if float(np.sum(frame.flat(start.residuals) ** 2)) - fit.loss < MOVED * len(sizes):
         return None
-    way = {size: fit.values[size.key] - values.get(size.key, size.neutral) for size in sizes}
-    likely, farthest = refit.information(aligned, residuals), None
+    value = lambda size: start.values.get(size.key, size.neutral)
+    way = {size: fit.values[size.key] - value(size) for size in sizes}
+    likely, farthest = refit.information(start.frame, start.residuals), None
     for doubling in range(DOUBLINGS):
-        reached = {
-            size.key: float(np.clip(values.get(size.key, size.neutral) + 2**doubling * own, *sorted((size.lower, size.upper))))
-            for size, own in way.items()
-        }
+        reached = {size.key: float(np.clip(value(size) + 2**doubling * own, size.lower, size.upper)) for size, own in way.items()}
         try:
-            found = {**values, **reached}, *realign.aligned(experiment, {**values, **reached}, frame.indices)
+            found = _Aligned.at(experiment, {**start.values, **reached}, frame.indices)
         except (InputError, ValueError):
             break
-        now = refit.information(found[2], found[1])
+        now = refit.information(found.frame, found.residuals)
         if now < likely + refit.WORTHWHILE:
             break
         likely, farthest = now, found
