@@ -66,6 +66,23 @@ def test_drives_on_other_stretches_are_no_repeats_of_one_another(made):
     assert len({record.condition for record in whole.records}) == 1
 
 
+@pytest.mark.parametrize(
+    "slower, seconds, begins",
+    [
+        (1.0, 30.0, 6.0),  # 22 m/s: the run-in of 54 m ends after 2.5 s, when its driver has not yet found the path
+        (3.0, 30.0, 1.5 + 3 * 2.5),  # long under way at the end of the run-in
+        (1.0, 6.0, 2.5 + 0.25 * 3.5),  # three quarters of what a short drive has are left
+    ],
+)
+def test_a_drive_is_judged_from_when_it_is_under_way(made, slower, seconds, begins):
+    drive, whole = made.replays[0].drive, made.replays[0].road.road
+    drive = drive.isel(time=(drive["time"] - drive["time"][0]).values < seconds)
+    drive = drive.assign(v_x=drive["v_x"] / slower).assign_coords(time=slower * drive["time"])
+    road = whole.sel(u=slice(float(drive["s"][0]), None))
+    (again,) = opening.car(opening.sites_of({"trial": (road, [drive])}), made.vehicle, library_names=["crosswind"]).replays
+    assert again.time[again.compared][0] - again.time[0] == pytest.approx(begins, abs=0.15 * slower)
+
+
 def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):
     values = {**opening.start_values(made), "crosswind.wind": 10.0}
     blown = aside(made, made.replays[0], values)

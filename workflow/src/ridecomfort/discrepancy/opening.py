@@ -33,8 +33,13 @@ HIGHEST = 0.85
 BLOCK = 1.0
 """s at the mean speed; white errors farther apart are independent."""
 
-SETTLING = 1.5
-"""s after the run-in that are left out too: at rest on level ground a vehicle with an effect stands otherwise."""
+SETTLING, UNDER_WAY = (1.5, 4.0), 6.0
+"""s after the run-in that are left out too, at least and at most, and s after the beginning of the drive that suffice: at rest on level
+ground a vehicle with an effect stands otherwise, and a driver who has not yet found the measured path rolls it, which imitates a
+cross-wind or bump steer."""
+
+SPARED = 0.75
+"""Share of what is compared that settling leaves of a short drive."""
 
 RUN_OUT = 0.5
 """s at the end that are left out: low-pass filters of records and of simulations end there without knowing what comes."""
@@ -167,7 +172,9 @@ def start_values(experiment: Car) -> dict[str, float]:
 
 def _settled(again: Replay) -> Replay:
     """The same without its first and last instants."""
-    first, last = again.time[again.compared][[0, -1]] + (SETTLING, -RUN_OUT)
+    begins, ends = again.time[again.compared][[0, -1]]
+    settled = np.clip(again.time[0] + UNDER_WAY - begins, *SETTLING)
+    first, last = begins + min(settled, (1 - SPARED) * (ends - begins)), ends - RUN_OUT
     return replace(again, compared=again.compared & (again.time >= first) & (again.time <= last))
 
 
