@@ -26,7 +26,8 @@ def aligned(
     moved, experiment = closer(experiment, values, residuals, frame)
     if moved is residuals:
         return residuals, frame, experiment
-    frame = exp.frame(experiment, moved, frame.nuisances, frame.all_cleaned(moved))
+    # What a path does is another on another path: frames that keep the nuisances of before hold sizes back.
+    frame = exp.frame(experiment, moved, exp.nuisances(experiment, values, moved), frame.all_cleaned(moved))
     residuals, experiment = closer(experiment, values, moved, frame)
     return residuals, frame, experiment
 
