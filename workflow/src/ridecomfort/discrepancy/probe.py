@@ -65,13 +65,14 @@ class _Secant:
     experiment: Experiment
     values: Mapping[str, float]
     residuals: Mapping[int, np.ndarray]
+    steps: Mapping[str, float]
 
     def __call__(self, size: Size) -> dict[int, np.ndarray]:
-        value = self.values.get(size.key, size.neutral)
-        inward = 1.0 if size.lower <= value + size.probe <= size.upper else -1.0
-        for step in (inward, -inward, 0.25 * inward):  # a vehicle that drives at its size may not a probe farther on
+        value, step = self.values.get(size.key, size.neutral), self.steps.get(size.key, 1.0)
+        inward = step if size.lower <= value + step * size.probe <= size.upper else -step
+        for own in (inward, -inward, 0.25 * inward):  # a vehicle that drives at its size may not a probe farther on
             try:
-                return exp.secant(self.experiment, self.values, self.residuals, size, step)
+                return exp.secant(self.experiment, self.values, self.residuals, size, own)
             except (InputError, ValueError) as problem:
                 refused = problem
         raise refused
@@ -79,11 +80,14 @@ class _Secant:
 
 def secants(
     experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray], sizes: Sequence[Size],
-    each: Callable = map,
+    each: Callable = map, steps: Mapping[str, float] | None = None,
 ) -> dict[str, dict[int, np.ndarray]]:  # fmt: skip
-    """Change of the residuals per probe of every size from its value, into its bounds, by key."""
-    start = coarsely(experiment, values, residuals) if len(sizes) >= MANY else (experiment, values, residuals)
-    found = each(_Secant(*start), sizes)
+    """Change of the residuals per probe of every size from its value, into its bounds, by key; over ``steps`` (probes), where these are
+    given, without ever driving in longer steps of time."""
+    start = (experiment, values, residuals)
+    if steps is None and len(sizes) >= MANY:
+        start = coarsely(*start)
+    found = each(_Secant(*start, steps or {}), sizes)
     return {size.key: column for size, column in zip(sizes, found)}
 
 

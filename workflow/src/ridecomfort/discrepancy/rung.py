@@ -21,6 +21,10 @@ MOVED, CARRIED, DOUBLINGS = 4.0, 6, 6
 """Fall of the white loss for every size from which on a fit has moved since its drives were aligned (by chance each takes one), how often
 at most it is carried on then, and how often at most its way is doubled."""
 
+REACH, SHORTEST = 10.0, 0.05
+"""Standard errors over which columns of the last fit are taken, and probes at least: over a whole probe the column of a relaxation length
+can be so bent that no step along it makes drives likelier."""
+
 FITS = 2
 """Fits from one alignment, each in the frame of the residuals of the one before: an error in what makes it white comes out too small."""
 
@@ -101,14 +105,15 @@ def final_fit(rung: Rung, sizes: Sequence[Size], each: Callable = map) -> tuple[
     A size of an effect that ended where it starts, and can be larger only, may do better far off (a lag of some milliseconds is none): it is
     fitted from the middle of what is plausible, too.
     """
-    raw, start = rung.raw, _Aligned.at(rung.experiment, rung.fit.values, rung.frame.indices)
+    start = _Aligned.at(rung.experiment, rung.fit.values, rung.frame.indices)
+    raw = _near(start, sizes, rung.raw, each)
     fit, frame = _at_own_spectrum(start, sizes, raw)
     for _ in range(CARRIED):
         farther = _carried_on(rung.experiment, start, fit, frame, sizes)
         if farther is None:
             break
         start = farther
-        raw = {**raw, **probe.secants(start.experiment, start.values, start.residuals, sizes, each)}
+        raw = _near(start, sizes, raw, each)
         fit, frame = _at_own_spectrum(start, sizes, raw)
     free = {size.key for size in rung.experiment.free}
     for size in sizes:
@@ -116,6 +121,13 @@ def final_fit(rung: Rung, sizes: Sequence[Size], each: Callable = map) -> tuple[
         if size.key not in free and size.sign and not size.shaping and way < ASLEEP * (size.upper - size.lower):
             fit = min(fit, _woken(start.experiment, frame, fit, sizes, size, raw), key=lambda one: one.loss)
     return fit, frame
+
+
+def _near(start: _Aligned, sizes: Sequence[Size], raw: Raw, each: Callable) -> Raw:
+    """Columns of ``sizes`` over as few probes as a fit may still move; ``raw``: those known before."""
+    power = {key: float(np.sqrt(np.sum(column**2))) for key, column in probe.white(start.frame, raw).items()}
+    steps = {size.key: float(np.clip(REACH / max(power[size.key], 1e-9), SHORTEST, 1.0)) for size in sizes}
+    return {**raw, **probe.secants(start.experiment, start.values, start.residuals, sizes, each, steps)}
 
 
 def _at_own_spectrum(start: _Aligned, sizes: Sequence[Size], raw: Raw) -> tuple[Fit, Frame]:
