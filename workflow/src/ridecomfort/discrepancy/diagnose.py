@@ -25,7 +25,8 @@ BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
 NEARLY_ALL = 0.98
-"""Share of the explainable error beyond which what was found leaves no room for a wrong file of the vehicle."""
+"""Share of the explainable error, the mean of fitted drives and of those held out, beyond which what was found leaves no room for a wrong
+file of the vehicle."""
 
 HALF, WORTH = 0.5, 0.025
 """Share of what the library leaves, where that is little, which a force of any form may leave at most to do so, and share of the
@@ -56,7 +57,7 @@ def diagnose(
     rung = begin(experiment, opening.start_values(experiment), common["each"])
     table, verdict, selection = ranked(experiment, rung, signatures=signatures, **common)
     found = None
-    if not table.attrs["suspected"] and verdict.verdict != "nothing" and not verdict.share > NEARLY_ALL:
+    if not table.attrs["suspected"] and verdict.verdict != "nothing" and not _left(verdict) < 1.0 - NEARLY_ALL:
         found, again = _with_vehicle_right(experiment, selection, signatures, common)
         if again is not None:
             table, verdict, selection, rung = again
@@ -180,7 +181,8 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
 
 def _left(found: Verdict | Discovery) -> float:
     """Share of the explainable error that is left, the mean of fitted drives and of those held out, if any."""
-    return float(np.mean([1.0 - share for share in (found.share, found.held_out_share) if np.isfinite(share)]))
+    known = [share for share in (found.share, found.held_out_share) if np.isfinite(share)]
+    return 1.0 - float(np.mean(known)) if known else 1.0
 
 
 def _explained(proposal: Discovery) -> str:
