@@ -124,9 +124,9 @@ def final_fit(rung: Rung, sizes: Sequence[Size], each: Callable = map) -> tuple[
 
 
 def _near(start: _Aligned, sizes: Sequence[Size], raw: Raw, each: Callable) -> Raw:
-    """Columns of ``sizes`` over as few probes as a fit may still move; ``raw``: those known before."""
-    power = {key: float(np.sqrt(np.sum(column**2))) for key, column in probe.white(start.frame, raw).items()}
-    steps = {size.key: float(np.clip(REACH / max(power[size.key], 1e-9), SHORTEST, 1.0)) for size in sizes}
+    """Columns of ``sizes`` over as few probes as a fit may still move; ``raw``: those known before, which tell standard errors."""
+    root = {key: float(np.sqrt(np.sum(column**2))) for key, column in probe.white(start.frame, raw).items()}
+    steps = {size.key: float(np.clip(REACH / max(root[size.key], 1e-9), SHORTEST, 1.0)) for size in sizes}
     return {**raw, **probe.secants(start.experiment, start.values, start.residuals, sizes, each, steps)}
 
 
