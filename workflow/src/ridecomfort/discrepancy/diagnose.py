@@ -25,8 +25,8 @@ BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
 
 NEARLY_ALL = 0.98
-"""Share of the explainable error, the mean of fitted drives and of those held out, beyond which what was found leaves no room for a wrong
-file of the vehicle."""
+"""Share of the explainable error beyond which what was found leaves no room for a form in place of an error of the measurement, nor, as
+the mean of fitted drives and of those held out, for a wrong file of the vehicle."""
 
 HALF, WORTH = 0.5, 0.025
 """Share of what the library leaves, where that is little, which a force of any form may leave at most to do so, and share of the

@@ -27,7 +27,9 @@ def aligned(
     if moved is residuals:
         return residuals, frame, experiment
     # What a path does is another on another path: frames that keep the nuisances of before hold sizes back.
-    frame = exp.frame(experiment, moved, exp.nuisances(experiment, values, moved), frame.all_cleaned(moved))
+    anew = [index for index in moved if moved[index] is not residuals[index]]
+    nuisances = {**frame.nuisances, **exp.nuisances(experiment, values, anew)}
+    frame = exp.frame(experiment, moved, nuisances, frame.all_cleaned(moved))
     residuals, experiment = closer(experiment, values, moved, frame)
     return residuals, frame, experiment
 

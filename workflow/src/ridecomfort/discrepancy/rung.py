@@ -21,7 +21,7 @@ MOVED, CARRIED, DOUBLINGS = 4.0, 6, 6
 """Fall of the white loss for every size from which on a fit has moved since its drives were aligned (by chance each takes one), how often
 at most it is carried on then, and how often at most its way is doubled."""
 
-REACH, SHORTEST = 10.0, 0.05
+REACH, LEAST_REACH = 10.0, 0.05
 """Standard errors over which columns of the last fit are taken, and probes at least: over a whole probe the column of a relaxation length
 can be so bent that no step along it makes drives likelier."""
 
@@ -125,8 +125,8 @@ def final_fit(rung: Rung, sizes: Sequence[Size], each: Callable = map) -> tuple[
 
 def _near(start: _Aligned, sizes: Sequence[Size], raw: Raw, each: Callable) -> Raw:
     """Columns of ``sizes`` over as few probes as a fit may still move; ``raw``: those known before, which tell standard errors."""
-    root = {key: float(np.sqrt(np.sum(column**2))) for key, column in probe.white(start.frame, raw).items()}
-    steps = {size.key: float(np.clip(REACH / max(root[size.key], 1e-9), SHORTEST, 1.0)) for size in sizes}
+    norm = {key: float(np.linalg.norm(column)) for key, column in probe.white(start.frame, raw).items()}
+    steps = {size.key: float(np.clip(REACH / max(norm[size.key], 1e-9), LEAST_REACH, 1.0)) for size in sizes}
     return {**raw, **probe.secants(start.experiment, start.values, start.residuals, sizes, each, steps)}
 
 
