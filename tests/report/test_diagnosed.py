@@ -4,6 +4,7 @@ import inspect
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
@@ -173,6 +174,17 @@ def test_the_missing_force_is_drawn_beside_what_the_named_effect_would_show():
     drawn = [line for axes in each.axes for line in axes.lines if line.get_linestyle() == "--"]
     assert len(drawn) == 2  # one an axle, and none where the effect does not act
     assert len({axes.get_ylim() for axes in each.axes}) == 1  # both places are of the strut: sizes compare by eye
+
+
+def test_what_the_named_effects_would_show_is_not_cut_off():
+    found = made_up.diagnosis()
+    found.ranking.update(made_up.curves())
+    found.ranking["named_force"] = 5.0 * found.ranking["named_force"]
+    with style.styled():
+        each = diagnosed.figures(found)["signature"]()
+    for axes in each.axes:
+        for line in axes.lines:
+            assert np.nanmax(np.abs(line.get_ydata())) < axes.get_ylim()[1]
 
 
 def test_a_diagnosis_without_curves_says_so():

@@ -75,9 +75,11 @@ def _kind(place: str) -> str:
 
 
 def _reach(one) -> float:
-    """N that a row of panels shows: the estimates that are drawn, with their intervals."""
+    """N that a row of panels shows: the estimates that are drawn, with their intervals, and what the named effects would show."""
     known = _known(one).values
-    reach = (np.abs(one["missing_force"]) + BAND * one["missing_force_error"]).values[known]
+    estimated = np.abs(one["missing_force"]) + BAND * one["missing_force_error"]
+    shown = np.abs(one["named_force"].fillna(0.0).sum("named_effect"))
+    reach = np.maximum(estimated, shown).values[known]
     return 1.1 * float(reach.max(initial=0.0)) + 1e-9
 
 
