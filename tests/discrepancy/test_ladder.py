@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort.discrepancy import critical
-from ridecomfort.discrepancy.ladder import Measured, ladder, rung_titles
+from ridecomfort.discrepancy.ladder import Measured, ladder
 
 
 def comparison(*squares, floor=1.0, states=("reference", "calibrated")):
@@ -88,7 +88,3 @@ def test_repeats_say_how_well_a_perfect_model_could_agree():
     same = comparison(9.0, 5.0).assign(role=("drive", ["fit", "fit"]))
     found = ladder({"ts1": Measured({"base": same}, {"base": one}, True)}, ["base"], [])
     assert found["repeats_agreeing"].sel(site="ts1", group="fitted").values == pytest.approx([0.75, 1.0])
-
-
-def test_rungs_of_a_cluster_are_called_by_all_names():
-    assert rung_titles(["one", "two"], {"one": ["other"]}) == ["+ one or other", "+ two"]

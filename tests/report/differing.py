@@ -7,6 +7,7 @@ import xarray as xr
 
 from ridecomfort.discrepancy import compare, critical, explain, ladder, locate
 from ridecomfort.report.study import Compared, Diagnosis, Difference
+from ridecomfort.steps.models import rung_titles
 from ridecomfort.vocabulary import SIGNALS
 
 SECONDS, RATE = 60.0, 50.0
@@ -69,7 +70,7 @@ def rungs(comparisons, fitted=(True, False)) -> xr.Dataset:
         sites[name] = ladder.Measured(models, graded, own)
     models = list(next(iter(comparisons.values())))
     effects = models[-1].split("+") if len(models) > 1 else []
-    return ladder.ladder(sites, models, ladder.rung_titles(effects))
+    return ladder.ladder(sites, models, rung_titles(effects))
 
 
 def difference(names=("ts1", "ts2"), standin=True) -> Difference:

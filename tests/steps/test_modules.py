@@ -1,5 +1,6 @@
 """The modules a step rests on: found as Python itself finds them, and no others."""
 
+import ast
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +24,17 @@ for name, module in sorted(sys.modules.items()):
 """
 
 
+RULES = """
+import sys
+from ridecomfort import config, stepsettings
+from ridecomfort.drive import readers
+from ridecomfort.report import catalogue
+from ridecomfort.steps import models
+readers.suffixes()
+print(*{name.split(".")[0] for name in sys.modules})
+"""
+
+
 @pytest.fixture(scope="module")
 def found():
     return {step: {Path(path).resolve() for path in modules.of_step(step)} for step in STEPS}
@@ -33,6 +45,11 @@ def test_covers_what_python_loads(step, found):
     run = subprocess.run([sys.executable, "-c", LOADED, step], capture_output=True, text=True, check=True)
     loaded = {Path(line).resolve() for line in run.stdout.splitlines()}
     assert loaded <= found[step]
+
+
+def test_rules_are_read_without_what_only_computing_needs():
+    run = subprocess.run([sys.executable, "-c", RULES], capture_output=True, text=True, check=True)
+    assert not {"numba", "pandas", "scipy", "xarray", "matplotlib"} & set(run.stdout.split())
 
 
 def test_leaves_out_what_a_step_does_not_use(found):
@@ -48,6 +65,17 @@ def test_only_its_own_steps_use_the_stand_ins(found):
 
 def test_paths_do_not_depend_on_where_the_project_lies():
     assert not any(Path(path).is_absolute() for path in modules.of_step("sample"))
+
+
+def test_imports_are_those_that_python_reads():
+    for path in modules.PACKAGE.rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        read = [node for node in ast.walk(ast.parse(text)) if isinstance(node, (ast.Import, ast.ImportFrom))]
+        assert sorted(map(ast.dump, modules.imports(text))) == sorted(map(ast.dump, read)), path
+
+
+def test_words_of_a_docstring_are_no_import():
+    assert not list(modules.imports('"""Drives\nfrom a road import more\nimport of heights\n"""\n'))
 
 
 def test_every_import_form_is_followed(tmp_path, monkeypatch):

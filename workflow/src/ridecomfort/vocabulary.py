@@ -12,8 +12,10 @@ without gravity: ``a_z`` is zero at rest. What an accelerometer reads instead
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-import xarray as xr
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)

@@ -99,11 +99,6 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
 COUNTS = ("compared", "critical_simulated", "critical_measured", "agreeing", "changed")
 
 
-def rung_titles(effects: Sequence[str], alike: Mapping[str, Sequence[str]] | None = None) -> list[str]:
-    """What the rungs of effects are called, in the order in which they were added; ``alike`` cannot be told from them."""
-    return ["+ " + " or ".join([name, *(alike or {}).get(name, ())]) for name in effects]
-
-
 def _rungs(site: Measured, models: Sequence[str]) -> list[tuple[str, str | None]]:
     """Model and state of every rung; no state where the site has no such rung."""
     states = {model: [str(state) for state in site.comparisons[model]["state"].values] for model in models}

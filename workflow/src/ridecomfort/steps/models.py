@@ -25,13 +25,16 @@ class Chain:
         return [f"results/{site}/{model}/{name}" for site in study.measured for model in self.models]
 
 
+def rung_titles(effects: Sequence[str], alike: Mapping[str, Sequence[str]] | None = None) -> list[str]:
+    """What the rungs of effects are called, in the order in which they were added; ``alike`` cannot be told from them."""
+    return ["+ " + " or ".join([name, *(alike or {}).get(name, ())]) for name in effects]
+
+
 def chain(study: Study, verdict: Mapping | None = None) -> Chain:
     """The chain of a study, continued by the effects that a verdict on its model names.
 
     ``verdict`` is the content of verdict.json. Effects that are in the model already, or that there is no file of, add nothing.
     """
-    from ..discrepancy.ladder import rung_titles  # only here: each call of Snakemake would wait for all of it
-
     configured = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
     found = verdict["effects"] if verdict and verdict["verdict"] in FOLLOWED else []
     known = effect_files(study.effects_folder)
@@ -59,8 +62,6 @@ def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
     The models are those of the files ``comparisons`` (results/<site>/<model>/...): a verdict that came after they were asked for would
     speak of others.
     """
-    from ..discrepancy.ladder import rung_titles
-
     models = list(dict.fromkeys(Path(file).parts[2] for file in comparisons))
     sets = [set() if model == BASE else set(model.split(JOIN)) for model in models]
     effects = [name for before, after in zip(sets, sets[1:]) for name in sorted(after - before)]

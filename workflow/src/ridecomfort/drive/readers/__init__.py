@@ -5,6 +5,8 @@ A reader is a module of this folder with the suffixes it reads (``SUFFIXES``) an
 ``vocabulary.DRIVE`` to (time, values) in SI units, attributes are what the file
 itself says about gravity, sensor, ... It may have ``check(path, columns)``, which raises what can be
 seen without reading the values. Another format is one more file here.
+
+Every call of Snakemake asks for the suffixes: what only reading needs is imported there.
 """
 
 from __future__ import annotations
@@ -13,11 +15,12 @@ import importlib
 import pkgutil
 from collections.abc import Mapping
 from pathlib import Path
-
-import xarray as xr
+from typing import TYPE_CHECKING
 
 from ...errors import InputError
-from .. import record
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def suffixes() -> dict[str, str]:
@@ -43,6 +46,8 @@ def read(path, columns: Mapping[str, Mapping] | None = None, **attributes) -> xr
     ``columns`` maps quantities to ``{"column": ..., "unit": ..., "factor": 1}``.
     Attributes given here (name, role, gravity, sensor, ...) win over what the file says.
     """
+    from .. import record
+
     path = Path(path)
     if not path.exists():
         raise InputError("no such file", file=path)

@@ -5,13 +5,16 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping, Sequence
 from textwrap import shorten
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from ...errors import InputError
 from ...vocabulary import DRIVE
 from .. import units
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SUFFIXES = (".csv",)
 
@@ -66,6 +69,8 @@ def _check_names(found: Sequence[str], columns: Mapping[str, Mapping], path) -> 
 
 
 def _table(path) -> pd.DataFrame:
+    import pandas as pd
+
     try:
         return pd.read_csv(path, skipinitialspace=True)
     except (ValueError, UnicodeDecodeError) as problem:
@@ -73,6 +78,8 @@ def _table(path) -> pd.DataFrame:
 
 
 def _numbers(series: pd.Series, path, column: str) -> np.ndarray:
+    import pandas as pd
+
     numbers = pd.to_numeric(series, errors="coerce").to_numpy(dtype=float)
     bad = np.flatnonzero(~np.isfinite(numbers))
     if bad.size:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
-import xarray as xr
-
-from ... import store
 from ...errors import InputError
 from ...vocabulary import DRIVE
 from .. import units
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SUFFIXES = (".nc", ".nc4")
 
@@ -22,6 +23,8 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     all NaN counts as not measured. A file without the attribute ``gravity`` holds accelerations, as simulators give them.
     Raises InputError naming the variable.
     """
+    from ... import store
+
     dataset = store.read(path)
     named = dict(columns or {})
     clock = named.get("time", {}).get("column", "time")
