@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.stats import binom
+from scipy.stats import binom, norm
 
 from ridecomfort.discrepancy import evidence, spectrum
 
@@ -31,15 +31,37 @@ def p_of_noise(rng, whiten=whitened):
     columns = candidates(rng)
     flat, rows = whiten(residual, columns)
     found = evidence.score_test(flat, rows[:3], rows[3:], BLOCKS, resamples=399, seed=int(rng.integers(2**31)))
-    return found.p_value.min()
+    return found.p_value.min(), np.maximum(found.p_value, found.white_p_value).min()
 
 
 def test_false_alarms_over_the_whole_library_are_as_rare_as_promised():
     rng = np.random.default_rng(0)
     trials = 150
-    alarms = sum(p_of_noise(rng) <= 0.05 for _ in range(trials))
+    alarms = np.sum([np.array(p_of_noise(rng)) <= 0.05 for _ in range(trials)], axis=0)
     lower, upper = binom.interval(0.998, trials, 0.05)
-    assert lower <= alarms <= upper
+    assert lower <= alarms[0] <= upper and alarms[1] <= alarms[0]
+
+
+def test_scores_of_white_noise_are_normal():
+    """Of one column: twice the upper tail of the normal distribution; where only positive sizes are physical, once."""
+    rng = np.random.default_rng(5)
+    noise, column = rng.standard_normal(SAMPLES), rng.standard_normal((1, SAMPLES))
+    column /= np.linalg.norm(column)
+    residual = noise - (noise @ column[0] + 2.0) * column[0]
+    blocks = [np.arange(SAMPLES) // 100]
+    for sign, expected in ((0, 2 * norm.sf(2.0)), (1, norm.sf(2.0))):
+        found = evidence.score_test(residual, column[:0], column, blocks, sign=[sign], resamples=20000)
+        assert found.white_p_value[0] == pytest.approx(expected, rel=0.15)
+
+
+def test_columns_that_are_alike_count_once_in_white_noise():
+    rng = np.random.default_rng(6)
+    residual, column = rng.standard_normal(SAMPLES), rng.standard_normal((1, SAMPLES))
+    alone, thrice = (
+        evidence.score_test(residual, column[:0], np.repeat(column, count, axis=0), [np.arange(SAMPLES) // 100], resamples=20000)
+        for count in (1, 3)
+    )
+    np.testing.assert_allclose(thrice.white_p_value, alone.white_p_value[0], atol=0.02)
 
 
 def test_a_missing_response_is_found_and_measured():

@@ -26,7 +26,8 @@ SEEN = 1e-3
 class Evidence:
     """Per candidate column: ``statistic`` (studentised score), ``gain`` (fall of the white sum of squares), ``size``
     in units of the column with its standard ``error``, and the share ``absorbed`` by what is free anyway.
-    Per group: ``p_value`` over the whole library, and ``group_gain`` of all its columns together."""
+    Per group: ``p_value`` over the whole library by blocks, ``white_p_value`` were the noise white, and ``group_gain`` of all its
+    columns together."""
 
     statistic: np.ndarray
     gain: np.ndarray
@@ -34,6 +35,7 @@ class Evidence:
     error: np.ndarray
     absorbed: np.ndarray
     p_value: np.ndarray
+    white_p_value: np.ndarray
     group_gain: np.ndarray
     projected: np.ndarray
     """The columns after projection, (column, sample)."""
@@ -80,6 +82,9 @@ def score_test(
     bootstrap turns the signs of whole blocks and takes the largest of all statistics, so that the p-value
     holds for the best of the library (wild bootstrap, Liu 1988; max-T, Westfall and Young 1993). It is made
     for each of the ``blocks`` (short ones see rare events better), and the smaller p-value pays for it (Bonferroni).
+
+    Few blocks may agree by chance where their scores are small, which is no evidence in white noise; and scores that are large
+    there are none where blocks disagree. Who asks both (the larger p-value) is safe from either.
     """
     count = len(columns)
     group = np.arange(count) if group is None else np.asarray(group)
@@ -104,6 +109,8 @@ def score_test(
         )
         statistics.append(statistic)
         p_value.append(by_group)
+    white = np.where(seen, score / np.sqrt(safe), 0.0)
+    of_white = _white_test(white, _correlation(columns, np.where(seen, left, np.inf)), group, sign, resamples, np.random.default_rng([seed, len(blocks)]))
     deviations = by_block[0] + size[:, None] * _block_sums(squares, numbers[0])
     spread = np.sqrt(np.sum(deviations**2, axis=1))
     number = group.max() + 1
@@ -115,6 +122,7 @@ def score_test(
         error=np.where(seen, spread / safe, np.inf),
         absorbed=1 - left / np.where(power > 0, power, 1.0),
         p_value=np.minimum(len(blocks) * np.min(p_value, axis=0), 1.0),
+        white_p_value=of_white,
         group_gain=gains,
         projected=columns,
         residual=residual,
@@ -135,12 +143,29 @@ def _bootstrap(sums, group, sign, resamples, rng) -> tuple[np.ndarray, np.ndarra
     scaled = sums / np.where(root > 0, root, 1.0)[:, None]
     observed = scaled.sum(axis=1)
     turned = rng.choice([-1.0, 1.0], (resamples, sums.shape[1])) @ scaled.T
+    return observed, _over_library(observed, turned, group, sign)
+
+
+def _white_test(observed, correlation, group, sign, resamples, rng) -> np.ndarray:
+    """p-values over the library of every group for scores ``observed`` (column,) of unit variance and this correlation."""
+    values, vectors = np.linalg.eigh(correlation)
+    drawn = rng.standard_normal((resamples, len(observed))) @ (vectors * np.sqrt(np.maximum(values, 0.0))).T
+    return _over_library(observed, drawn, group, sign)
+
+
+def _correlation(columns: np.ndarray, power: np.ndarray) -> np.ndarray:
+    """Correlation of columns (column, sample) of these powers (column,); nil with those of infinite power."""
+    root = 1.0 / np.sqrt(power)
+    return product(columns, columns) * np.outer(root, root)
+
+
+def _over_library(observed: np.ndarray, drawn: np.ndarray, group, sign) -> np.ndarray:
+    """How often the largest of all statistics (draw, column) where nothing is missing is no less than that of each group."""
     number = group.max() + 1
-    largest = np.stack([_largest(turned[:, group == g], sign[group == g]) for g in range(number)], axis=1)
+    largest = np.stack([_largest(drawn[:, group == g], sign[group == g]) for g in range(number)], axis=1)
     seen = np.array([_largest(observed[None, group == g], sign[group == g])[0] for g in range(number)])
     over_all = largest.max(axis=1)
-    p_value = (1 + np.sum(over_all[:, None] >= seen, axis=0)) / (resamples + 1)
-    return observed, p_value
+    return (1 + np.sum(over_all[:, None] >= seen, axis=0)) / (len(drawn) + 1)
 
 
 def _largest(statistics: np.ndarray, sign: np.ndarray) -> np.ndarray:

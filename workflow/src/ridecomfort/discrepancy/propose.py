@@ -91,6 +91,7 @@ def propose(
     )  # fmt: skip
     by_shape, rare = event.p_values(frame, found.residual, found.projected, np.array(group), np.array(sign))
     p_value = np.minimum(np.minimum(BY_BLOCKS * found.p_value, BY_SHAPE * by_shape), 1.0)
+    p_value = np.maximum(p_value, found.white_p_value)
     jobs = list(columns)
     names = tuple(dict.fromkeys(name for name, _ in jobs))
     own = {name: [g for g, job in enumerate(jobs) if job[0] == name] for name in names}
