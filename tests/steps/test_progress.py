@@ -54,6 +54,11 @@ def test_time_left_is_that_of_the_jobs_to_come_shared_among_those_that_run(watch
     assert watched.said()[-1] == "[ 18 %] simulate ts1 2 done in 8.0 s (2 of 10 such jobs); 9 to go, about 36 s"
 
 
+def test_a_job_that_takes_minutes_says_where_to_look_how_far_it_is(watched):
+    log(watched, "job_info", jobid=1, rule_name="diagnosis", wildcards={"model": "base"}, benchmark="b.tsv", log=["logs/base.log"])
+    assert watched.said()[-1].endswith("diagnosis base ... (how far: logs/base.log)")
+
+
 def test_a_run_ends_with_100_percent_and_the_page(watched, clock):
     log(watched, "run_info", stats={"report": 1, "all": 1, "total": 2})
     start(watched, 1, "report")

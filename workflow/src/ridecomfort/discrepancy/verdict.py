@@ -58,7 +58,7 @@ SAID = {
     "named": "Missing: {names}.",
     "cluster": "Missing: {names}; the data do not tell those apart.",
     "outside": "Something is missing that is not in the library.",
-    "nothing": "Nothing is missing beyond the noise.",
+    "nothing": "Nothing is missing beyond the noise that would be worth a name.",
     "suspect": "The data are suspect: {names}.",
 }
 """What every kind of verdict says of the ``names`` of effects."""

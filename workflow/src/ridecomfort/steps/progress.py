@@ -29,6 +29,9 @@ TO_LOOK_AT = {
 }
 """What a run without the page ends with, by the rule that made it."""
 
+TOLD = ("diagnosis",)
+"""Rules that take minutes and say in their logs how far they are."""
+
 CHANGED_SETTINGS = re.compile(r"Params have changed since last execution: .*?before: '(\{.*\})' now: '(\{.*\})' ?")
 """How Snakemake says so, with the settings of the step before and now (JSON)."""
 
@@ -134,7 +137,9 @@ class Progress(logging.Handler):
         site = str(next(iter(wildcards.values()), ""))
         if record.benchmark and (record.rule_name, site) not in self.announced:
             self.announced.add((record.rule_name, site))
-            self._print(f"{_joined(record.rule_name, where)} ...")
+            logs = getattr(record, "log", None) if record.rule_name in TOLD else None
+            told = f" (how far: {logs[0]})" if logs else ""
+            self._print(f"{_joined(record.rule_name, where)} ...{told}")
 
     def _finished(self, number: int) -> None:
         job = self.running.pop(number, None)

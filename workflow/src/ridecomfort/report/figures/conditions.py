@@ -59,6 +59,8 @@ def conditions(study: Difference, site: str) -> Figure:
             axes.plot(middle, share, color=colour, marker=marker, markersize=3.5, label=notation.signal(signal))
         axes.set_yscale("log")
         axes.set_xlabel(label)
+        axes.locator_params(axis="x", nbins=5)
+        axes.margins(x=0.08)  # labels at the ends of panels side by side would touch
         axes.set_yticks(TICKS, [f"≤ {SMALLEST:g}", *(f"{tick:g}" for tick in TICKS[1:])])
         axes.minorticks_off()
         axes.yaxis.grid(True)

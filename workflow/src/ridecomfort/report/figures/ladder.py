@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 from ...discrepancy import ladder as rungs
 from ...vocabulary import SIGNALS
@@ -23,6 +24,9 @@ DASHES = {"thresholds": (0, (4, 4)), "iso2631": (4, (4, 4))}
 
 HIGHEST = 200.0
 """% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen."""
+
+LEGIBLE = (withStroke(linewidth=2.0, foreground="white"),)
+"""What keeps numbers readable over lines and markers."""
 
 LONGEST = 16
 """Letters in a line under a rung."""
@@ -84,10 +88,15 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
     axes.plot(*overall, color="black", linewidth=2.2, zorder=1)
     for place, value in zip(*overall):
         if value <= HIGHEST:
-            axes.annotate(f"{value:.0f}", (place, value), xytext=(3, 4), textcoords="offset points", fontsize=6, fontweight="bold")
+            axes.annotate(
+                f"{value:.0f}", (place, value), xytext=(6, 6), textcoords="offset points", fontsize=6, fontweight="bold",
+                path_effects=LEGIBLE,
+            )  # fmt: skip
     beyond = 100 * float(chosen["left"].max())
     if beyond > HIGHEST:
-        axes.text(0.03, 0.97, f"beyond: up to {beyond:,.0f} %", transform=axes.transAxes, va="top", fontsize="x-small")
+        axes.text(
+            0.01, 0.97, f"beyond: up to {beyond:,.0f} %", transform=axes.transAxes, va="top", fontsize="x-small", path_effects=LEGIBLE
+        )
     axes.axhline(0.0, color=style.FLOOR, linestyle="--")
     axes.yaxis.grid(True)
 

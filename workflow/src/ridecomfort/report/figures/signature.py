@@ -57,13 +57,14 @@ def signature(found: Diagnosis) -> Figure:
             axes.set_xlabel(f"{place}, in compression [{unit}]")
         row[0].set_ylabel("missing force,\npushing apart [N]")
     together = " and ".join(words(str(effect)) for effect in ranking["named_effect"].values)
+    nothing = "nothing, what is named acts elsewhere" if found.verdict["effects"] else "nothing is named"
     handles = [
         Line2D([], [], color=colour, marker=marker, markersize=3.5, label=f"estimated, {axle}")
         for axle, (colour, marker) in AXLE_LINES.items()
     ]
     handles += [
         Patch(color=style.FAINT, alpha=0.5, label="90 % interval"),
-        Line2D([], [], color=style.ERROR, linestyle="--", label=f"what would show: {together or 'nothing is named'}"),
+        Line2D([], [], color=style.ERROR, linestyle="--", label=f"what would show: {together or nothing}"),
     ]
     drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
