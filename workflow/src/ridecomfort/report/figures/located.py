@@ -10,7 +10,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ...discrepancy import findings
+from ...discrepancy import findings, judged
 from ...discrepancy.locate import BANDS
 from ...study import JOIN
 from ...vocabulary import SIGNALS
@@ -23,6 +23,9 @@ PALEST, DARKEST = 0.1, 30.0
 """Ends of the colours in percent of the signal's power per octave: the same for every model and site, so that maps compare."""
 
 TICKS = (0.1, 0.3, 1, 3, 10, 30)
+
+UNCOUNTED = "#E1E3E6"
+"""Colour of frequencies that are the driver's and not judged."""
 
 PER_OCTAVE = 6
 """Rows of the map in an octave: single lines of a short spectrum scatter so much that noise would look like error."""
@@ -61,6 +64,9 @@ def located(study: Difference, site: str) -> Figure:
         left.set_yticks([1, 2, 5, 10, 20, 40], ["1", "2", "5", "10", "20", "40"])
         left.minorticks_off()
         left.set_ylabel(f"{notation.signal(signal)}\nfrequency [Hz]")
+        uncounted = float(judged.lowest([signal])[0])
+        for axes in (left, right):
+            axes.axhspan(BANDS[0][0], max(uncounted, BANDS[0][0]), color=UNCOUNTED, linewidth=0, zorder=3)
         _boxes(left, errors, signal, place)
         _spectra(right, own, signal)
         right.set_yscale("log")
