@@ -21,7 +21,7 @@ NEXT = {
 
 TRY_FORM = (
     "Look at the proposed form. To try it, put {file} into a folder of your own that effects_folder in config/study.yaml names, "
-    "switch it on, effects: [{keys}], and compare again."
+    "switch it on, effects: [{keys}], compare and diagnose again: beside it the rest shows better."
 )
 
 GO_ON = (
