@@ -23,10 +23,6 @@ CLOSELY, BROUGHT = 0.25, 6
 """Share of ASTRAY that a driver who is brought to the measured speed and path may be off at most, and how often that is tried: what is left
 of a bend is the same in all repeats, and a millimetre of path once in 2 s is as much side acceleration as the noise of an instrument."""
 
-FURTHER = 1.5
-"""Times what is missing that a driver who was corrected once is asked for: of what is left, at the end of the band that is made up for, a
-correction takes but a third."""
-
 LONGEST = 0.002
 """s; in such steps most changes of a drive differ by less than half a percent from those in steps of 1 ms."""
 
@@ -83,11 +79,11 @@ class Car:
         again, effects = self.replays[index], {**self.quiet, **effects}
         run = again.run(vehicle, effects)
         share, rounds = (CLOSELY, BROUGHT) if closely else (1.0, CORRECTED)
-        for number in range(rounds):
+        for _ in range(rounds):
             astray = again.astray(run)
             if all(np.sqrt(np.mean(missing[again.compared] ** 2)) < share * ASTRAY[name] for name, missing in astray.items()):
                 break
-            again = again.corrected({name: (FURTHER if number else 1.0) * missing for name, missing in astray.items()})
+            again = again.corrected(astray)
             run = again.run(vehicle, effects)
         return again, run
 
