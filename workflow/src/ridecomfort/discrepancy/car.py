@@ -16,12 +16,8 @@ from ..vocabulary import SIGNALS
 from . import nuisances
 from .experiment import Candidate, Record, Size, by_record
 
-ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.0015}, 3
+ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
 """m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected, and how often that is done."""
-
-CLOSELY, BROUGHT = 0.25, 6
-"""Share of ASTRAY that a driver who is brought to the measured speed and path may be off at most, and how often that is tried: what is left
-of a bend is the same in all repeats, and a millimetre of path once in 2 s is as much side acceleration as the noise of an instrument."""
 
 LONGEST = 0.002
 """s; in such steps most changes of a drive differ by less than half a percent from those in steps of 1 ms."""
@@ -70,7 +66,7 @@ class Car:
         again, run = self._driven(values, index)
         return again.sample(run)
 
-    def _driven(self, values: Mapping[str, float], index: int, closely: bool = False) -> tuple[Replay, xr.Dataset]:
+    def _driven(self, values: Mapping[str, float], index: int) -> tuple[Replay, xr.Dataset]:
         """A drive along the measured path at the measured speed, with the replay whose driver did so.
 
         An effect that moves a vehicle aside makes it meet another road, unless its driver makes up for it as the measured one did.
@@ -78,10 +74,9 @@ class Car:
         vehicle, effects = with_values(self.vehicle, self.effects, values)
         again, effects = self.replays[index], {**self.quiet, **effects}
         run = again.run(vehicle, effects)
-        share, rounds = (CLOSELY, BROUGHT) if closely else (1.0, CORRECTED)
-        for _ in range(rounds):
+        for _ in range(CORRECTED):
             astray = again.astray(run)
-            if all(np.sqrt(np.mean(missing[again.compared] ** 2)) < share * ASTRAY[name] for name, missing in astray.items()):
+            if all(np.sqrt(np.mean(missing[again.compared] ** 2)) < ASTRAY[name] for name, missing in astray.items()):
                 break
             again = again.corrected(astray)
             run = again.run(vehicle, effects)
@@ -118,7 +113,7 @@ class Car:
         """
 
         def driven(index: int) -> tuple[Replay, Simulated, np.ndarray | float]:
-            again, run = self._driven(values, index, closely=True)
+            again, run = self._driven(values, index)
             simulated = again.sample(run)
             return again, simulated, self._missing(values, again, simulated) if exactly else self.exactness.get(index, 0.0)
 
