@@ -110,7 +110,8 @@ def score_test(
         statistics.append(statistic)
         p_value.append(by_group)
     white = np.where(seen, score / np.sqrt(safe), 0.0)
-    of_white = _white_test(white, _correlation(columns, np.where(seen, left, np.inf)), group, sign, resamples, np.random.default_rng([seed, len(blocks)]))
+    alike = _correlation(columns, np.where(seen, left, np.inf))
+    of_white = _white_test(white, alike, group, sign, resamples, np.random.default_rng([seed, len(blocks)]))
     deviations = by_block[0] + size[:, None] * _block_sums(squares, numbers[0])
     spread = np.sqrt(np.sum(deviations**2, axis=1))
     number = group.max() + 1
