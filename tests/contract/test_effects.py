@@ -87,7 +87,7 @@ def asked(monkeypatch):
     def parameters(chosen):
         values = handed(chosen)
         count = sum(entry.effect.port in COMPILED for entry, _ in chosen)
-        values[len(values) - count :] = 1.0
+        values[len(values) - count - len(COMPILED) :] = 1.0
         return values
 
     monkeypatch.setattr(compose, "parameters", parameters)

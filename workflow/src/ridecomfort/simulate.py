@@ -222,7 +222,9 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
         raise InputError(f"falls to {slowest:g} m/s, expected at least {driver.SLOWEST:g} m/s", place="speed")
     seconds = 1.2 * np.sum(np.gradient(course.u)[along] / targets[along, 0]) + 5.0
 
-    compiled = compose.compose([entry for entry, _ in chosen])
+    connected = compose.in_company(chosen)
+    entries = [entry for entry, _ in connected]
+    compiled = compose.compose(entries)
     steps = int(seconds / step)
     record = np.empty((len(COLUMNS), steps // every + 1)).T  # each column by itself in memory, as it is read
     sensed = np.empty((6, steps))
@@ -230,10 +232,10 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
         records, steps = compiled.drive(
             constants(vehicle), wheel_table(vehicle), course.surface, course.elevation, targets, float(friction),
             float(start), float(end), float(step), every, tuple(float(place) for place in sensor),
-            compose.parameters(chosen), compiled.state_count, record, sensed,
+            compose.parameters(connected), compiled.state_count, record, sensed,
         )  # fmt: skip
     except NumbaError as problem:
-        raise compose.refusal([entry for entry, _ in chosen], problem) from None
+        raise compose.refusal(entries, problem) from None
     record = record[:records]
     is_short = record[-1, 0] < end - 2.0 * targets[:, 0].max() * every * step
     is_lost = is_short and record[-1, 2] > driver.SLOWEST  # what is no number is behind the end, too
