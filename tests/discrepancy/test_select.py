@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import select, verdict
+from ridecomfort.discrepancy import evidence, select, verdict
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.propose import CERTAIN
 from ridecomfort.discrepancy.rung import begin
@@ -30,6 +30,19 @@ def test_the_missing_effect_is_named_measured_and_confirmed_on_the_held_out_driv
     assert size["interval"][0] < 1.0 < size["interval"][1] and size["unit"] == "N"
     assert found.share > 0.8 and found.held_out_share > 0.5
     assert selection.final.values["stiffness"] == pytest.approx(0.7, abs=0.05)
+
+
+def test_what_white_noise_would_do_as_well_is_not_named_however_well_places_agree(monkeypatch):
+    scored = evidence.score_test
+
+    def as_in_white_noise(*arguments, **options):
+        found = scored(*arguments, **options)
+        assert found.p_value.min() < 0.01
+        return replace(found, white_p_value=np.full_like(found.white_p_value, 0.2))
+
+    monkeypatch.setattr(evidence, "score_test", as_in_white_noise)
+    selection, found = judged(Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0}))
+    assert not found.effects and (selection.rounds[0].p_value >= 0.2).all()
 
 
 @pytest.mark.parametrize(("met", "share", "is_kept"), [(True, 0.03, True), (False, 0.03, False), (False, 0.3, True)])
