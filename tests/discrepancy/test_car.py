@@ -87,9 +87,17 @@ def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):
     values = {**opening.start_values(made), "crosswind.wind": 10.0}
     blown = aside(made, made.replays[0], values)
     retuned, residuals = made.retuned(values, [0])
-    assert blown > 0.02 and aside(made, retuned.replays[0], values) < 0.15 * blown
+    assert blown > 0.02 and aside(made, retuned.replays[0], values) < 0.02 * blown
     assert retuned.replays[1] is made.replays[1]
-    np.testing.assert_allclose(residuals[0], made.residual(values, 0))
+    np.testing.assert_allclose(residuals[0], retuned.residual(values, 0))
+
+
+def test_a_driver_of_a_single_drive_is_not_brought_as_near(made):
+    """What is left of its bends is no more than the floor that such a drive is judged by."""
+    values = {**opening.start_values(made), "crosswind.wind": 3.0}
+    single = replace(made, replays=made.replays[:1], records=made.records[:1])
+    far, near = (aside(car, car.retuned(values, [0])[0].replays[0], values) for car in (single, made))
+    assert near < 0.4 * far
 
 
 def test_residuals_are_those_on_the_measured_path(made):
@@ -114,12 +122,10 @@ def test_realigning_moves_the_path_that_is_to_be_driven(made):
 
 def test_a_coarse_step_is_made_good_in_residuals_and_not_in_their_changes(made):
     """Against the same car driven at an eighth of the step: seven tenths of what the step makes wrong go, at the least."""
-    at = lambda step: replace(
-        made, replays=[replace(again, options={**again.options, "step": step}) for again in made.replays]
-    )
     values = opening.start_values(made)
+    coarse, _ = made.retuned(values, [0])
+    fine = replace(coarse, replays=[replace(again, options={**again.options, "step": 0.000125}) for again in coarse.replays])
     moved = {**values, "tyre_radial_stiffness": 1.1 * values["tyre_radial_stiffness"]}
-    coarse, fine = made, at(0.000125)
     exact, _ = coarse.retuned(values, [0], exactly=True)
     wrong = [np.sqrt(np.mean((one.residual(values, 0) - fine.residual(values, 0)) ** 2, axis=1)) for one in (coarse, exact)]
     assert (wrong[1] < 0.3 * wrong[0]).all(), wrong[1] / wrong[0]
@@ -163,4 +169,5 @@ def test_the_step_of_another_simulator_is_its_own(made):
     other = replace(made, replays=[replace(again, simulate=lambda *a, **k: simulate.run(*a, **k)) for again in made.replays])
     values = opening.start_values(other)
     assert other.coarser() is other
-    np.testing.assert_array_equal(other.retuned(values, [0], exactly=True)[0].residual(values, 0), other.residual(values, 0))
+    exact, plain = (other.retuned(values, [0], exactly=exactly)[1][0] for exactly in (True, False))
+    np.testing.assert_array_equal(exact, plain)

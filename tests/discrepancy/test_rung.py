@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from copy import copy
 
+import numpy as np
 import pytest
 
 from ridecomfort.discrepancy.rung import climb, final_fit
@@ -65,3 +66,12 @@ def test_a_fit_that_alignment_holds_back_is_carried_on():
     assert rung.fit.values[KEY] < 0.5
     fit, _ = final_fit(rung, sizes)
     assert fit.values[KEY] == pytest.approx(2.5, abs=0.1)
+
+
+def test_what_a_fit_leaves_is_told_of_drivers_who_are_brought_to_the_path_for_it():
+    model = Held(3, {KEY: 2.5})
+    rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, [*model.free, model.candidates[2].sizes[0]])
+    assert rung.experiment.size == rung.fit.values[KEY] != 0.0
+    for index, residual in rung.fit.residuals.items():
+        np.testing.assert_array_equal(residual, rung.experiment.residual(rung.fit.values, index))
+    assert rung.fit.loss == pytest.approx(float(np.sum(rung.frame.flat(rung.fit.residuals) ** 2)))
