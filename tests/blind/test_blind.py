@@ -82,7 +82,7 @@ def test_a_trial_becomes_a_row_and_rows_a_table(car_file):
     row = one(("clean", 3, 10))
     assert row["hidden"] == "damper_knee" and row["in_cluster"] and row["against_oracle"] > 0.8
     table = "\n".join(score.summary([row]))
-    assert "| first name right, clean, kappa >= 0.3 | 100 %" in table and "oracle" in table
+    assert "| first name right, clean, kappa >= 0.3 | 95 % | 100 %" in table and "oracle" in table
 
 
 def test_a_road_that_is_interpolated_otherwise_is_no_missing_effect(car_file):
