@@ -20,7 +20,7 @@ HOUSE = {"__init__", "compose", "contract", "lag", "library", "neutral", "table"
 """Files of this folder that are not effects."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # each is loaded once, and to compare all that they hold takes a millisecond of each drive
 class Entry:
     """An effect with the file it comes from and its function."""
 
