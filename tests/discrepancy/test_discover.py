@@ -100,3 +100,17 @@ def test_a_part_that_moves_on_a_spring_of_its_own_swings_at_its_frequency_and_is
     pushed = SimpleNamespace(**(still | {"vertical_acceleration": 1.0}))
     balance = -1.0 / (2 * pi * 11) ** 2
     assert abs(act(pushed, balance, 0.0, 100.0, 11.0, 0.1)[2]) < 0.1
+
+
+def test_a_strut_remembers_how_fast_it_moved_of_late(tmp_path):
+    """Behind a rough patch the force of a velocity fades within the time that is remembered."""
+    terms = {"velocity_times_recent": {"front": 1000.0, "rear": 1000.0}}
+    (tmp_path / "found.py").write_text(effect_source("found", "strut", terms, "Found.", {"velocity_times_recent": {"time": 2.0}}))
+    entry = library.find(tmp_path)["found"]
+    recent, step, forces = 0.0, 1e-3, []
+    for speed in (0.3, 0.0):
+        for _ in range(10000):
+            recent += step * entry.act(0, 0.0, speed, 0.0, 0.0, 0.0, 0.0, recent, **entry.effect.values())[1]
+            forces.append(entry.act(0, 0.0, 0.1, 0.0, 0.0, 0.0, 0.0, recent, **entry.effect.values())[0])
+    assert forces[9999] == pytest.approx(1000.0 * 0.1 * 0.3, rel=0.01)
+    assert forces[11999] == pytest.approx(forces[9999] / 2.71828, rel=0.01)
