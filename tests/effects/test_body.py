@@ -137,3 +137,25 @@ def test_missing_grade_and_bank_are_as_if_the_road_had_them(car, name, sizes, he
     real = drive(road(400.0, height=height), car, speed=15.0).isel(late)
     for key, limit in (("a_x", 1e-3), ("a_y", 1e-3), ("roll", 1e-5), ("pitch", 1e-4)):
         assert np.abs(added[key] - real[key]).max() < limit
+
+
+def test_uneven_load_is_a_mass_beside_the_middle_of_a_body_that_bounces_and_rolls():
+    """The forces that a point mass needs beyond those that it needs in the middle, turned round; its own inertia is that of the file."""
+    mass, aside, bounce, roll = 75.0, 0.35, 1.3, 0.7
+    there = mass * np.array([bounce + aside * roll + G, aside * (bounce + G)])
+    middle = mass * np.array([bounce + G, 0.0])
+    motion = AT_REST._replace(vertical_acceleration=bounce, roll_acceleration=roll)
+    _, _, lift, lean, *_ = act("uneven_load")(motion, mass * aside)
+    assert [lift, lean] == pytest.approx(list(middle - there))
+
+
+def test_a_driver_alone_leans_the_car_by_its_weight_over_its_roll_stiffness(car):
+    shift = 75.0 * 0.35
+    lean = drive(road(300.0), car, effects={"uneven_load": {"shift": shift}}, speed=15.0)["roll"].values[-1]
+    stiffness = 0.0
+    for axle in ("front", "rear"):
+        half = car[f"track_{axle}"] ** 2 / 2
+        strut, tyre = half * car[f"spring_stiffness_{axle}"] + car[f"anti_roll_stiffness_{axle}"], half * car["tyre_radial_stiffness"]
+        stiffness += strut * tyre / (strut + tyre)
+    stiffness -= car["sprung_mass"] * G * (car["cg_height"] - (car["roll_centre_height_front"] + car["roll_centre_height_rear"]) / 2)
+    assert lean == pytest.approx(-shift * G / stiffness, rel=0.05)

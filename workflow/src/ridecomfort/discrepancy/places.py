@@ -252,6 +252,8 @@ PLACES: Mapping[str, Place] = {
             "pitch_inertia": Term("motion.pitch_acceleration", "kg m2", "moment_y", WHOLE),
             "pitch_of_speed": Term("motion.speed**2", "kg", "moment_y", WHOLE),
             "yaw_damping": Term("motion.yaw_rate", "N m s", "moment_z", WHOLE),
+            "yaw_of_rolling": Term("motion.roll_acceleration", "kg m2", "moment_z", WHOLE),
+            "roll_of_bounce": Term("motion.vertical_acceleration", "kg m", "moment_x", WHOLE),
             **{
                 f"resonance_{axle}": _on_spring(
                     f"motion.vertical_acceleration - motion.{axle} * motion.pitch_acceleration", 0.6, "kg", "force_z", f"motion.{axle}"
