@@ -29,11 +29,14 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "trailer_sway", "tyre_payne", "tyre_sealant", "upper_body_racking", "wet_film", "wheel_wobble",
            "active_body_damping", "broken_coil", "engine_misfire", "force_toe", "hydraulic_bushing", "inertia_valve",
            "instrument_post", "machine_hum", "polygonised_tyre", "roof_load", "rough_road_drag", "steering_resonance",
-           "tender_spring", "tyre_bridging", "tyre_relaxing_rubber")  # fmt: skip
+           "tender_spring", "tyre_bridging", "tyre_relaxing_rubber",
+           "contact_damping", "inclined_inertia_axis", "rising_rate_linkage", "scanner_skew", "seat_rocking", "self_pumping_strut",
+           "side_force_load_lag", "trailing_arm_arc")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
-          "breakaway_friction": "suspension_friction", "bump_steer_by_load": "bump_steer", "tyre_flat_spot": "tyre_runout"}  # fmt: skip
+          "breakaway_friction": "suspension_friction", "bump_steer_by_load": "bump_steer", "tyre_flat_spot": "tyre_runout",
+          "one_sided_load": "uneven_load", "seated_occupants": "powertrain_mounts"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
 
 OF_MEASUREMENT = ("imu_lever_arm", "road_bank", "road_grade", "sensor_bandwidth")

@@ -20,7 +20,7 @@ from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words
 from .made import beside
-from .places import FORCE, LINEAR, PLACES, STRONGEST, parameter, scale, settings
+from .places import FORCE, LINEAR, PLACES, parameter, scale, settings
 from .rung import Rung, begin
 from .select import search
 from .selection import Selection
@@ -151,7 +151,7 @@ def _terms(place: str) -> tuple[Candidate, ...]:
         shapes = [typical, *({**typical, key: towards(setting, end)} for key, setting in varied.items() for end in (0, 1))]
         shaping = tuple(shaping_size(setting, key) for key, setting in own.items())
         sizes = tuple(
-            Size(_key(place, name, part), term.unit, 0.0, -STRONGEST / one, STRONGEST / one, FORCE / one)
+            Size(_key(place, name, part), term.unit, 0.0, -PLACES[place].strongest / one, PLACES[place].strongest / one, FORCE / one)
             for part in term.parts
         )
         candidates.append(Candidate(f"{place}:{name}", sizes, tuple(shapes), shaping))

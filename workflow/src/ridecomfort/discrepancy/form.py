@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from .places import AXLES, FORCE, LINEAR, PLACES, STRONGEST, WHEELS, Term, expression, parameter, scale, settings
+from .places import AXLES, FORCE, LINEAR, PLACES, WHEELS, Term, expression, parameter, scale, settings
 
 WIDTH = 3.0
 """Times its estimate that a factor which was found may plausibly be."""
@@ -94,7 +94,7 @@ def _written(place: str, key: str, factors: Mapping[str, float], values: Mapping
     parameters, names = [], []
     for part in term.parts:
         typical = float(factors.get(part, FORCE / one))
-        limit = float(f"{WIDTH * abs(typical) if factors.get(part) else STRONGEST / one:.3g}")
+        limit = float(f"{WIDTH * abs(typical) if factors.get(part) else PLACES[place].strongest / one:.3g}")
         of_turn = f", cosine and sine of {term.turn}" if term.turn else ""
         meaning = f"factor of {term.expression}{of_turn}" + (f", {part}" if part else "")
         names.append(parameter(key, part))

@@ -14,8 +14,8 @@ from ..effects.contract import Parameter
 FORCE = 30.0
 """N (or N m) that a term is probed with at typical motion."""
 
-STRONGEST = 1500.0
-"""N (or N m) at typical motion beyond which a term is not plausible."""
+STRONGEST, STRONGEST_OF_TYRE = 1500.0, 6000.0
+"""N (or N m) at typical motion beyond which a term is not plausible; at a tyre, which bears 4000 N at rest, more is."""
 
 CORNERING, MASS = 8e4, 1500.0
 """N that a slip (or an angle of the wheels) of one would make at typical stiffness, and that an acceleration of one stands for."""
@@ -71,7 +71,7 @@ class Term:
 @dataclass(frozen=True)
 class Place:
     """Where a force may act: its port, what an effect file calls what it sees, typical values of what it sees to scale terms by,
-    the terms, what the port returns, and how many N one of that stands for where it is none."""
+    the terms, what the port returns, how many N one of that stands for where it is none, and the strongest that a term may be (N)."""
 
     port: str
     arguments: tuple[str, ...]
@@ -79,6 +79,7 @@ class Place:
     terms: Mapping[str, Term]
     results: tuple[str, ...] = ("force",)
     worth: Mapping[str, float] = field(default_factory=dict)
+    strongest: float = STRONGEST
 
 
 def _below(expression: str, beside: str = "") -> Term:
@@ -201,6 +202,7 @@ PLACES: Mapping[str, Place] = {
             "sliding_direction": _sliding("strain", "N", "velocity"),
             "slow_velocity": _below("slow", "velocity"),
         },
+        strongest=STRONGEST_OF_TYRE,
     ),
     "contact": Place(
         "tyre_planar",
