@@ -36,7 +36,7 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
           "breakaway_friction": "suspension_friction", "bump_steer_by_load": "bump_steer", "tyre_flat_spot": "tyre_runout",
-          "one_sided_load": "uneven_load", "seated_occupants": "powertrain_mounts"}  # fmt: skip
+          "one_sided_load": "uneven_load"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
 
 OF_MEASUREMENT = ("imu_lever_arm", "road_bank", "road_grade", "sensor_bandwidth")

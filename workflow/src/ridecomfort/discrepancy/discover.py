@@ -141,7 +141,7 @@ def _key(place: str, term: str, part: str) -> str:
 
 def _terms(place: str) -> tuple[Candidate, ...]:
     """Every term of a place as a candidate: a factor for each part of the car, of either sign, and what shapes it."""
-    candidates = []
+    candidates, strongest = [], PLACES[place].strongest
     for name, term in PLACES[place].terms.items():
         one = scale(place, name)
         own = {_key(place, name, setting.name): setting for setting in settings(place, name)}
@@ -151,7 +151,7 @@ def _terms(place: str) -> tuple[Candidate, ...]:
         shapes = [typical, *({**typical, key: towards(setting, end)} for key, setting in varied.items() for end in (0, 1))]
         shaping = tuple(shaping_size(setting, key) for key, setting in own.items())
         sizes = tuple(
-            Size(_key(place, name, part), term.unit, 0.0, -PLACES[place].strongest / one, PLACES[place].strongest / one, FORCE / one)
+            Size(_key(place, name, part), term.unit, 0.0, -strongest / one, strongest / one, FORCE / one)
             for part in term.parts
         )
         candidates.append(Candidate(f"{place}:{name}", sizes, tuple(shapes), shaping))

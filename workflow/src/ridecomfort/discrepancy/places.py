@@ -98,12 +98,6 @@ def _sliding(expression: str, unit: str, beside: str) -> Term:
     return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
 
 
-def _remembering(expression: str, unit: str, beside: str) -> Term:
-    """How fast a strut moved of late, ``recent``: what oil that warms or foams goes by, and dampers that a controller sets."""
-    time = _setting("time", "s", 1.0, 0.1, 10.0, "time that it remembers")
-    return Term(expression, unit, states=(State("recent", "(abs(velocity) - recent) / time", 0.1),), settings=(time,), beside=beside)
-
-
 def _beyond(expression: str, *clearances: float) -> Term:
     """What acts from a deflection on: a typical clearance, the least and the largest."""
     clearance = _setting("clearance", "m", *clearances, "deflection from which on it acts")
@@ -173,7 +167,10 @@ PLACES: Mapping[str, Place] = {
             "side_force_size_times_direction": Term("abs(force_y) * tanh(velocity / 0.005)", "1", beside="velocity"),
             "forward_force_size_times_direction": Term("abs(force_x) * tanh(velocity / 0.005)", "1", beside="velocity"),
             "side_force_times_deflection": Term(f"deflection * force_y * {SIDE}", "1/m"),
-            "velocity_times_recent": _remembering("recent * velocity", "N s2/m2", "velocity"),
+            "velocity_times_recent": Term(
+                "recent * velocity", "N s2/m2", states=(State("recent", "(abs(velocity) - recent) / time", 0.1),),
+                settings=(_setting("time", "s", 1.0, 0.1, 10.0, "time for which it remembers how fast it moved"),), beside="velocity",
+            ),
             "sliding_direction": _sliding("strain", "N", "velocity"),
             "sliding_damping": _sliding("abs(velocity) * strain", "N s/m", "velocity"),
             "slow_velocity": _below("slow", "velocity"),
