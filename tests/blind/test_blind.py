@@ -60,7 +60,7 @@ def test_the_files_hold_reasons_units_and_the_missing_force(diagnosed):
     _, ranking, verdict = diagnosed
     assert verdict["reasons"] and verdict["effects"][0]["sizes"][0]["unit"] == "1"
     assert ranking["winner"].values[0] == "damper_asymmetry"
-    assert ranking["missing_force"].notnull().any()
+    assert ranking["missing"].notnull().any()
 
 
 def test_nothing_is_named_where_nothing_is_missing(car_file):

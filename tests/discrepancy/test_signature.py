@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import opening
+from ridecomfort.discrepancy import curves, opening
 from ridecomfort.discrepancy.rung import begin
 from ridecomfort.discrepancy.signature import signature
 from ridecomfort.effects import library
@@ -14,12 +14,21 @@ from tests.blind import trials
 
 
 @pytest.fixture(scope="module")
-def found(repository):
-    car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
-    trial = trials.make(7, car, {"suspension_friction": library.find()["suspension_friction"].effect.values()}, 1.0)
+def car(repository):
+    return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+
+
+def drawn(car, name: str):
+    """Curves of drives in which an effect is hidden, with that of the effect."""
+    trial = trials.make(7, car, {name: library.find()[name].effect.values()}, 1.0)
     experiment = opening.opened(trial.measured, car, among=(), workers=1)
     rung = begin(experiment, {**opening.start_values(experiment), **trial.truth["car"]})
     return signature(rung, named=trial.truth["effects"])
+
+
+@pytest.fixture(scope="module")
+def found(car):
+    return drawn(car, "suspension_friction")
 
 
 def test_friction_shows_as_a_step_where_the_velocity_turns(found):
@@ -27,9 +36,9 @@ def test_friction_shows_as_a_step_where_the_velocity_turns(found):
     slow = np.abs(curve["seen_at"]) < 0.2
     for axle in ("front", "rear"):
         own = curve.sel(axle=axle)
-        expected = own["named_force"].isel(named_effect=0)
+        expected = own["named_missing"].isel(named_effect=0)
         assert float(expected.max()) > 15
-        off = np.abs(own["missing_force"] - expected)[slow]
+        off = np.abs(own["missing"] - expected)[slow]
         # Friction turns within 2 mm/s, the curve between knots 40 mm/s apart.
         assert float(off.max()) < 0.4 * float(expected.max())
 
@@ -39,9 +48,45 @@ def test_the_place_where_the_force_acts_explains_most(found):
 
 
 def test_a_force_at_rest_does_not_show(found):
-    at_rest = found["missing_force"].where(found["seen_at"] == 0).max("knot")
+    at_rest = found["missing"].where(found["seen_at"] == 0).max("knot")
     np.testing.assert_allclose(at_rest.values, 0.0, atol=1e-9)
 
 
 def test_an_effect_that_acts_elsewhere_is_not_drawn(found):
-    assert bool(found["named_force"].sel(seen="tyre deflection").isnull().all())
+    assert bool(found["named_missing"].sel(seen="tyre deflection").isnull().all())
+
+
+def test_stiffness_that_grows_less_than_the_load_shows_as_a_falling_line(car):
+    found = drawn(car, "cornering_degression")
+    curve = found.sel(seen="tyre load")
+    assert str(found["seen"].values[int(np.argmax(found["seen_share"].values))]) == "tyre load"
+    assert curve["missing_unit"].item() == "1"
+    met = (curve["seen_at"] > 2000) & (curve["seen_at"] < 6000)
+    for axle in ("front", "rear"):
+        own = curve.sel(axle=axle).where(met, drop=True)
+        slope = np.polyfit(own["seen_at"], own["missing"], 1)[0]
+        # The effect file: stiffness per load falls by 0.7 over a reference load of 4000 N.
+        assert slope == pytest.approx(-0.7 / 4000.0, rel=0.15)
+
+
+def test_only_what_acts_where_named_effects_do_is_estimated_beside_struts_and_tyres(found):
+    assert list(found["seen"].values) == ["strut velocity", "strut deflection", "tyre deflection"]
+    assert list(curves.at(["kinematics"])) == ["strut velocity", "strut deflection", "tyre deflection", "wheel travel"]
+
+
+def known(car, name: str, seen: str, **sizes: float):
+    return curves.known(library.find()[name], sizes, car, {seen: curves.SEEN[seen]})[seen]
+
+
+def test_effects_are_known_along_the_curves_of_their_port(car):
+    travel, load, velocity = (np.array(curves.SEEN[seen].knots) for seen in ("wheel travel", "tyre load", "strut velocity"))
+    np.testing.assert_allclose(known(car, "bump_steer", "wheel travel", front=0.1, rear=-0.2), [0.1 * travel, -0.2 * travel])
+    falling = 1.0 - 0.35 * (load / 4000.0 - 1.0)
+    np.testing.assert_allclose(known(car, "cornering_degression", "tyre load", degression=0.35), [falling - 1.0] * 2)
+    np.testing.assert_allclose(known(car, "tyre_relaxation", "slip angle", lateral=0.5), 0.0, atol=1e-9)  # in steady motion
+    friction = known(car, "suspension_friction", "strut velocity", front=70.0, rear=60.0)
+    np.testing.assert_allclose(friction[:, velocity > 0.02], [[70.0] * 4, [60.0] * 4], rtol=0.01)
+
+
+def test_an_effect_of_another_port_is_along_no_curve(car):
+    assert curves.known(library.find()["aerodynamic_lift"], {}, car, curves.SEEN) == {}

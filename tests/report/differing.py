@@ -172,10 +172,13 @@ def curves() -> xr.Dataset:
         {
             "seen_at": (("seen", "knot"), np.stack([knots, knots])),
             "seen_unit": ("seen", ["m/s", "m"]),
+            "seen_axis": ("seen", ["strut velocity, in compression", "strut deflection, in compression"]),
+            "missing_what": ("seen", ["missing force, pushing apart"] * 2),
+            "missing_unit": ("seen", ["N", "N"]),
             "seen_share": ("seen", [0.6, 0.01]),
-            "missing_force": (over, force),
-            "missing_force_error": (over, np.full(force.shape, 5.0)),
-            "named_force": (("named_effect", *over), named),
+            "missing": (over, force),
+            "missing_error": (over, np.full(force.shape, 5.0)),
+            "named_missing": (("named_effect", *over), named),
         },
         {"seen": ["strut velocity", "strut deflection"], "axle": ["front", "rear"], "named_effect": ["suspension_friction"]},
     )

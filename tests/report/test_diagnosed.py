@@ -179,7 +179,7 @@ def test_the_missing_force_is_drawn_beside_what_the_named_effect_would_show():
 def test_what_the_named_effects_would_show_is_not_cut_off():
     found = made_up.diagnosis()
     found.ranking.update(made_up.curves())
-    found.ranking["named_force"] = 5.0 * found.ranking["named_force"]
+    found.ranking["named_missing"] = 5.0 * found.ranking["named_missing"]
     with style.styled():
         each = diagnosed.figures(found)["signature"]()
     for axes in each.axes:

@@ -95,7 +95,10 @@ def ranked(
     if signatures:
         say("drawing the missing force")
         named = {e.name: {size["parameter"]: size["size"] for size in e.sizes} for e in verdict.effects}
-        curves = signature(rung, named=named, effects_folder=effects_folder, each=each)
+        others = [name for e in verdict.effects for name in e.like]
+        if not named:
+            others = [trial.name for turn in selection.rounds[:1] for trial in turn.trials]
+        curves = signature(rung, named=named, others=others, effects_folder=effects_folder, each=each)
         table = table.merge(curves)
     return table, verdict, selection
 

@@ -92,8 +92,9 @@ DIAGNOSIS_FIGURES = {
     "estimate, above the floor as known in that round; the missing effects have it from the last fit of each round, the error ladder "
     "from models calibrated anew.",
     "signature": "The force that the calibrated model lacks, estimated without a form in mind against what it could depend on. "
-    "What calibration could take up, a straight line, does not show; the named effects have passed through the same estimate. "
-    "All panels of the strut have one scale of force, and those of the tyre.",
+    "What calibration could take up, a straight line or a level, does not show; the named effects have passed through the same "
+    "estimate. Slip angles, the cornering stiffness over the load and toe-out over the wheel's travel are there where effects that act "
+    "so are named, or come nearest. All panels of the strut have one scale of force, and those of the tyre.",
 }
 
 ROAD_FIGURES = {

@@ -1,0 +1,170 @@
+"""What a force may depend on, as curves that are straight between knots, and what known effects are along them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..effects import library
+from ..effects.contract import PORTS
+from ..vehicle.constants import DAMPING, SPRING, STATIC_DEFLECTION, wheel_table
+from ..vehicle.parameters import Vehicle
+from .experiment import Candidate, Size
+from .places import AXLES, FORCE, SIDE
+
+LINE, LEVEL = "line", "level"
+"""What of a curve no drive knows: its value at rest and a line through it, or its level alone."""
+
+USUAL = 500.0
+"""N; usual size of a missing force, which is probed with FORCE."""
+
+STEP, STEADY = 1e-3, 1000
+"""s, and the number of such steps, over which the states of an effect settle at steady motion."""
+
+SPIN, SPEED, SLIP = 70.0, 20.0, 0.01
+"""rad/s of the wheels, m/s and slip angle where a curve goes by something else."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What something that the model lacks at a wheel may depend on.
+
+    ``expression``: in what the ``port`` sees, with its ``unit``, and ``axis``, what that means; ``knots`` of the curve; ``lacks``: what the
+    model lacks there, in ``lacks_unit``, with its ``usual`` size. ``returns``: what the port returns, by the value ``y`` of the curve of the
+    wheel's axle. ``open``: LINE or LEVEL.
+    """
+
+    port: str
+    expression: str
+    unit: str
+    axis: str
+    knots: tuple[float, ...]
+    returns: tuple[str, ...] = ("y",)
+    lacks: str = "missing force, pushing apart"
+    lacks_unit: str = "N"
+    usual: float = USUAL
+    open: str = LINE
+
+    @property
+    def probe(self) -> float:
+        """What the curve is probed with at each knot."""
+        return self.usual * FORCE / USUAL
+
+
+SEEN: Mapping[str, Seen] = {
+    "strut velocity": Seen(
+        "suspension", "velocity", "m/s", "strut velocity, in compression",
+        (-0.6, -0.3, -0.12, -0.04, -0.01, 0.0, 0.01, 0.04, 0.12, 0.3, 0.6),
+    ),
+    "strut deflection": Seen(
+        "suspension", "deflection", "m", "strut deflection, in compression",
+        (-0.05, -0.03, -0.015, -0.005, 0.0, 0.005, 0.015, 0.03, 0.05),
+    ),
+    "tyre deflection": Seen(
+        "tyre_vertical", "deflection - rest", "m", "tyre deflection, in compression",
+        (-0.015, -0.008, -0.004, 0.0, 0.004, 0.008, 0.015),
+    ),
+    "slip angle": Seen(
+        "tyre_planar", "slip_y", "rad", "slip angle, pushing left", (-0.04, -0.02, -0.01, -0.004, 0.0, 0.004, 0.01, 0.02, 0.04),
+        ("slip_x", "slip_y + y", "0.0"), "missing slip angle", "rad", 0.006,
+    ),
+    "tyre load": Seen(
+        "tyre_planar", "load", "N", "tyre load", (1500.0, 2500.0, 3500.0, 4500.0, 5500.0, 6500.0),
+        ("slip_x", "slip_y * (1.0 + y)", "0.0"), "missing cornering stiffness", "1", 0.3, LEVEL,
+    ),
+    "wheel travel": Seen(
+        "kinematics", "deflection", "m", "wheel travel, in compression", (-0.05, -0.03, -0.015, 0.0, 0.015, 0.03, 0.05),
+        ("0.0", f"y * {SIDE}"), "missing toe-out", "rad", 0.006, LEVEL,
+    ),
+}  # fmt: skip
+
+ALWAYS = ("suspension", "tyre_vertical")
+"""Ports whose curves are estimated whatever is named: that of nearly all that shakes a body."""
+
+
+def at(ports: Sequence[str]) -> dict[str, Seen]:
+    """What may be drawn where effects act at these ports."""
+    return {label: seen for label, seen in SEEN.items() if seen.port in (*ALWAYS, *ports)}
+
+
+def candidate(name: str, seen: Seen) -> Candidate:
+    """A curve as what a search may probe: its sizes are its values at the knots."""
+    keys = (f"{name}.{axle}_{knot}" for axle in AXLES for knot in range(len(seen.knots)))
+    reach = 10.0 * seen.usual
+    return Candidate(name, tuple(Size(key, seen.lacks_unit, 0.0, -reach, reach, seen.probe) for key in keys))
+
+
+def row(key: str, seen: Seen) -> int:
+    """Where the value at a knot, by the key of its size, stands among those of both axles."""
+    axle, _, knot = key.partition(".")[2].partition("_")
+    return AXLES.index(axle) * len(seen.knots) + int(knot)
+
+
+def source(name: str, seen: Seen) -> str:
+    """Text of an effect file (``effects.contract``) that is a curve over knots for each axle."""
+    own = [f"{axle}_{knot}" for axle in AXLES for knot in range(len(seen.knots))]
+    unit, reach = seen.lacks_unit, 10.0 * seen.usual
+    parameters = "\n".join(
+        f'        Parameter("{one}", "{unit}", 0.0, {seen.probe}, ({-reach}, {reach}), "value at a knot of the curve"),' for one in own
+    )
+    lines = [line for axle in AXLES for line in _along(axle, seen.knots)]
+    return (
+        f'"""A curve over {seen.expression}."""\n\nfrom ridecomfort.effects.contract import Effect, Parameter\n\n'
+        f'effect = Effect(\n    name="{name}",\n    sentence="A curve that is looked for.",\n    source="none",\n'
+        f'    port="{seen.port}",\n    parameters=(\n{parameters}\n    ),\n)\n\n\n'
+        f"def act({', '.join((*PORTS[seen.port].sees, *own))}):\n    x = {seen.expression}\n" + "\n".join(lines)
+        + f"\n    y = front if wheel < 2 else rear\n    return {', '.join(seen.returns)}\n"
+    )
+
+
+def _along(axle: str, knots: Sequence[float]) -> list[str]:
+    """Lines that put the value of an axle's curve at ``x`` into the name of the axle; flat beyond the last knots."""
+    lines = [f"    {axle} = {axle}_0"]
+    for k, (low, high) in enumerate(zip(knots[:-1], knots[1:])):
+        value = f"{axle}_{k} + (min(x, {high}) - ({low})) / ({high - low}) * ({axle}_{k + 1} - {axle}_{k})"
+        lines += [f"    if x > {low}:", f"        {axle} = {value}"]
+    return lines
+
+
+def known(entry: library.Entry, sizes: Mapping[str, float], vehicle: Vehicle, chosen: Mapping[str, Seen]) -> dict[str, np.ndarray]:
+    """An effect of a vehicle along those of the ``chosen`` curves that are of its port, (axle, knot) by label; of one with states, in
+    steady motion. What a curve cannot be, as a pull where it is of slip angles, is left out of it."""
+    sizes, found = entry.effect.values(sizes), {}
+    for label, seen in chosen.items():
+        if seen.port == entry.effect.port:
+            rows = [[_value(seen, sight, entry, sizes) for sight in _sights(seen, wheel, vehicle)] for wheel in (0, 2)]
+            found[label] = np.array(rows)
+    return found
+
+
+def _sights(seen: Seen, wheel: int, vehicle: Vehicle) -> list[dict[str, float]]:
+    """What the port sees at every knot, all else being usual."""
+    own, radial = wheel_table(vehicle)[wheel], vehicle["tyre_radial_stiffness"]
+    rest = own[STATIC_DEFLECTION]
+    usual = {"wheel": wheel, "spin": SPIN, "speed": SPEED, "slip_y": SLIP, "load": radial * rest, "rest": rest}
+    usual |= {"stiffness": own[SPRING], "damping": own[DAMPING]}
+    if seen.port == "tyre_vertical":
+        usual |= {"stiffness": radial, "deflection": rest}
+    sight = {name: usual.get(name, 0.0) for name in PORTS[seen.port].sees}
+    goes_by, _, less = seen.expression.partition(" - ")
+    return [{**sight, goes_by: knot + usual.get(less, 0.0)} for knot in seen.knots]
+
+
+def _value(seen: Seen, sight: Mapping[str, float], entry: library.Entry, sizes: Mapping[str, float]) -> float:
+    """Value of the curve that comes nearest to what an effect does where its port sees ``sight``."""
+    scope = {"__builtins__": {}, **sight}
+    # Expressions of this file, not of a user.
+    nothing, one = (np.array([eval(own, scope, {"y": y}) for own in seen.returns], float) for y in (0.0, 1.0))
+    return float((one - nothing) @ (_steady(entry, list(sight.values()), sizes) - nothing) / np.sum((one - nothing) ** 2))
+
+
+def _steady(entry: library.Entry, seen: Sequence, sizes: Mapping[str, float]) -> np.ndarray:
+    """What an effect returns that has seen the same for long."""
+    act, states = getattr(entry.act, "py_func", entry.act), np.zeros(len(entry.effect.states))
+    count = len(PORTS[entry.effect.port].returns)
+    for _ in range(STEADY if states.size else 0):
+        slopes = act(*seen, *states, *sizes.values())[count:]
+        states = states + STEP * np.array(slopes)
+    return np.atleast_1d(act(*seen, *states, *sizes.values()))[:count]
