@@ -253,6 +253,9 @@ PLACES: Mapping[str, Place] = {
             "yaw_damping": Term("motion.yaw_rate", "N m s", "moment_z", WHOLE),
             "yaw_of_rolling": Term("motion.roll_acceleration", "kg m2", "moment_z", WHOLE),
             "roll_of_bounce": Term("motion.vertical_acceleration", "kg m", "moment_x", WHOLE),
+            "lift_of_rolling": Term("motion.roll_acceleration", "kg m", "force_z", WHOLE),
+            "pitch_of_bounce": Term("motion.vertical_acceleration", "kg m", "moment_y", WHOLE),
+            "lift_of_pitching": Term("motion.pitch_acceleration", "kg m", "force_z", WHOLE),
             **{
                 f"resonance_{axle}": _on_spring(
                     f"motion.vertical_acceleration - motion.{axle} * motion.pitch_acceleration", 0.6, "kg", "force_z", f"motion.{axle}"
