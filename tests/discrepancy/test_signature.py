@@ -23,7 +23,8 @@ def drawn(car, name: str):
     trial = trials.make(7, car, {name: library.find()[name].effect.values()}, 1.0)
     experiment = opening.opened(trial.measured, car, among=(), workers=1)
     rung = begin(experiment, {**opening.start_values(experiment), **trial.truth["car"]})
-    return signature(rung, named=trial.truth["effects"])
+    hidden = {f"{effect}.{key}": value for effect, sizes in trial.truth["effects"].items() for key, value in sizes.items()}
+    return signature(rung, named={**rung.fit.values, **trial.truth["car"], **hidden}, near=[name])
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +37,7 @@ def test_friction_shows_as_a_step_where_the_velocity_turns(found):
     slow = np.abs(curve["seen_at"]) < 0.2
     for axle in ("front", "rear"):
         own = curve.sel(axle=axle)
-        expected = own["named_missing"].isel(named_effect=0)
+        expected = own["named_missing"]
         assert float(expected.max()) > 15
         off = np.abs(own["missing"] - expected)[slow]
         # Friction turns within 2 mm/s, the curve between knots 40 mm/s apart.
@@ -52,8 +53,11 @@ def test_a_force_at_rest_does_not_show(found):
     np.testing.assert_allclose(at_rest.values, 0.0, atol=1e-9)
 
 
-def test_an_effect_that_acts_elsewhere_is_not_drawn(found):
-    assert bool(found["named_missing"].sel(seen="tyre deflection").isnull().all())
+def test_what_the_true_effect_would_show_lies_within_the_errors_in_the_curves_of_other_places_too(found):
+    others = found.sel(seen=["strut deflection", "tyre deflection"])
+    off = np.abs(others["missing"] - others["named_missing"]) / others["missing_error"].where(others["seen_at"] != 0)
+    assert int(off.notnull().sum()) > 10
+    assert float((off < 3.0).sum() / off.notnull().sum()) > 0.8
 
 
 def test_stiffness_that_grows_less_than_the_load_shows_as_a_falling_line(car):
@@ -72,21 +76,3 @@ def test_stiffness_that_grows_less_than_the_load_shows_as_a_falling_line(car):
 def test_only_what_acts_where_named_effects_do_is_estimated_beside_struts_and_tyres(found):
     assert list(found["seen"].values) == ["strut velocity", "strut deflection", "tyre deflection"]
     assert list(curves.at(["kinematics"])) == ["strut velocity", "strut deflection", "tyre deflection", "wheel travel"]
-
-
-def known(car, name: str, seen: str, **sizes: float):
-    return curves.known(library.find()[name], sizes, car, {seen: curves.SEEN[seen]})[seen]
-
-
-def test_effects_are_known_along_the_curves_of_their_port(car):
-    travel, load, velocity = (np.array(curves.SEEN[seen].knots) for seen in ("wheel travel", "tyre load", "strut velocity"))
-    np.testing.assert_allclose(known(car, "bump_steer", "wheel travel", front=0.1, rear=-0.2), [0.1 * travel, -0.2 * travel])
-    falling = 1.0 - 0.35 * (load / 4000.0 - 1.0)
-    np.testing.assert_allclose(known(car, "cornering_degression", "tyre load", degression=0.35), [falling - 1.0] * 2)
-    np.testing.assert_allclose(known(car, "tyre_relaxation", "slip angle", lateral=0.5), 0.0, atol=1e-9)  # in steady motion
-    friction = known(car, "suspension_friction", "strut velocity", front=70.0, rear=60.0)
-    np.testing.assert_allclose(friction[:, velocity > 0.02], [[70.0] * 4, [60.0] * 4], rtol=0.01)
-
-
-def test_an_effect_of_another_port_is_along_no_curve(car):
-    assert curves.known(library.find()["aerodynamic_lift"], {}, car, curves.SEEN) == {}

@@ -166,7 +166,7 @@ def curves() -> xr.Dataset:
     knots = np.array([-0.1, 0.0, 0.1])
     step = np.broadcast_to(80.0 * np.sign(knots), (2, 3))
     force = np.stack([step, np.zeros((2, 3))])
-    named = np.stack([step, np.full((2, 3), np.nan)])[None]
+    named = np.stack([step, np.zeros((2, 3))])
     over = ("seen", "axle", "knot")
     return xr.Dataset(
         {
@@ -178,7 +178,7 @@ def curves() -> xr.Dataset:
             "seen_share": ("seen", [0.6, 0.01]),
             "missing": (over, force),
             "missing_error": (over, np.full(force.shape, 5.0)),
-            "named_missing": (("named_effect", *over), named),
+            "named_missing": (over, named),
         },
-        {"seen": ["strut velocity", "strut deflection"], "axle": ["front", "rear"], "named_effect": ["suspension_friction"]},
+        {"seen": ["strut velocity", "strut deflection"], "axle": ["front", "rear"]},
     )

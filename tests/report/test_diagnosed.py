@@ -170,9 +170,9 @@ def test_the_missing_force_is_drawn_beside_what_the_named_effect_would_show():
         each = diagnosed.figures(found)["signature"]()
         FigureCanvasAgg(each).draw()
     said = " ".join(text.get_text() for text in each.findobj(Text))
-    assert "front strut velocity: 60 % of the error" in said and "suspension friction" in said and "[mm]" in said
+    assert "rear strut velocity; both: 60 % of the error" in said and "suspension friction" in said and "[mm]" in said
     drawn = [line for axes in each.axes for line in axes.lines if line.get_linestyle() == "--"]
-    assert len(drawn) == 2  # one an axle, and none where the effect does not act
+    assert len(drawn) == 4  # in every panel: nothing is shown as nothing
     assert len({axes.get_ylim() for axes in each.axes}) == 1  # both places are of the strut: sizes compare by eye
 
 

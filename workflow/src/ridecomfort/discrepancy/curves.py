@@ -1,16 +1,11 @@
-"""What a force may depend on, as curves that are straight between knots, and what known effects are along them."""
+"""What a force may depend on, as curves that are straight between knots, written as effect files."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from ..effects import library
 from ..effects.contract import PORTS
-from ..vehicle.constants import DAMPING, SPRING, STATIC_DEFLECTION, wheel_table
-from ..vehicle.parameters import Vehicle
 from .experiment import Candidate, Size
 from .places import AXLES, FORCE, SIDE
 
@@ -19,12 +14,6 @@ LINE, LEVEL = "line", "level"
 
 USUAL = 500.0
 """N; usual size of a missing force, which is probed with FORCE."""
-
-STEP, STEADY = 1e-3, 1000
-"""s, and the number of such steps, over which the states of an effect settle at steady motion."""
-
-SPIN, SPEED, SLIP = 70.0, 20.0, 0.01
-"""rad/s of the wheels, m/s and slip angle where a curve goes by something else."""
 
 
 @dataclass(frozen=True)
@@ -126,45 +115,3 @@ def _along(axle: str, knots: Sequence[float]) -> list[str]:
         value = f"{axle}_{k} + (min(x, {high}) - ({low})) / ({high - low}) * ({axle}_{k + 1} - {axle}_{k})"
         lines += [f"    if x > {low}:", f"        {axle} = {value}"]
     return lines
-
-
-def known(entry: library.Entry, sizes: Mapping[str, float], vehicle: Vehicle, chosen: Mapping[str, Seen]) -> dict[str, np.ndarray]:
-    """An effect of a vehicle along those of the ``chosen`` curves that are of its port, (axle, knot) by label; of one with states, in
-    steady motion. What a curve cannot be, as a pull where it is of slip angles, is left out of it."""
-    sizes, found = entry.effect.values(sizes), {}
-    for label, seen in chosen.items():
-        if seen.port == entry.effect.port:
-            rows = [[_value(seen, sight, entry, sizes) for sight in _sights(seen, wheel, vehicle)] for wheel in (0, 2)]
-            found[label] = np.array(rows)
-    return found
-
-
-def _sights(seen: Seen, wheel: int, vehicle: Vehicle) -> list[dict[str, float]]:
-    """What the port sees at every knot, all else being usual."""
-    own, radial = wheel_table(vehicle)[wheel], vehicle["tyre_radial_stiffness"]
-    rest = own[STATIC_DEFLECTION]
-    usual = {"wheel": wheel, "spin": SPIN, "speed": SPEED, "slip_y": SLIP, "load": radial * rest, "rest": rest}
-    usual |= {"stiffness": own[SPRING], "damping": own[DAMPING]}
-    if seen.port == "tyre_vertical":
-        usual |= {"stiffness": radial, "deflection": rest}
-    sight = {name: usual.get(name, 0.0) for name in PORTS[seen.port].sees}
-    goes_by, _, less = seen.expression.partition(" - ")
-    return [{**sight, goes_by: knot + usual.get(less, 0.0)} for knot in seen.knots]
-
-
-def _value(seen: Seen, sight: Mapping[str, float], entry: library.Entry, sizes: Mapping[str, float]) -> float:
-    """Value of the curve that comes nearest to what an effect does where its port sees ``sight``."""
-    scope = {"__builtins__": {}, **sight}
-    # Expressions of this file, not of a user.
-    nothing, one = (np.array([eval(own, scope, {"y": y}) for own in seen.returns], float) for y in (0.0, 1.0))
-    return float((one - nothing) @ (_steady(entry, list(sight.values()), sizes) - nothing) / np.sum((one - nothing) ** 2))
-
-
-def _steady(entry: library.Entry, seen: Sequence, sizes: Mapping[str, float]) -> np.ndarray:
-    """What an effect returns that has seen the same for long."""
-    act, states = getattr(entry.act, "py_func", entry.act), np.zeros(len(entry.effect.states))
-    count = len(PORTS[entry.effect.port].returns)
-    for _ in range(STEADY if states.size else 0):
-        slopes = act(*seen, *states, *sizes.values())[count:]
-        states = states + STEP * np.array(slopes)
-    return np.atleast_1d(act(*seen, *states, *sizes.values()))[:count]

@@ -94,13 +94,21 @@ def ranked(
     table.attrs["suspected"] = "" if not (doubts or has_decoys) else "road" if is_road_alone and not has_decoys else "data"
     if signatures:
         say("drawing the missing force")
-        named = {e.name: {size["parameter"]: size["size"] for size in e.sizes} for e in verdict.effects}
-        others = [name for e in verdict.effects for name in e.like]
-        if not named:
-            others = [trial.name for turn in selection.rounds[:1] for trial in turn.trials]
-        curves = signature(rung, named=named, others=others, effects_folder=effects_folder, each=each)
+        near = [name for e in verdict.effects for name in (e.name, *e.like)]
+        if not near:
+            near = [trial.name for turn in selection.rounds[:1] for trial in turn.trials]
+        curves = signature(
+            rung, named=_with_named(selection, verdict, experiment), near=[*near, *experiment.effects], effects_folder=effects_folder, each=each
+        )
         table = table.merge(curves)
     return table, verdict, selection
+
+
+def _with_named(selection: Selection, verdict: Verdict, experiment: Car) -> dict[str, float] | None:
+    """Values of the last model with nothing but the effects that the verdict names; None without any."""
+    named = [effect.name for effect in verdict.effects]
+    others = [c for c in experiment.candidates if c.name in selection.accepted and c.name not in named]
+    return {**selection.final.values, **{size.key: size.neutral for c in others for size in c.sizes}} if named else None
 
 
 def _measured(frame: Frame) -> dict[int, np.ndarray]:

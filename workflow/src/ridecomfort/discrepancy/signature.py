@@ -3,8 +3,10 @@
 At every place where a force could act it is written as a curve, straight between knots, of
 one thing that the place sees. Its values at the knots are found from the white residuals as
 the size of an effect is, with what is calibrated and aligned projected out. What calibration
-could take up (a straight line) does therefore not show, and what is drawn of a named effect
-for comparison has passed through the same estimate.
+could take up (a straight line) does therefore not show. Each curve is estimated as if nothing
+else were missing, so that of several things that are each leaves a trace in the curves of the
+others; what is drawn of named effects for comparison are the curves that the same estimate
+makes of the drives of a model that has them, and leaves the same traces.
 """
 
 from __future__ import annotations
@@ -16,9 +18,9 @@ import numpy as np
 import xarray as xr
 from scipy.linalg import block_diag
 
-from ..calibrated import with_values
 from ..effects import library
-from . import curves, evidence, probe
+from . import curves, event, evidence, probe
+from . import experiment as exp
 from .curves import LINE, Seen
 from .experiment import Frame
 from .made import beside
@@ -26,77 +28,81 @@ from .places import AXLES
 from .rung import Rung
 
 
+LEAST_PLACES = 3.0
+"""Blocks of road over which what a knot changes must be spread: of one or two nothing tells how sure its value is."""
+
+
 def signature(
-    rung: Rung, *, named: Mapping[str, Mapping[str, float]] | None = None, others: Sequence[str] = (), effects_folder=None,
-    each: Callable = map,
-) -> xr.Dataset:  # fmt: skip
+    rung: Rung, *, named: Mapping[str, float] | None = None, near: Sequence[str] = (), effects_folder=None, each: Callable = map
+) -> xr.Dataset:
     """Curves of what a ``rung`` misses, from the drives that are fitted.
 
-    ``named``: sizes of effects to compare with, as mapping of name to {parameter: value}; ``others``: names of effects at whose ports
-    curves are estimated, too; ``each``: a ``map`` over curves.
+    ``named``: values of the model with the named effects, to compare with; ``near``: names of effects at whose ports curves are estimated
+    beside those of struts and tyres; ``each``: a ``map`` over curves.
     Returns over ``seen`` (what it depends on), ``axle`` and ``knot``: ``seen_at`` (in ``seen_unit``, of what ``seen_axis`` says),
-    ``missing`` (``missing_what``, in ``missing_unit``) with its standard ``missing_error``, and over ``named_effect`` too
-    ``named_missing``: what the estimate would show were the effect the truth (nan where it acts elsewhere); ``seen_share`` of the
-    error when white, noise included, that the curves of a place take says which explains most.
+    ``missing`` (``missing_what``, in ``missing_unit``) with its standard ``missing_error``, and ``named_missing``: what the estimate
+    would show were the model with the named effects the truth (nan without any); nan where drives hardly come. ``seen_share`` of the
+    error when white, noise included, that the curves of a place, those of both axles, take says which explains most.
     """
     frame, values, residuals = rung.frame, rung.fit.values, rung.fit.residuals
     free = evidence.basis(frame.flats(list(rung.raw.values())).astype(float))
+    to_explain = [evidence.without(frame.flat(residuals), free)]
+    if named is not None:
+        explained = exp.simulate(rung.experiment, named, residuals)
+        to_explain.append(evidence.without(frame.flat({i: residuals[i] - explained[i] for i in residuals}), free))
     known = library.find(effects_folder)
-    chosen = curves.at([known[name].effect.port for name in (*(named or {}), *others)])
+    chosen = curves.at([known[name].effect.port for name in near])
     sources = {_name(number): curves.source(_name(number), seen) for number, seen in enumerate(chosen.values())}
     with beside(effects_folder, sources) as folder:
         candidates = [curves.candidate(_name(number), seen) for number, seen in enumerate(chosen.values())]
         experiment = rung.experiment.looking_for(candidates, folder)
         start = probe.coarsely(experiment, values, residuals)
         found = each(probe.Probe(*start), [(c.name, 0) for c in candidates])
-        estimates = list(each(_Estimate(frame, residuals, free), list(zip(found, chosen.values()))))
-    vehicle, _ = with_values(rung.experiment.vehicle, {}, values)
-    shapes = {name: curves.known(known[name], sizes, vehicle, chosen) for name, sizes in (named or {}).items()}
-    return _dataset(chosen, estimates, {name: own for name, own in shapes.items() if own})
+        estimates = list(each(_Estimate(frame, np.stack(to_explain), free), list(zip(found, chosen.values()))))
+    return _dataset(chosen, estimates)
 
 
 @dataclass(frozen=True)
 class _Curve:
+    """Values at the knots of both axles: what is missing, its standard error, what would be were the named effects the truth; and the share
+    of the error that it takes."""
+
     missing: np.ndarray
     error: np.ndarray
-    resolution: np.ndarray
-    """What the estimate makes of a true curve, (axle and knot, axle and knot)."""
+    named: np.ndarray
     share: float
 
 
 @dataclass(frozen=True)
 class _Estimate:
     frame: Frame
-    residuals: Mapping[int, np.ndarray]
+    to_explain: np.ndarray
+    """White residual, and that which the named effects explain if there are any, without what is free (1 or 2, element)."""
     free: np.ndarray
     """White directions that are fitted anyway, orthonormal."""
 
     def __call__(self, job: tuple[Mapping, Seen]) -> _Curve:
-        return _curve(self.frame, self.residuals, self.free, *job)
-
-
-def _curve(frame: Frame, residuals, free, columns, seen: Seen) -> _Curve:
-    keys = list(columns)
-    count = len(AXLES) * len(seen.knots)
-    if not keys:
-        return _Curve(np.zeros(count), np.full(count, np.nan), np.zeros((count, count)), 0.0)
-    rows = evidence.without(frame.flats([columns[key] for key in keys]).astype(float) / seen.probe, free)
-    residual = evidence.without(frame.flat(residuals), free)
-    normal = rows @ rows.T
-    # What is usual holds what the data do not show, near zero.
-    held = np.linalg.inv(normal + np.eye(len(rows)) / seen.usual**2)
-    missing = -held @ (rows @ residual)
-    left = residual + missing @ rows
-    blocks = np.unique(frame.blocks(), return_inverse=True)[1]
-    sums = np.stack([np.bincount(blocks, row * left) for row in rows])
-    where = [curves.row(key, seen) for key in keys]
-    values, spread, resolution = np.zeros(count), np.zeros((count, count)), np.zeros((count, count))
-    values[where], spread[np.ix_(where, where)] = missing, held @ (sums @ sums.T) @ held
-    resolution[np.ix_(where, where)] = held @ normal
-    is_met = np.isin(np.arange(count), where)
-    shown = _as_known(seen, spread, is_met)
-    error = np.where(is_met, np.sqrt(np.diag(shown @ spread @ shown.T)), np.nan)
-    return _Curve(shown @ values, error, shown @ resolution, 1.0 - float(left @ left / (residual @ residual)))
+        columns, seen = job
+        count = len(AXLES) * len(seen.knots)
+        blocks = np.unique(self.frame.blocks(), return_inverse=True)[1]
+        if not columns:
+            return _Curve(*np.full((3, count), np.nan), 0.0)
+        white = self.frame.flats(list(columns.values())).astype(float) / seen.probe
+        is_often = event.participation(white, blocks) >= LEAST_PLACES
+        where = [curves.row(key, seen) for key, often in zip(columns, is_often) if often]
+        rows, residual = evidence.without(white[is_often], self.free), self.to_explain[0]
+        # What is usual holds what the data do not show, near zero.
+        held = np.linalg.inv(rows @ rows.T + np.eye(len(rows)) / seen.usual**2)
+        found = -self.to_explain @ rows.T @ held
+        left = residual + found[0] @ rows
+        sums = np.stack([np.bincount(blocks, row * left) for row in rows])
+        values, spread, is_met = np.zeros((2, count)), np.zeros((count, count)), np.isin(np.arange(count), where)
+        values[: len(found), where], spread[np.ix_(where, where)] = found, held @ (sums @ sums.T) @ held
+        shown = _as_known(seen, spread, is_met)
+        missing, named = np.where(is_met, values @ shown.T, np.nan)
+        error = np.where(is_met, np.sqrt(np.diag(shown @ spread @ shown.T)), np.nan)
+        share = 1.0 - float(left @ left / (residual @ residual))
+        return _Curve(missing, error, named if len(found) > 1 else np.full(count, np.nan), share)
 
 
 def _as_known(seen: Seen, spread: np.ndarray, is_met: np.ndarray) -> np.ndarray:
@@ -121,21 +127,15 @@ def _as_known(seen: Seen, spread: np.ndarray, is_met: np.ndarray) -> np.ndarray:
     return block_diag(*parts)
 
 
-def _dataset(
-    chosen: Mapping[str, Seen], estimates: Sequence[_Curve], shapes: Mapping[str, Mapping[str, np.ndarray]]
-) -> xr.Dataset:
+def _dataset(chosen: Mapping[str, Seen], estimates: Sequence[_Curve]) -> xr.Dataset:
     most = max(len(seen.knots) for seen in chosen.values())
     shape = (len(chosen), len(AXLES), most)
-    at, missing, error = np.full((len(chosen), most), np.nan), np.full(shape, np.nan), np.full(shape, np.nan)
-    drawn = np.full((len(shapes), *shape), np.nan)
-    for number, ((label, seen), curve) in enumerate(zip(chosen.items(), estimates)):
+    at, table = np.full((len(chosen), most), np.nan), {key: np.full(shape, np.nan) for key in ("missing", "error", "named")}
+    for number, (seen, curve) in enumerate(zip(chosen.values(), estimates)):
         count = len(seen.knots)
         at[number, :count] = seen.knots
-        missing[number, :, :count] = curve.missing.reshape(len(AXLES), count)
-        error[number, :, :count] = curve.error.reshape(len(AXLES), count)
-        for k, own in enumerate(shapes.values()):
-            if label in own:
-                drawn[k, number, :, :count] = (curve.resolution @ own[label].ravel()).reshape(len(AXLES), count)
+        for key, values in table.items():
+            values[number, :, :count] = getattr(curve, key).reshape(len(AXLES), count)
     over = ("seen", "axle", "knot")
     text = lambda key: ("seen", np.array([getattr(seen, key) for seen in chosen.values()]))
     return xr.Dataset(
@@ -146,11 +146,11 @@ def _dataset(
             "seen_share": ("seen", np.array([curve.share for curve in estimates]), {"units": "1"}),
             "missing_what": text("lacks"),
             "missing_unit": text("lacks_unit"),
-            "missing": (over, missing, {"long_name": "what the model lacks, in missing_unit"}),
-            "missing_error": (over, error, {"long_name": "standard error of it"}),
-            "named_missing": (("named_effect", *over), drawn, {"long_name": "what named effects would show"}),
+            "missing": (over, table["missing"], {"long_name": "what the model lacks, in missing_unit"}),
+            "missing_error": (over, table["error"], {"long_name": "standard error of it"}),
+            "named_missing": (over, table["named"], {"long_name": "what would show were the named effects the truth"}),
         },
-        {"seen": list(chosen), "axle": list(AXLES), "named_effect": np.array(list(shapes), dtype=str)},
+        {"seen": list(chosen), "axle": list(AXLES)},
     )
 
 

@@ -91,10 +91,11 @@ DIAGNOSIS_FIGURES = {
     "over the whole library, and the refits of the best on fitted and on held-out drives. What a refit removes is the search's first "
     "estimate, above the floor as known in that round; the missing effects have it from the last fit of each round, the error ladder "
     "from models calibrated anew.",
-    "signature": "The force that the calibrated model lacks, estimated without a form in mind against what it could depend on. "
-    "What calibration could take up, a straight line or a level, does not show; the named effects have passed through the same "
-    "estimate. Slip angles, the cornering stiffness over the load and toe-out over the wheel's travel are there where effects that act "
-    "so are named, or come nearest. All panels of the strut have one scale of force, and those of the tyre.",
+    "signature": "The force that the calibrated model lacks, estimated without a form in mind against what it could depend on, each "
+    "curve as if nothing else were missing. What calibration could take up, a straight line or a level, does not show. Dashed: what the "
+    "same estimate makes of the model with all the named effects. Slip angles, the cornering stiffness over the load and toe-out over the "
+    "wheel's travel are there where effects that act so are named, or come nearest. Behind the titles the share of the error that the "
+    "curves of both axles explain alone, all frequencies weighing alike, noise included.",
 }
 
 ROAD_FIGURES = {

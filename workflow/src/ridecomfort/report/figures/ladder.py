@@ -25,6 +25,9 @@ DASHES = {"thresholds": (0, (4, 4)), "iso2631": (4, (4, 4))}
 HIGHEST = 200.0
 """% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen."""
 
+NEAR_TOP = 0.9
+"""Share of HIGHEST from which on a number stands below its point, not in the title above."""
+
 LEGIBLE = (withStroke(linewidth=2.0, foreground="white"),)
 """What keeps numbers readable over lines and markers."""
 
@@ -88,15 +91,17 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
     axes.plot(*overall, color="black", linewidth=2.2, zorder=1)
     for place, value in zip(*overall):
         if value <= HIGHEST:
+            above = 6 if value < NEAR_TOP * HIGHEST else -9
             axes.annotate(
-                f"{value:.0f}", (place, value), xytext=(6, 6), textcoords="offset points", fontsize=6, fontweight="bold",
+                f"{value:.0f}", (place, value), xytext=(6, above), textcoords="offset points", fontsize=6, fontweight="bold",
                 path_effects=LEGIBLE,
             )  # fmt: skip
     beyond = 100 * float(chosen["left"].max())
     if beyond > HIGHEST:
         axes.text(
-            0.01, 0.97, f"beyond: up to {beyond:,.0f} %", transform=axes.transAxes, va="top", fontsize="x-small", path_effects=LEGIBLE
-        )
+            0.99, 0.97, f"beyond: up to {beyond:,.0f} %", transform=axes.transAxes, ha="right", va="top", fontsize="x-small",
+            path_effects=LEGIBLE,
+        )  # fmt: skip
     axes.axhline(0.0, color=style.FLOOR, linestyle="--")
     axes.yaxis.grid(True)
 

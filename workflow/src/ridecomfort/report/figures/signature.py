@@ -17,9 +17,6 @@ BAND = 1.645
 POORLY_KNOWN = 8.0
 """Times the usual standard error beyond which an estimate is not drawn: where the car was hardly ever."""
 
-NOTHING = 0.01
-"""Share of the largest force within reach below which the named effects show nothing."""
-
 SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "1": (100.0, "%"), "N": (1.0, "N"), "m/s": (1.0, "m/s")}
 """Factor to, and unit in which a unit is shown."""
 
@@ -57,23 +54,19 @@ def signature(found: Diagnosis) -> Figure:
             axes.axhline(0.0, color=style.FLOOR, linewidth=0.7)
             axes.fill_between(at[known], (missing - error)[known], (missing + error)[known], color=colour, alpha=0.2, linewidth=0)
             axes.plot(at[known], missing[known], color=colour, marker=marker, markersize=3.5)
-            shown = times * own["named_missing"].fillna(0.0).sum("named_effect").values
-            if np.abs(shown[known]).max(initial=0.0) > NOTHING * times * reach:
-                axes.plot(at[known], shown[known], color=style.ERROR, linestyle="--")
+            axes.plot(at[known], times * own["named_missing"].values[known], color=style.ERROR, linestyle="--")
             axes.set_ylim(-times * reach, times * reach)
-            axes.set_title(f"{axle} {place}: {share:.0f} % of the error")
+            axes.set_title(f"{axle} {place}" + (f"; both: {share:.0f} % of the error" if axes is panel[-1] else ""))
             axes.set_xlabel(f"{one['seen_axis'].item()} [{unit}]")
         panel[0].set_ylabel(f"{one['missing_what'].item()} [{missing_unit}]".replace(", ", ",\n").replace("cornering ", "cornering\n"))
-    together = " and ".join(words(str(effect)) for effect in ranking["named_effect"].values)
-    nothing = "nothing, what is named acts elsewhere" if found.verdict["effects"] else "nothing is named"
+    together = " and ".join(words(effect["name"]) for effect in found.verdict["effects"])
     handles = [
         Line2D([], [], color=colour, marker=marker, markersize=3.5, label=f"estimated, {axle}")
         for axle, (colour, marker) in AXLE_LINES.items()
     ]
-    handles += [
-        Patch(color=style.FAINT, alpha=0.5, label="90 % interval"),
-        Line2D([], [], color=style.ERROR, linestyle="--", label=f"what would show: {together or nothing}"),
-    ]
+    handles.append(Patch(color=style.FAINT, alpha=0.5, label="90 % interval"))
+    if ranking["named_missing"].notnull().any():
+        handles.append(Line2D([], [], color=style.ERROR, linestyle="--", label=f"what would show: {together}"))
     drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
 
@@ -87,7 +80,7 @@ def _reach(one) -> float:
     """What a row of panels shows: the estimates that are drawn, with their intervals, and what the named effects would show."""
     known = _known(one).values
     estimated = np.abs(one["missing"]) + BAND * one["missing_error"]
-    shown = np.abs(one["named_missing"].fillna(0.0).sum("named_effect"))
+    shown = np.abs(one["named_missing"].fillna(0.0))
     reach = np.maximum(estimated, shown).values[known]
     return 1.1 * float(reach.max(initial=0.0)) + 1e-9
 
