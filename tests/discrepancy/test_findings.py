@@ -57,6 +57,15 @@ def test_what_grows_less_than_the_signal_is_relatively_most_where_that_is_small(
     assert findings.findings(rough)[0].when == ""
 
 
+def test_bands_of_one_signal_do_not_crowd_out_the_others(located):
+    many = located.copy(deep=True)
+    many["power_share"].loc[dict(signal="yaw_rate")] = 10.0
+    many["power_share"].loc[dict(signal="a_x")] = 1.0
+    said = [(finding.signal, finding.power_share) for finding in findings.findings(many)]
+    assert [name for name, _ in said] == ["yaw_rate"] * 2 + ["a_x"] * 2 + ["a_z"]
+    assert all(first >= second for (_, first), (_, second) in zip(said, said[1:]))
+
+
 def test_nothing_is_said_of_what_is_not_worth_a_sentence(located):
     assert findings.words(located * 0.0) == []
 

@@ -13,6 +13,9 @@ from .judged import AGAINST, LOWEST_OF_DRIVER, wrong_sign
 NAMED = 0.01
 """Share of the signal's power below which a finding is not worth a sentence."""
 
+OF_A_SIGNAL = 2
+"""Findings of one signal at most: bands of one error beside each other would crowd out all that is wrong elsewhere."""
+
 HALF = 0.5
 """Share of an error that the stretch of road named for it holds."""
 
@@ -82,17 +85,19 @@ class Finding:
 
 
 def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
-    """The largest errors above the floor of what ``locate.locate`` returned, at most ``count``, by their share of power."""
+    """The largest errors above the floor of what ``locate.locate`` returned, at most ``count`` and OF_A_SIGNAL each, by their share of power."""
     share = located["power_share"].values
     whole = share.sum(axis=1)
     found = []
     for signal, band in sorted(np.ndindex(whole.shape), key=lambda key: -whole[key]):
         if not whole[signal, band] >= NAMED or len(found) == count:
             break
+        name = str(located["signal"].values[signal])
+        if sum(finding.signal == name for finding in found) == OF_A_SIGNAL:
+            continue
         lower, upper = (float(located[f"band_{end}"][band]) for end in ("lower", "upper"))
         explainable = float(located["explainable_share"][signal, :, band].sum())
         place = _stretch(located, np.maximum(share[signal, :, band], 0.0))
-        name = str(located["signal"].values[signal])
         lower = max(lower, LOWEST_OF_DRIVER.get(name, lower))
         found.append(Finding(name, lower, upper, place, _when(located, signal, band), float(whole[signal, band]), explainable))
     return found
