@@ -7,7 +7,7 @@ import pytest
 
 from ridecomfort.discrepancy import curves, opening
 from ridecomfort.discrepancy.rung import begin
-from ridecomfort.discrepancy.signature import signature
+from ridecomfort.discrepancy.signature import _Estimate, signature
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
@@ -76,3 +76,12 @@ def test_stiffness_that_grows_less_than_the_load_shows_as_a_falling_line(car):
 def test_only_what_acts_where_named_effects_do_is_estimated_beside_struts_and_tyres(found):
     assert list(found["seen"].values) == ["strut velocity", "strut deflection", "tyre deflection"]
     assert list(curves.at(["kinematics"])) == ["strut velocity", "strut deflection", "tyre deflection", "wheel travel"]
+
+
+def test_what_changes_nothing_has_no_curve(car):
+    experiment = opening.opened(trials.make(7, car, {}, 1.0).measured, car, among=(), workers=1)
+    rung = begin(experiment, opening.start_values(experiment))
+    white = np.zeros((1, rung.frame.flat(rung.fit.residuals).size))
+    estimate = _Estimate(rung.frame, white, white[:0])
+    curve = estimate(({}, curves.SEEN["tyre load"]))
+    assert np.isnan(curve.missing).all() and curve.share == 0.0
