@@ -84,12 +84,15 @@ class _Estimate:
         columns, seen = job
         count = len(AXLES) * len(seen.knots)
         blocks = np.unique(self.frame.blocks(), return_inverse=True)[1]
-        white = {key: self.frame.flat(column).astype(float) / seen.probe for key, column in columns.items()}
-        often = {key: row for key, row in white.items() if event.participation(row[None], blocks)[0] >= LEAST_PLACES}
-        if not often:
-            return _Curve(*np.full((3, count), np.nan), 0.0)
-        where = [curves.row(key, seen) for key in often]
-        rows, residual = evidence.without(np.stack(list(often.values())), self.free), self.to_explain[0]
+        nothing = _Curve(*np.full((3, count), np.nan), 0.0)
+        if not columns:
+            return nothing
+        white = self.frame.flats(list(columns.values())).astype(float) / seen.probe
+        is_often = event.participation(white, blocks) >= LEAST_PLACES
+        if not is_often.any():
+            return nothing
+        where = [curves.row(key, seen) for key, often in zip(columns, is_often) if often]
+        rows, residual = evidence.without(white[is_often], self.free), self.to_explain[0]
         # What is usual holds what the data do not show, near zero.
         held = np.linalg.inv(rows @ rows.T + np.eye(len(rows)) / seen.usual**2)
         found = -self.to_explain @ rows.T @ held

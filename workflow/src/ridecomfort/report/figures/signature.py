@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -20,8 +22,8 @@ POORLY_KNOWN = 8.0
 SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "1": (100.0, "%"), "N": (1.0, "N"), "m/s": (1.0, "m/s")}
 """Factor to, and unit in which a unit is shown."""
 
-ROW = 1.9
-"""Inches of a row of panels."""
+ROW, LONGEST = 1.9, 20
+"""Inches of a row of panels, letters in a line beside it."""
 
 AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
 
@@ -58,7 +60,7 @@ def signature(found: Diagnosis) -> Figure:
             axes.set_ylim(-times * reach, times * reach)
             axes.set_title(f"{axle} {place}" + (f"; both: {share:.0f} % of the error" if axes is panel[-1] else ""))
             axes.set_xlabel(f"{one['seen_axis'].item()} [{unit}]")
-        panel[0].set_ylabel(f"{one['missing_what'].item()} [{missing_unit}]".replace(", ", ",\n").replace("cornering ", "cornering\n"))
+        panel[0].set_ylabel(fill(f"{one['missing_what'].item()} [{missing_unit}]", LONGEST))
     together = " and ".join(words(effect["name"]) for effect in found.verdict["effects"])
     handles = [
         Line2D([], [], color=colour, marker=marker, markersize=3.5, label=f"estimated, {axle}")
