@@ -10,7 +10,7 @@ from scipy.stats import binomtest
 from ridecomfort.calibrated import with_values
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import floor, opening
-from ridecomfort.discrepancy.rank import SHARED
+from ridecomfort.discrepancy.ranking import SHARED
 from ridecomfort.errors import InputError
 
 from .kinds import KAPPAS, SUSPECT, Draw

@@ -133,6 +133,16 @@ def test_two_missing_effects_are_both_found():
     assert {e.name for e in found.effects} == {"effect_1", "effect_4"}
 
 
+@pytest.mark.parametrize(("most", "why"), [(5, "its refit gains less than 5 % of the best"), (1, "not refitted: 1 others gain more")])
+def test_what_is_significant_and_not_judged_is_said_why(monkeypatch, most, why):
+    monkeypatch.setattr(select, "PROPOSED", most)
+    selection, _ = judged(Linear(2, {"effect_1.size": 1.0, "effect_4.size": 0.15}))
+    first = selection.rounds[0]
+    assert [trial.name for trial in first.trials] == ["effect_1"] and first.p_value[first.names.index("effect_4")] < 0.05
+    assert first.passed_over["effect_4"] == why
+    assert not first.passed_over.keys() & {trial.name for trial in first.trials}
+
+
 def test_nothing_is_named_where_nothing_is_missing():
     verdicts = [judged(Linear(seed, {"stiffness": 0.5}))[1].verdict for seed in range(10, 20)]
     assert verdicts.count("nothing") >= 9

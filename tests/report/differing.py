@@ -143,6 +143,7 @@ def ranking() -> xr.Dataset:
             "p_value": (over, [[0.002, 0.02, 0.6], [np.nan, 0.3, 0.8]]),
             "gain": (over, [[900.0, 300.0, 4.0], [np.nan, 6.0, 1.0]]),
             "absorbed": (over, [[0.3, 0.4, 0.9], [np.nan, 0.4, 0.9]]),
+            "passed_over": (over, [["", "", ""], ["", "its refit gains less than 5 % of the best", ""]]),
             "winner": ("round", ["suspension_friction", ""]),
             "trial_round": ("trial", [1, 1]),
             "trial_effect": ("trial", effects[:2]),

@@ -10,10 +10,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 from ridecomfort.discrepancy import select, tries
+from ridecomfort.discrepancy.ranking import FORMS
 from ridecomfort.discrepancy.score import score
 from ridecomfort.discrepancy.verdict import SAID
 from ridecomfort.report import catalogue, diagnosed, style, table
 from ridecomfort.report.figures import evidence
+from ridecomfort.report.study import Diagnosis
+from ridecomfort.report.tables import diagnosis
 from tests.report import differing as made_up
 
 
@@ -128,17 +131,42 @@ def test_evidence_is_in_the_order_of_the_gain_with_the_outcome_of_refits():
     assert found[1]["outcome"] == "makes the drives held out worse" and found[2]["outcome"] == ""
     # What was accepted is not tested again.
     assert [row["effect"] for row in found[3:]] == ["damper asymmetry", "payload"]
+    # What is significant and was not judged is said why.
+    assert [row["outcome"] for row in found[3:]] == ["its refit gains less than 5 % of the best", ""]
 
 
-def test_the_figure_shows_every_round_and_nothing_is_cut_off():
+def looked_for_any_form() -> Diagnosis:
+    """A diagnosis whose search went on with forces of any form: that of made_up.ranking as terms at two places, a third term beside."""
+    found, terms = made_up.ranking(), ["strut:velocity_direction", "body:lift", "strut:deflection_cube"]
+    own = found.assign_coords(effect=terms)
+    own["trial_effect"], own["winner"] = ("trial", terms[:2]), ("round", [terms[0], ""])
+    return replace(made_up.diagnosis(), ranking=found.merge(own.rename({name: f"{FORMS}{name}" for name in (*own.variables, *own.dims)})))
+
+
+def test_forces_of_any_form_are_told_by_place_with_what_became_of_them(monkeypatch):
+    monkeypatch.setattr(diagnosis, "STRONGEST", 1)
+    found = rows(diagnosed.tables(looked_for_any_form())["forms"])
+    first = [row for row in found if row["round"] == 1]
+    # The strongest, and the best of every other place: the third term is neither.
+    assert [(row["place"], row["form"]) for row in first] == [("strut", "velocity direction"), ("body", "lift")]
+    assert first[0]["outcome"] == "accepted" and first[0]["sizes"] == "front 80 N"
+
+
+def test_where_none_was_looked_for_the_table_says_so():
+    only, = rows(diagnosed.tables(made_up.diagnosis())["forms"])
+    assert "none was looked for" in only["place"]
+
+
+@pytest.mark.parametrize(("name", "winner"), [("evidence", "suspension friction"), ("forms", "strut: velocity direction")])
+def test_the_figure_shows_every_round_and_nothing_is_cut_off(name, winner):
     with style.styled():
-        each = diagnosed.figures(made_up.diagnosis())["evidence"]()
+        each = diagnosed.figures(looked_for_any_form())[name]()
         FigureCanvasAgg(each).draw()
         box = each.get_tightbbox(FigureCanvasAgg(each).get_renderer())
     width, height = each.get_size_inches()
     assert box.x0 > -0.02 and box.x1 < width + 0.02 and box.y0 > -0.02 and box.y1 < height + 0.02
     said = [text.get_text() for text in each.findobj(Text)]
-    assert "round 1: suspension friction accepted" in said and "round 2: nothing accepted" in said
+    assert f"round 1: {winner} accepted" in said and "round 2: nothing accepted" in said
     assert any("Stand-in data" in text for text in said)
 
 
@@ -147,6 +175,7 @@ def test_the_figure_says_what_came_of_every_refit():
         each = diagnosed.figures(made_up.diagnosis())["evidence"]()
     said = " ".join(text.get_text() for text in each.findobj(Text))
     assert re.search(r"\d+ / 75 %  accepted", said) and "makes the drives held out worse" in said
+    assert "gains too little when refitted" in said
 
 
 def test_what_the_figure_shortens_is_what_the_search_says():

@@ -17,6 +17,7 @@ from .explain import REPEATS
 from .places import settings as shaping
 from .propose import SURE
 from .rank import ranked
+from .ranking import with_forms
 from .rung import Rung, begin
 from .selection import Selection
 from .verdict import CONFIRMED, DOUBTFUL, ENOUGH, LITTLE, Verdict, with_parameters
@@ -46,7 +47,8 @@ def diagnose(
     measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0, name: str = "discovered",
     workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,
 ) -> tuple[xr.Dataset, Verdict, Discovery | None]:  # fmt: skip
-    """The evidence, the verdict, and where that is "outside" the search for a form, else None.
+    """The evidence, the verdict, and where that is "outside" the search for a form, else None. Wherever such a search was made its evidence
+    stands beside that of the library (``ranking.forms``).
 
     Where parameters of the vehicle beyond their bounds explain more, all of that is what a second search says, which allows them
     (``beyond``). Arguments as for ``rank``, but ``most``; ``name``: of the effect that is proposed.
@@ -61,6 +63,8 @@ def diagnose(
         found, again = _with_vehicle_right(experiment, selection, signatures, common)
         if again is not None:
             table, verdict, selection, rung = again
+        elif found is None:
+            verdict = _said(verdict, verdict.verdict, "parameters of the vehicle beyond their bounds were tried, too: they explain no more")
     verdict = heard(verdict, table.attrs["turns"], table.attrs["suspected"] == "road")
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"]) and not table.attrs["turns"]
     is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
@@ -68,6 +72,7 @@ def diagnose(
     proposal = None
     if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
         proposal = discovered(rung, name=name, **common)
+        table = with_forms(table, proposal.selection)
         verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, _fits_better(proposal, selection))
         if not (table.attrs["turns"] or table.attrs["road"]):
             verdict = named_all_the_same(verdict, proposal)

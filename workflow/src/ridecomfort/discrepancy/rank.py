@@ -11,17 +11,13 @@ from .. import pool
 from . import floor, opening, suspect, turns
 from .car import Car
 from .experiment import Frame
-from .explain import ASSUMED, NIL, REPEATS
+from .ranking import dataset
 from .rung import Rung, begin
 from .select import search
+from .selection import Selection
 from .signature import signature
-from .selection import Selection, shares
 from .shared import is_material
 from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, is_slow, judge, standing, total_shares, with_remainder
-
-SHARED = ("shared_z", "shared_gone", "remaining", "remaining_z")
-"""What repeats have in common of their errors, before the first effect and after the last, as in ``Selection``."""
-
 
 def rank(
     measured: Mapping[str, tuple],
@@ -156,76 +152,3 @@ def suspicions(experiment: Car, selection: Selection, is_explained: bool, is_lef
                 f"{100 * share:.0f} % of the error that could be explained"
             )
     return reasons
-
-
-def dataset(experiment, selection: Selection) -> xr.Dataset:
-    """The evidence of a selection as the Dataset of ranking.nc."""
-    rounds = selection.rounds
-    names = [candidate.name for candidate in experiment.candidates]
-    table = {key: np.full((len(rounds), len(names)), np.nan) for key in ("p_value", "gain", "absorbed")}
-    trials = []
-    for number, turn in enumerate(rounds):
-        places = [names.index(name) for name in turn.names]
-        for key in table:
-            table[key][number, places] = getattr(turn, key)
-        trials += [(number + 1, trial, turn) for trial in turn.trials]
-    shared = selection.shared_z, selection.shared_gone, selection.remaining.share, selection.remaining.z
-    fitted = [record.name for record in experiment.records if record.role == "fit"]
-    held_out = [record.name for record in experiment.records if record.role != "fit"]
-    by_trial = lambda get: ("trial", np.array([get(trial) for _, trial, _ in trials], dtype=float))
-    text = lambda get: ("trial", np.array([get(trial) for _, trial, _ in trials], dtype=str))
-    columns = {key: (("round", "effect"), values, {"units": "1"}) for key, values in table.items()}
-    result = xr.Dataset(
-        {
-            **columns,
-            "trial_round": ("trial", np.array([number for number, _, _ in trials], dtype=int)),
-            "trial_effect": text(lambda trial: trial.name),
-            "trial_sizes": text(lambda trial: _sizes_in_words(trial, experiment)),
-            "trial_gain": by_trial(lambda trial: trial.gain),
-            "trial_bic": by_trial(lambda trial: trial.bic),
-            "trial_held_out_gain": by_trial(lambda trial: trial.held_out_gain),
-            "trial_held_out_z": by_trial(lambda trial: trial.held_out_z),
-            # Above the last floor, as all other shares that are told; the search went by the floor of its time.
-            "trial_share": by_trial(lambda trial: shares(selection, trial.before, trial.after)[0]),
-            "trial_held_out_share": by_trial(lambda trial: shares(selection, trial.before, trial.after)[1] if trial.met else np.nan),
-            "trial_correlation": (
-                "trial", np.array([turn.correlation.get(trial.name, np.nan) for _, trial, turn in trials], dtype=float),
-            ),
-            "trial_objection": text(lambda trial: trial.objection),
-            "winner": ("round", np.array([turn.winner.name if turn.winner else "" for turn in rounds], dtype=str)),
-            "cluster": ("round", np.array([", ".join(turn.cluster) for turn in rounds], dtype=str)),
-            "decoy_p_value": ("round", np.array([turn.decoy_p_value for turn in rounds], dtype=float)),
-            "mean_square": (("model", "drive", "signal"), np.stack([state.squares for state in selection.states])),
-            "held_out_mean_square": (
-                ("model", "held_out", "signal"), np.stack([state.held_out_squares for state in selection.states]),
-            ),
-            "floor_mean_square": (("drive", "signal"), selection.floor_squares),
-            "held_out_floor_mean_square": (("held_out", "signal"), selection.held_out_floor_squares),
-            **{name: ((), float(value), {"units": "1"}) for name, value in zip(SHARED, shared)},
-            "value": (("parameter",), np.array([selection.final.values[key] for key in selection.intervals])),
-            "interval": (("parameter", "bound"), np.array(list(selection.intervals.values())).reshape(-1, 2)),
-        },
-        {
-            "effect": names,
-            "round": np.arange(1, len(rounds) + 1),
-            "model": [state.name for state in selection.states],
-            "drive": fitted,
-            "held_out": held_out,
-            "signal": list(experiment.channels),
-            "parameter": list(selection.intervals),
-            "bound": ["lower", "upper"],
-        },
-    )  # fmt: skip
-    return result.assign_attrs(
-        floor=REPEATS if selection.has_repeats else ASSUMED if selection.floor_squares.any() else NIL,
-        remaining_band=str(selection.remaining.band or ""),
-    )
-
-
-def _sizes_in_words(trial, experiment) -> str:
-    candidate = next(c for c in experiment.candidates if c.name == trial.name)
-    return ", ".join(
-        f"{size.key.partition('.')[2]} {trial.fit.values[size.key]:.4g} {size.unit}".removesuffix(" 1")
-        for size in (*candidate.sizes, *(size for size in candidate.shaping if size.key in trial.fit.keys))
-        if size.key in trial.fit.values
-    )

@@ -18,7 +18,7 @@ from . import cluster, floor, probe, realign, refit
 from . import experiment as exp
 from .experiment import Candidate, Experiment
 from .probe import Job, Raw
-from .propose import HELD_OUT_Z, propose
+from .propose import HELD_OUT_Z, Proposal, propose
 from .refit import Fit
 from .rung import Rung, begin, climb, final_fit, roles
 from .selection import Round, Selection, State, Trial
@@ -187,6 +187,7 @@ class _Search:
         return Round(
             found.names, found.p_value, found.gain, found.size, found.size_error, found.absorbed, tuple(trials), winner,
             like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
+            _passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials),
         )  # fmt: skip
 
     def _followed_up(self, tried: Sequence[Trial]) -> list[Trial]:
@@ -262,6 +263,15 @@ class _Search:
         """What all repeats still share, the share of it that is gone, and the z that it had at first."""
         left, before = shared_error(self.rung.frame, last.residuals), shared_error(self.rung.frame, first.residuals)
         return left, 1.0 - left.power / before.power if before.power > 0 else float("nan"), before.z
+
+
+def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial]) -> dict[str, str]:
+    """Why significant candidates are not among the ``trials`` of a round; ``minor``: names of those whose refits gain little."""
+    significant, judged = found.significant(len(found.names)), {trial.name for trial in trials}
+    why = {name: f"not refitted: {PROPOSED} others gain more" for name in significant[PROPOSED:]}
+    for name in significant[:PROPOSED]:
+        why[name] = f"its refit gains less than {100 * MINOR:g} % of the best" if name in minor else "could not be simulated"
+    return {name: said for name, said in why.items() if name not in judged}
 
 
 def _merit(trial: Trial) -> tuple[bool, float]:

@@ -57,6 +57,8 @@ class Round:
     """Whether a decoy is significant and gains more than any candidate."""
     is_large: bool
     """Whether the winner gains so much that the error changes its colour by it."""
+    passed_over: Mapping[str, str] = field(default_factory=dict)
+    """Why others that are significant were not refitted, or not judged after it, by name."""
 
     @classmethod
     def empty(cls) -> Round:

@@ -75,6 +75,7 @@ DIAGNOSIS_TABLES = {
     "verdict": "Which effect is missing: the verdict with its reasons.",
     "missing_effects": "Effects that were found: sizes, intervals, and what each explains.",
     "evidence": "Evidence for every effect of the library, and the refits of the best.",
+    "forms": "Forces of any form that were looked for beside the library: the best of every place, and the refits of the best of all.",
 }
 
 SCORE_TABLES = {
@@ -91,6 +92,8 @@ DIAGNOSIS_FIGURES = {
     "over the whole library, and the refits of the best on fitted and on held-out drives. What a refit removes is the search's first "
     "estimate, above the floor as known in that round; the missing effects have it from the last fit of each round, the error ladder "
     "from models calibrated anew.",
+    "forms": "Evidence for forces of any form, where the library does not explain the error: terms that such a force may be made of, at each "
+    "place where it could act, as in the evidence for the library.",
     "signature": "The force that the calibrated model lacks, estimated without a form in mind against what it could depend on, each "
     "curve as if nothing else were missing. What calibration could take up, a straight line or a level, does not show. Dashed: what the "
     "same estimate makes of the model with all the named effects. Slip angles, the cornering stiffness over the load and toe-out over the "

@@ -18,6 +18,7 @@ def tables(found: Diagnosis) -> dict[str, Table]:
         "verdict": diagnosis.verdict(found),
         "missing_effects": diagnosis.missing_effects(found),
         "evidence": diagnosis.evidence(found),
+        "forms": diagnosis.forms(found),
     }
 
 
@@ -29,4 +30,5 @@ def scores(found: Diagnosis) -> dict[str, Table]:
 def figures(found: Diagnosis) -> dict[str, Callable]:
     """Functions without arguments that draw the figures of ``catalogue.DIAGNOSIS_FIGURES``."""
     marked = lambda draw: style.marked(draw(found), found.standin_mark())
-    return {"evidence": partial(marked, evidence.evidence), "signature": partial(marked, signature.signature)}
+    drawn = {"evidence": evidence.evidence, "forms": evidence.forms, "signature": signature.signature}
+    return {name: partial(marked, draw) for name, draw in drawn.items()}

@@ -10,6 +10,7 @@ import jinja2
 import yaml
 from markupsafe import Markup
 
+from ..discrepancy.ranking import forms
 from . import catalogue, claims, notation, published
 from .study import STANDIN, Study
 from .table import Table, to_html
@@ -41,7 +42,11 @@ SECTIONS = (
         "Where model and measurement differ",
         ("located_*", "findings", "explainable", "conditions_*", "responses_*", "alignment", "calibrated"),
     ),
-    ("missing", "Which effect is missing", ("verdict", "missing_effects", "evidence.figure", "signature", "evidence", "standin_score")),
+    (
+        "missing",
+        "Which effect is missing",
+        ("verdict", "missing_effects", "evidence.figure", "signature", "evidence", "forms.figure", "forms", "standin_score"),
+    ),
     ("ladder", "How the error falls", ("error_ladder.figure", "error_ladder", "error_ladder_sections")),
     ("overview", "Comfort at a glance", ("critical_shares", "exceedance")),
     (
@@ -92,7 +97,11 @@ def captions(study: Study) -> dict[str, str]:
     found = catalogue.figures(study.settings["sites"])
     if study.difference:
         found |= catalogue.difference_figures(site.name for site in study.difference.sites)
-    return found | (catalogue.DIAGNOSIS_FIGURES if study.diagnosis else {})
+    if study.diagnosis:
+        found |= catalogue.DIAGNOSIS_FIGURES
+        if forms(study.diagnosis.ranking) is None:  # an empty figure, for whom asks for it by name
+            del found["forms"]
+    return found
 
 
 def _standin(study: Study) -> str | None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
+import xarray as xr
 
+from ...discrepancy import ranking
 from ...discrepancy.verdict import LITTLE, first_sentence, sentence
 from ...effects.contract import PORTS
 from .. import catalogue
@@ -19,6 +21,12 @@ SUSPECT = "The data are suspect: what stands here explains their error as they a
 
 FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
 """What is said where those are all that was found."""
+
+STRONGEST = 12
+"""Terms of a force of any form that are told in each round."""
+
+NO_FORMS = "none was looked for: the library explains the error, or there is none"
+"""What is said where no force of any form was looked for."""
 
 
 def _promise(proposal: Mapping) -> str:
@@ -101,55 +109,87 @@ def missing_effects(found: Diagnosis) -> Table:
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
 
 
+EVIDENCE = (
+    Column("p_value", ("Score test", "p over all"), ".2g"),
+    Column("gain", ("Score test", "gain"), ".0f"),
+    Column("absorbed_pct", ("Score test", "absorbed [%]"), ".0f"),
+    Column("sizes", ("Refit", "sizes")),
+    Column("refit_gain", ("Refit", "gain"), ".0f"),
+    Column("bic", ("Refit", "BIC"), ".0f"),
+    Column("fitted_pct", ("Explainable error removed [%]", "fitted"), ".0f"),
+    Column("held_out_pct", ("Explainable error removed [%]", "held out"), ".0f"),
+    Column("outcome", ("", "Outcome")),
+)
+"""What is told of each candidate of a round."""
+
+
 def evidence(found: Diagnosis) -> Table:
     """Score test of every effect by round, strongest first, with the refits of those that were refitted."""
-    columns = (
-        Column("round", ("", "Round"), "d"),
-        Column("effect", ("", "Effect")),
-        Column("p_value", ("Score test", "p over the library"), ".2g"),
-        Column("gain", ("Score test", "gain"), ".0f"),
-        Column("absorbed_pct", ("Score test", "absorbed [%]"), ".0f"),
-        Column("sizes", ("Refit", "sizes")),
-        Column("refit_gain", ("Refit", "gain"), ".0f"),
-        Column("bic", ("Refit", "BIC"), ".0f"),
-        Column("fitted_pct", ("Explainable error removed [%]", "fitted"), ".0f"),
-        Column("held_out_pct", ("Explainable error removed [%]", "held out"), ".0f"),
-        Column("outcome", ("", "Outcome")),
-    )
-    ranking, rows, breaks = found.ranking, [], []
-    for number, turn in enumerate(ranking["round"].values):
+    columns = (Column("round", ("", "Round"), "d"), Column("effect", ("", "Effect")), *EVIDENCE)
+    rows, breaks = [], []
+    for turn, told in _rounds(found.ranking):
         breaks.append(len(rows))
-        one = ranking.sel(round=turn)
-        refitted = np.flatnonzero(ranking["trial_round"].values == turn)
-        trials = {str(ranking["trial_effect"].values[k]): k for k in refitted}
-        gain = one["gain"].values
-        for place in sorted(range(len(gain)), key=lambda k: -np.nan_to_num(gain[k], nan=-np.inf)):
-            name = str(ranking["effect"].values[place])
-            if not np.isfinite(gain[place]):
-                continue
-            refit = (None,) * 5
-            said = ""
-            if name in trials:
-                trial = ranking.isel(trial=trials[name])
-                refit = (
-                    str(trial["trial_sizes"].item()), *(float(trial[f"trial_{key}"]) for key in ("gain", "bic")),
-                    *(_percent(float(trial[f"trial_{key}"])) for key in ("share", "held_out_share")),
-                )  # fmt: skip
-                said = outcome(name, str(one["winner"].item()), str(trial["trial_objection"].item()))
-            score = float(one["p_value"][place]), float(gain[place]), _percent(float(one["absorbed"][place]))
-            rows.append((int(turn), words(name), *score, refit[0] or "", *refit[1:], said))
-    sources = (
-        Source("score test", found.files.get("ranking", ""), "p_value, gain, absorbed", "as in the file"),
-        Source("refit", found.files.get("ranking", ""), "trial_*", "as in the file, shares in percent"),
-        Source("outcome", found.files.get("ranking", ""), "winner, trial_objection", "as in the file"),
-    )
+        rows += [(turn, words(name), *one) for name, one in told.items()]
     notes = (
         "Gain: fall of twice the negative log-likelihood. The p-value is that of the largest gain over the whole library, by block "
         "wild bootstrap: a screen of what is worth a refit, too small on short drives (docs/diagnosis.md). Every effect is tested; the "
         "best are refitted together with the calibrated parameters, and what that removes "
         "is told above the floor as known in the round: for what an accepted effect removes in the end see the missing effects.",
     )
-    return _table(found, "evidence", columns, rows, sources, notes, breaks[1:])
+    return _table(found, "evidence", columns, rows, _evidence_sources(found), notes, breaks[1:])
+
+
+def forms(found: Diagnosis) -> Table:
+    """Of forces of any form, by round, the STRONGEST and the best of every place."""
+    columns = (Column("round", ("", "Round"), "d"), Column("place", ("", "Place")), Column("form", ("", "Form")), *EVIDENCE)
+    tried = ranking.forms(found.ranking)
+    if tried is None:
+        rows = [(None, NO_FORMS, "", *(None,) * 3, "", *(None,) * 4, "")]
+        return _table(found, "forms", columns, rows, _evidence_sources(found))
+    rows, breaks = [], []
+    for turn, told in _rounds(tried):
+        breaks.append(len(rows))
+        places = set()
+        for number, (name, one) in enumerate(told.items()):
+            place, _, form = name.partition(":")
+            if number < STRONGEST or place not in places:
+                rows.append((turn, place, words(form), *one))
+            places.add(place)
+    notes = (
+        "Forms are terms that a force may be made of at each place where it could act; their names say what they are made of. The first of "
+        "a place is its best, so that places are ranked by it. Gain, p-value (over all terms of all places) and shares as in the evidence "
+        f"for the library. Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file.",
+    )
+    return _table(found, "forms", columns, rows, _evidence_sources(found, ranking.FORMS), notes, breaks[1:])
+
+
+def _rounds(tested: xr.Dataset) -> Iterator[tuple[int, dict[str, tuple]]]:
+    """What EVIDENCE tells of each candidate by name, the largest gain first, round by round."""
+    for number, turn in enumerate(tested["round"].values):
+        one, refitted = tested.isel(round=number), np.flatnonzero(tested["trial_round"].values == turn)
+        trials = {str(tested["trial_effect"].values[k]): k for k in refitted}
+        gain, told = one["gain"].values, {}
+        for place in sorted(np.flatnonzero(np.isfinite(gain)), key=lambda k: -gain[k]):
+            name, refit, said = str(tested["effect"].values[place]), ("", *(None,) * 4), str(one["passed_over"].values[place])
+            if name in trials:
+                trial = tested.isel(trial=trials[name])
+                refit = (
+                    str(trial["trial_sizes"].item()), *(float(trial[f"trial_{key}"]) for key in ("gain", "bic")),
+                    *(_percent(float(trial[f"trial_{key}"])) for key in ("share", "held_out_share")),
+                )  # fmt: skip
+                said = outcome(name, str(one["winner"].item()), str(trial["trial_objection"].item()))
+            score = float(one["p_value"][place]), float(gain[place]), _percent(float(one["absorbed"][place]))
+            told[name] = (*score, *refit, said)
+        yield int(turn), told
+
+
+def _evidence_sources(found: Diagnosis, prefix: str = "") -> tuple[Source, ...]:
+    file = found.files.get("ranking", "")
+    return (
+        Source("score test", file, ", ".join(f"{prefix}{key}" for key in ("p_value", "gain", "absorbed")), "as in the file"),
+        Source("refit", file, f"{prefix}trial_*", "as in the file, shares in percent"),
+        Source("outcome", file, ", ".join(f"{prefix}{key}" for key in ("winner", "trial_objection", "passed_over")), "as in the file"),
+    )
 
 
 def outcome(name: str, winner: str, objection: str) -> str:

@@ -1,0 +1,32 @@
+"""The evidence of a selection as a Dataset."""
+
+import xarray as xr
+
+from ridecomfort.discrepancy import ranking, select
+
+from .linear import Linear
+
+MODEL = Linear(2, {"effect_1.size": 0.4, "effect_4.size": 0.2})
+
+
+def selection():
+    return select.select(MODEL, {"stiffness": 0.0}, most=3)
+
+
+def test_forces_of_any_form_stand_beside_the_library_and_come_back_as_they_were():
+    found = selection()
+    table = ranking.dataset(MODEL, found)
+    assert ranking.forms(table) is None
+    both = ranking.with_forms(table, found)
+    xr.testing.assert_identical(both[list(table.data_vars)], table)
+    again = ranking.forms(both)
+    assert {"p_value", "gain", "passed_over", "trial_effect", "winner"} <= set(again.data_vars)
+    xr.testing.assert_identical(again.drop_attrs(), table[list(again.data_vars)].drop_attrs())
+
+
+def test_every_refit_is_told_with_its_round_and_size():
+    found = selection()
+    table = ranking.dataset(MODEL, found)
+    trials = [(number, trial.name) for number, turn in enumerate(found.rounds, 1) for trial in turn.trials]
+    assert list(zip(table["trial_round"].values, table["trial_effect"].values)) == trials
+    assert all(str(words).startswith("size ") and str(words).endswith(" N") for words in table["trial_sizes"].values)
