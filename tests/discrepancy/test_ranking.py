@@ -14,10 +14,9 @@ def selection():
 
 
 def test_forces_of_any_form_stand_beside_the_library_and_come_back_as_they_were():
-    found = selection()
-    table = ranking.dataset(MODEL, found)
+    table = ranking.dataset(MODEL, selection())
     assert ranking.forms(table) is None
-    both = ranking.with_forms(table, found)
+    both = ranking.with_forms(table, table)
     xr.testing.assert_identical(both[list(table.data_vars)], table)
     again = ranking.forms(both)
     assert {"p_value", "gain", "passed_over", "trial_effect", "winner"} <= set(again.data_vars)

@@ -72,7 +72,7 @@ def diagnose(
     proposal = None
     if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
         proposal = discovered(rung, name=name, **common)
-        table = with_forms(table, proposal.selection)
+        table = with_forms(table, proposal.evidence)
         verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, _fits_better(proposal, selection))
         if not (table.attrs["turns"] or table.attrs["road"]):
             verdict = named_all_the_same(verdict, proposal)

@@ -21,6 +21,7 @@ from .experiment import Candidate, Size
 from .form import effect_source, in_words
 from .made import beside
 from .places import FORCE, LINEAR, PLACES, parameter, scale, settings
+from .ranking import dataset
 from .rung import Rung, begin
 from .select import search
 from .selection import Selection
@@ -48,6 +49,8 @@ class Discovery:
     selection: Selection
     is_large: bool = False
     """Whether the first term gains so much on the fitted drives that the error changes its colour by it."""
+    evidence: xr.Dataset | None = None
+    """What became of every term, as for the library (``ranking.dataset``)."""
 
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
@@ -98,7 +101,7 @@ def discovered(
         rung = replace(rung, experiment=rung.experiment.looking_for(candidates, folder))
         together = lambda first, other: _place(first.name) == _place(other.name)
         selection = search(rung, most=most, seed=seed, each=each, together=together, say=say)
-    return _discovery(selection, name)
+    return replace(_discovery(selection, name), evidence=dataset(rung.experiment, selection))
 
 
 def _discovery(selection: Selection, name: str) -> Discovery:

@@ -85,9 +85,8 @@ def dataset(experiment: Experiment, selection: Selection) -> xr.Dataset:
     )
 
 
-def with_forms(table: xr.Dataset, found: Selection) -> xr.Dataset:
-    """The evidence of the library with that of the terms of a force of any form beside it."""
-    own = dataset(found.frame.experiment, found)
+def with_forms(table: xr.Dataset, own: xr.Dataset) -> xr.Dataset:
+    """The evidence of the library with its ``own`` of the terms of a force of any form beside it."""
     own = own[[name for name, values in own.data_vars.items() if values.dims and TESTED.issuperset(values.dims)]]
     return table.merge(own.rename({name: f"{FORMS}{name}" for name in (*own.variables, *own.dims)}))
 
