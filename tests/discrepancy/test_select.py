@@ -23,6 +23,10 @@ def judged(model, suspicions=()):
     return selection, verdict.judge(selection, model.candidates, suspicions)
 
 
+def rounds(model, most):
+    return select.select(model, {"stiffness": 0.0}, most=most).rounds
+
+
 def test_the_missing_effect_is_named_measured_and_confirmed_on_the_held_out_drive():
     selection, found = judged(Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0}))
     assert found.verdict == "named" and [e.name for e in found.effects] == ["effect_2"]
@@ -194,7 +198,7 @@ def weakly_held_out(seed, is_there=True):
     model.columns[3] = {key: 0.15 * column for key, column in model.columns[3].items()}
     if not is_there:
         model.noise[3] = model.noise[3] + 0.3 * model.columns[3]["effect_2.size"]
-    return next(trial for trial in judged(model)[0].rounds[0].trials if trial.name == "effect_2")
+    return next(trial for trial in rounds(model, 1)[0].trials if trial.name == "effect_2")
 
 
 def test_where_the_held_out_drive_is_too_weak_to_decide_a_fall_beyond_chance_confirms_what_the_others_leave_no_doubt_of():
@@ -214,7 +218,7 @@ def test_a_fall_confirms_a_first_effect_and_a_later_one_only_where_the_held_out_
             model = Linear(seed, truth)
             weak = lambda key: 0.07 if key == "effect_4.size" else 1.0
             model.columns[3] = {key: weak(key) * column for key, column in model.columns[3].items()}
-            turn = judged(model)[0].rounds[number]
+            turn = rounds(model, number + 1)[number]
             for trial in turn.trials:
                 is_certain = turn.p_value[turn.names.index(trial.name)] <= CERTAIN
                 if trial.name == "effect_4" and is_certain and 0 < trial.held_out_z < select.HELD_OUT_Z:

@@ -1,6 +1,7 @@
 """Tables and figures of where model and measurement differ: arithmetic, words, labelled axes, any set of sites."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -56,6 +57,14 @@ def test_what_calibration_made_of_the_model_is_told_with_what_the_drives_say_of_
     assert (spring["parameter"], spring["initial"], spring["value"]) == ("spring stiffness front", 28000.0, 20000.0)
     assert friction["parameter"] == "suspension friction: front" and friction["verdict"] == "at its lower bound"
     assert any("the data ask for more" in note for note in tables["calibrated"].notes)
+
+
+def test_that_sizes_of_effects_may_differ_from_the_searchs_is_said_where_there_are_any(tables, study):
+    said = "may differ from those of the missing effects"
+    assert any(said in note for note in tables["calibrated"].notes)
+    alone = {name: found.isel(parameter=[0]) for name, found in study.calibrations.items()}
+    base = differing.tables(replace(study, calibrations=alone))["calibrated"]
+    assert not any(said in note for note in base.notes)
 
 
 def test_the_ladder_begins_with_everything_and_ends_at_the_floor(tables, study):
