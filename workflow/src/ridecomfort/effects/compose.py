@@ -23,7 +23,7 @@ import numpy as np
 
 from ..errors import InputError
 from .contract import COMPILED, PORTS, Effect
-from .library import FOLDER, Entry, find
+from .library import FOLDER, Entry, of_the_library
 
 PACKAGE = Path(__file__).parent.parent
 SOURCES = ("vehicle/kernel.py", "vehicle/ground.py", "vehicle/driver.py", "vehicle/motion.py",
@@ -64,8 +64,13 @@ def in_company(chosen: Sequence[tuple[Entry, Mapping[str, float]]]) -> list[tupl
     """
     if not any(entry.path.parent == FOLDER and entry.effect.port in COMPILED for entry, _ in chosen):
         return list(chosen)
-    beside = {entry.effect.name: (entry, entry.effect.neutral) for entry in find().values() if entry.effect.port in COMPILED}
-    return [own for _, own in sorted((beside | {entry.effect.name: (entry, values) for entry, values in chosen}).items())]
+    return [own for _, own in sorted((_neutral() | {entry.effect.name: (entry, values) for entry, values in chosen}).items())]
+
+
+@lru_cache
+def _neutral() -> dict[str, tuple[Entry, Mapping[str, float]]]:
+    """Every compiled effect of the library at its neutral values, by name."""
+    return {name: (entry, entry.effect.neutral) for name, entry in of_the_library().items() if entry.effect.port in COMPILED}
 
 
 def parameters(chosen: Sequence[tuple[Entry, Mapping[str, float]]]) -> np.ndarray:

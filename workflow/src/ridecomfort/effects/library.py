@@ -35,7 +35,7 @@ def find(folder=None) -> dict[str, Entry]:
     Raises InputError for a file that is not an effect, for a name that does not match its
     file and for a user's effect that takes the name of one of the library.
     """
-    entries = dict(_entries(FOLDER, files(FOLDER)))
+    entries = dict(of_the_library())
     if folder is not None:
         folder = Path(folder)
         if not folder.is_dir():
@@ -83,6 +83,12 @@ def check_plausible(chosen) -> None:
                     f"{entry.effect.name}: {parameter.name}: {values[parameter.name]:g} {parameter.unit}, "
                     f"expected {low:g} to {high:g} {parameter.unit} ({parameter.meaning})"
                 )
+
+
+@lru_cache
+def of_the_library() -> Mapping[str, Entry]:
+    """The library's own effects by name, read once like any module of the package: looking for its files takes a twentieth of a drive."""
+    return _entries(FOLDER, files(FOLDER))
 
 
 def files(folder: Path) -> tuple[tuple[str, int], ...]:
