@@ -22,9 +22,9 @@ HALF = 0.5
 EVERYWHERE = 0.35
 """Share of the road from which on an error counts as spread all along it."""
 
-PREVAILING, HELD = 1.5, 0.1
-"""How many times its share of the signal's power an error has in the class of a condition that is named for it, and the least
-part of the error that this class holds."""
+PREVAILING, HELD, LEAST = 2.0, 0.1, 0.1
+"""How many times as large as below an edge an error is beside the signal above it (or the other way round) for that to be named; the least
+part of the error that one side holds, and of the signal that the other does; and the least that the error counts for there, beside its mean."""
 
 STRAIGHT = 3000.0
 """m of radius above which a road is called straight."""
@@ -125,16 +125,25 @@ def _stretch(located: xr.Dataset, share: np.ndarray) -> tuple[float, float] | No
 
 
 def _when(located: xr.Dataset, signal: int, band: int) -> str:
-    """The condition in whose uppermost or lowest class an error above the floor is largest beside the signal, in words, empty if none is.
+    """The condition above or below one of whose edges an error above the floor is largest beside the signal, in words, empty if none is.
 
     Beside the signal: rough stretches make any error larger, and only what grows otherwise than the signal says something of its cause.
     """
     error = located["condition_error"].values[:, :, signal, band] - float(located["band_floor"][signal, band])
     measured = located["condition_measured"].values[:, :, signal, band]
-    part, of_signal = (each / each.sum(axis=1, keepdims=True) for each in (error, measured))
-    ratio = np.divide(part, of_signal, out=np.zeros_like(part), where=(part >= HELD) & (of_signal > 0))[:, [-1, 0]]
-    condition, side = np.unravel_index(int(ratio.argmax()), ratio.shape)
-    if ratio[condition, side] < PREVAILING:
+    parts = (np.cumsum(each, axis=1) / each.sum(axis=1, keepdims=True) for each in (error, measured))
+    below, signal_below = (each[:, :-1] for each in parts)
+    sides = [(1.0 - below, 1.0 - signal_below), (below, signal_below)]
+    ratios = [_times(*own, *other) for own, other in (sides, sides[::-1])]
+    side, condition, edge = np.unravel_index(int(np.argmax(ratios)), np.shape(ratios))
+    if ratios[side][condition, edge] < PREVAILING:
         return ""
-    edge = float(located["condition_edge"][condition, -2 if side == 0 else 1])
-    return CONDITIONS[str(located["condition"].values[condition])][side](edge)
+    return CONDITIONS[str(located["condition"].values[condition])][side](float(located["condition_edge"][condition, edge + 1]))
+
+
+def _times(error: np.ndarray, signal: np.ndarray, other_error: np.ndarray, other_signal: np.ndarray) -> np.ndarray:
+    """How many times as large as on the other side of an edge an error is beside the signal; nil where one side holds too little."""
+    counts = (error >= HELD) & (other_signal >= HELD)
+    least = LEAST * other_signal  # an error below the floor is none, and by how much says nothing
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(counts, (error / signal) / (np.maximum(other_error, least) / other_signal), 0.0)
