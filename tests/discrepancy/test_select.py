@@ -147,6 +147,12 @@ def test_what_is_significant_and_not_judged_is_said_why(monkeypatch, most, why):
     assert not first.passed_over.keys() & {trial.name for trial in first.trials}
 
 
+def test_what_would_help_with_the_opposite_sign_is_said():
+    selection, _ = judged(Linear(2, {"effect_1.size": 1.0, "effect_4.size": -0.5}))
+    first = selection.rounds[0]
+    assert "opposite sign" in first.passed_over["effect_4"] and first.p_value[first.names.index("effect_4")] > 0.05
+
+
 def test_nothing_is_named_where_nothing_is_missing():
     verdicts = [judged(Linear(seed, {"stiffness": 0.5}))[1].verdict for seed in range(10, 20)]
     assert verdicts.count("nothing") >= 9

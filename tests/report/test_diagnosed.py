@@ -131,13 +131,35 @@ def test_evidence_is_in_the_order_of_the_gain_with_the_outcome_of_refits():
     assert found[1]["outcome"] == "makes the drives held out worse" and found[2]["outcome"] == ""
     # What was accepted is not tested again.
     assert [row["effect"] for row in found[3:]] == ["damper asymmetry", "payload"]
+    assert "gains less than the accepted one" in words(diagnosed.tables(replace(made_up.diagnosis(), ranking=unobjected()))["evidence"])
     # What is significant and was not judged is said why.
     assert [row["outcome"] for row in found[3:]] == ["its refit gains less than 5 % of the best", ""]
 
 
+def unobjected():
+    """The ranking without anything that speaks against the second refit."""
+    found = made_up.ranking()
+    found["trial_objection"] = ("trial", ["", ""])
+    found["trial_held_out_z"] = ("trial", [5.0, 4.0])
+    return found
+
+
+def test_a_refit_that_drives_held_out_confirm_less_surely_is_said_so():
+    found = unobjected()
+    found["trial_held_out_z"] = ("trial", [5.0, 1.0])
+    assert "less sure on drives held out" in words(diagnosed.tables(replace(made_up.diagnosis(), ranking=found))["evidence"])
+
+
+def test_a_size_whose_interval_includes_none_is_marked():
+    found = made_up.diagnosis({**made_up.VERDICT, "effects": [{**made_up.VERDICT["effects"][0], "sizes": [
+        {**made_up.VERDICT["effects"][0]["sizes"][0], "interval": [-5.0, 90.0]}]}]})  # fmt: skip
+    assert "yes, may be nil" in words(diagnosed.tables(found)["missing_effects"])
+    assert "may be nil" not in words(diagnosed.tables(made_up.diagnosis())["missing_effects"])
+
+
 def looked_for_any_form() -> Diagnosis:
     """A diagnosis whose search went on with forces of any form: that of made_up.ranking as terms at two places, a third term beside."""
-    found, terms = made_up.ranking(), ["strut:velocity_direction", "body:lift", "strut:deflection_cube"]
+    found, terms = made_up.ranking(), ["strut:velocity_direction", "body:lift", "strut:side_force_size_times_direction"]
     own = found.assign_coords(effect=terms)
     own["trial_effect"], own["winner"] = ("trial", terms[:2]), ("round", [terms[0], ""])
     return replace(made_up.diagnosis(), ranking=found.merge(own.rename({name: f"{FORMS}{name}" for name in (*own.variables, *own.dims)})))
@@ -158,7 +180,7 @@ def test_where_none_was_looked_for_the_table_says_so():
 
 
 @pytest.mark.parametrize(("name", "winner"), [("evidence", "suspension friction"), ("forms", "strut: velocity direction")])
-def test_the_figure_shows_every_round_and_nothing_is_cut_off(name, winner):
+def test_the_figure_shows_every_round_and_nothing_is_cut_off_or_lies_over_another(name, winner):
     with style.styled():
         each = diagnosed.figures(looked_for_any_form())[name]()
         FigureCanvasAgg(each).draw()
@@ -166,7 +188,10 @@ def test_the_figure_shows_every_round_and_nothing_is_cut_off(name, winner):
     width, height = each.get_size_inches()
     assert box.x0 > -0.02 and box.x1 < width + 0.02 and box.y0 > -0.02 and box.y1 < height + 0.02
     said = [text.get_text() for text in each.findobj(Text)]
-    assert f"round 1: {winner} accepted" in said and "round 2: nothing accepted" in said
+    for line in zip(*[(axes.title, axes.xaxis.label) for axes in each.axes]):
+        shown = [text.get_window_extent() for text in line if text.get_text()]
+        assert not any(one.overlaps(other) for k, one in enumerate(shown) for other in shown[:k])
+    assert winner in said and "round 1" in said and "round 2: nothing accepted" in said
     assert any("Stand-in data" in text for text in said)
 
 

@@ -27,6 +27,9 @@ HELD_OUT_Z = 2.0
 DECOY_LEVEL = 0.005
 """p-value at which a decoy ranks, where another is significant, too; one alone would do so by chance now and then."""
 
+OPPOSITE = 4.0
+"""z from which on the drives speak for a negative size where only a positive one is physical: a hint, not a finding."""
+
 BY_BLOCKS, BY_SHAPE = 1.5, 3.0
 """Factors of the p-values: three forms of the test are tried, two of which ``evidence`` has accounted for."""
 
@@ -48,6 +51,8 @@ class Proposal:
     size_error: dict[str, float]
     columns: dict[tuple[Job, str], np.ndarray]
     rare: frozenset[str]
+    opposite: frozenset[str]
+    """Names for a negative size of which the drives speak, where only a positive one is physical."""
     decoy_p_value: float
     decoy_ranks: bool
 
@@ -107,6 +112,9 @@ def propose(
         size_error={key: found.error[k] for k, key in shown},
         columns={label: found.projected[k] for k, label in enumerate(labels)},
         rare=frozenset(job[0] for job, is_rare in zip(jobs, rare) if is_rare),
+        opposite=frozenset(
+            jobs[g][0] for g, own, statistic in zip(group, sign, found.statistic) if g in best.values() and own > 0 and statistic < -OPPOSITE
+        ),
         decoy_p_value=float(found.p_value[len(jobs) :].min()),
         decoy_ranks=_decoy_ranks(found, len(jobs)),
     )

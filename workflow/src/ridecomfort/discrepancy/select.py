@@ -266,9 +266,11 @@ class _Search:
 
 
 def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial]) -> dict[str, str]:
-    """Why significant candidates are not among the ``trials`` of a round; ``minor``: names of those whose refits gain little."""
+    """Why candidates that are significant, or would be with the opposite sign, are not among the ``trials`` of a round; ``minor``: names of
+    those whose refits gain little."""
     significant, judged = found.significant(len(found.names)), {trial.name for trial in trials}
-    why = {name: f"not refitted: {PROPOSED} others gain more" for name in significant[PROPOSED:]}
+    why = dict.fromkeys(found.opposite, "not refitted: the drives ask for the opposite sign, which is not plausible")
+    why |= {name: f"not refitted: {PROPOSED} others gain more" for name in significant[PROPOSED:]}
     for name in significant[:PROPOSED]:
         why[name] = f"its refit gains less than {100 * MINOR:g} % of the best" if name in minor else "could not be simulated"
     return {name: said for name, said in why.items() if name not in judged}

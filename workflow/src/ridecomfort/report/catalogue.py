@@ -88,8 +88,9 @@ DIFFERENCE_FIGURES = {
 }
 
 DIAGNOSIS_FIGURES = {
-    "evidence": "Evidence for the effects of the library: fall of twice the negative log-likelihood in the score test, p-value "
-    "over the whole library, and the refits of the best on fitted and on held-out drives. What a refit removes is the search's first "
+    "evidence": "Evidence for the effects of the library: gain in the score test (fall of twice the negative log-likelihood; axis as a square "
+    "root), p-value over the whole library, which asks how evenly that comes along the road, and the refits of the best: explainable error "
+    "removed on fitted and on held-out drives. What a refit removes is the search's first "
     "estimate, above the floor as known in that round; the missing effects have it from the last fit of each round, the error ladder "
     "from models calibrated anew.",
     "forms": "Evidence for forces of any form, where the library does not explain the error: terms that such a force may be made of, at each "

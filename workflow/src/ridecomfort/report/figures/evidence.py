@@ -16,7 +16,7 @@ from ...discrepancy.ranking import forms as forms_of
 from .. import style
 from ..notation import words
 from ..study import Diagnosis
-from ..tables.diagnosis import outcome
+from ..tables.diagnosis import outcomes
 
 SHOWN = 12
 """Effects of each round that are drawn, the strongest."""
@@ -37,6 +37,7 @@ OBJECTIONS = {
     "of the explainable error": "too little",
     "not refitted": "not refitted, others gain more",
     "its refit gains less": "gains too little when refitted",
+    "opposite sign": "the other way round",
 }
 """How objections of the search are said in a few words, by a part of each."""
 
@@ -70,14 +71,14 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         names = [str(ranking["effect"].values[k]) for k in np.argsort(-gain)[:shown] if np.isfinite(gain[k])]
         winner = str(one["winner"].item())
         _scores(left, one.sel(effect=names), names, winner)
-        left.set_title(f"round {turn}: " + (f"{_label(winner)} accepted" if winner else "nothing accepted"))
-        _refits(right, one, names, winner)
-        right.set_title("refits of the best: fitted / held out")
+        left.set_title(f"round {turn}" if winner else f"round {turn}: nothing accepted")
+        _refits(right, one, names)
         for axes, count in ((left, 4), (right, 5)):
             axes.locator_params(axis="x", nbins=count)
             axes.tick_params(axis="y", length=0)
-    panels[-1][0].set_xlabel("fall of $-2$ ln likelihood in the score test [-]")
-    panels[-1][1].set_xlabel("explainable error removed [%]")
+    panels[0][1].set_title("refits: fitted / held out")
+    panels[-1][0].set_xlabel("gain in the score test [-]")
+    panels[-1][1].set_xlabel("error removed [%]")
     handles = [
         Patch(color=ACCEPTED, label="accepted"),
         Patch(color=SIGNIFICANT, label=f"significant over all (p ≤ {LEVEL:g})"),
@@ -98,13 +99,13 @@ def _scores(axes: Axes, tested: xr.Dataset, names: Sequence[str], winner: str) -
         axes.annotate(said, (max(gain, 0.0), place), xytext=(3, 0), textcoords="offset points", va="center", fontsize=6)
     axes.set_yticks(range(len(names)), [_label(name) for name in names])
     axes.invert_yaxis()
-    axes.margins(x=0.15)
-    axes.set_xlim(left=0)
+    axes.set_xscale("function", functions=(np.sqrt, np.square))  # as a z-value: beside one large gain the others would be invisible
+    axes.set_xlim(0.0, 1.4 * max(float(np.nanmax(tested["gain"].values)), 1.0))
 
 
-def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str], winner: str) -> None:
+def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str]) -> None:
     """What the refits of a round removed, and what came of them, or why a significant effect was not refitted."""
-    came = dict(zip(one["effect"].values, one["passed_over"].values))
+    came = {name: _shortened(said) for name, said in outcomes(one).items()}
     for k in np.flatnonzero(one["trial_round"].values == one["round"].item()):
         name = str(one["trial_effect"].values[k])
         shares = [100 * float(one[key].values[k]) for key in ("trial_share", "trial_held_out_share")]
@@ -114,9 +115,9 @@ def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str], winner: str) -> N
             axes.plot(shares[0], place, **DOT, clip_on=False)
             axes.plot(shares[1], place, **DIAMOND, clip_on=False)
         said = " / ".join(f"{share:.0f}" for share in np.round(shares) + 0.0 if np.isfinite(share)).replace("-", "−")
-        came[name] = f"{said} %  {_shortened(outcome(name, winner, str(one['trial_objection'].values[k])))}"
+        came[name] = f"{said} %  {came[name]}"
     for place, name in enumerate(names):
-        axes.text(1.06, place, _shortened(str(came[name])), transform=axes.get_yaxis_transform(), va="center", fontsize=6)
+        axes.text(1.06, place, came[name], transform=axes.get_yaxis_transform(), va="center", fontsize=6)
     axes.set_xlim(min(axes.get_xlim()[0], -LEAST), max(axes.get_xlim()[1], LEAST))
     axes.axvline(0.0, color=style.FLOOR, linewidth=0.7)
 

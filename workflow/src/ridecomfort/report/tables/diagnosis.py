@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ...discrepancy import ranking
+from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.verdict import LITTLE, first_sentence, sentence
 from ...effects.contract import PORTS
 from .. import catalogue
@@ -89,6 +90,8 @@ def missing_effects(found: Diagnosis) -> Table:
         for number, size in enumerate(effect["sizes"] or [{}]):
             lower, upper = size.get("interval", (None, None))
             plausible = {True: "yes", False: "no", None: ""}[size.get("is_plausible")]
+            if lower is not None and lower <= 0.0 <= upper:
+                plausible += ", may be nil"
             if size.get("plausible"):
                 plausible += " ({:.4g} to {:.4g})".format(*size["plausible"])
             rows.append(
@@ -103,7 +106,8 @@ def missing_effects(found: Diagnosis) -> Table:
         "joins those above it, all sizes fitted together and the drives aligned for them, above the floor that the last model shows: "
         "the evidence has the refit that it was chosen by, above the floor of that round, and the error ladder what is left when the "
         "study calibrates anew, site by site. They are of all sizes of an effect together and stand beside its first. Absorbed: "
-        "share of the effect's response that calibration can take up, and so hide.",
+        "share of the effect's response that calibration can take up, and so hide. What only shapes an effect (a frequency, a place) is told "
+        "where the drives asked for another value than its typical one, else held there.",
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
@@ -168,18 +172,17 @@ def _rounds(tested: xr.Dataset) -> Iterator[tuple[int, dict[str, tuple]]]:
     for number, turn in enumerate(tested["round"].values):
         one, refitted = tested.isel(round=number), np.flatnonzero(tested["trial_round"].values == turn)
         trials = {str(tested["trial_effect"].values[k]): k for k in refitted}
-        gain, told = one["gain"].values, {}
+        gain, came, told = one["gain"].values, outcomes(one), {}
         for place in sorted(np.flatnonzero(np.isfinite(gain)), key=lambda k: -gain[k]):
-            name, refit, said = str(tested["effect"].values[place]), ("", *(None,) * 4), str(one["passed_over"].values[place])
+            name, refit = str(tested["effect"].values[place]), ("", *(None,) * 4)
             if name in trials:
                 trial = tested.isel(trial=trials[name])
                 refit = (
                     str(trial["trial_sizes"].item()), *(float(trial[f"trial_{key}"]) for key in ("gain", "bic")),
                     *(_percent(float(trial[f"trial_{key}"])) for key in ("share", "held_out_share")),
                 )  # fmt: skip
-                said = outcome(name, str(one["winner"].item()), str(trial["trial_objection"].item()))
             score = float(one["p_value"][place]), float(gain[place]), _percent(float(one["absorbed"][place]))
-            told[name] = (*score, *refit, said)
+            told[name] = (*score, *refit, came[name])
         yield int(turn), told
 
 
@@ -188,13 +191,20 @@ def _evidence_sources(found: Diagnosis, prefix: str = "") -> tuple[Source, ...]:
     return (
         Source("score test", file, ", ".join(f"{prefix}{key}" for key in ("p_value", "gain", "absorbed")), "as in the file"),
         Source("refit", file, f"{prefix}trial_*", "as in the file, shares in percent"),
-        Source("outcome", file, ", ".join(f"{prefix}{key}" for key in ("winner", "trial_objection", "passed_over")), "as in the file"),
+        Source("outcome", file, ", ".join(f"{prefix}{key}" for key in ("winner", "trial_objection", "trial_held_out_z", "passed_over")), "as in the file"),
     )
 
 
-def outcome(name: str, winner: str, objection: str) -> str:
-    """What came of the refit of an effect in a round that ``winner`` won (empty where none did)."""
-    return "accepted" if name == winner else objection or "explains less"
+def outcomes(one: xr.Dataset) -> dict[str, str]:
+    """What came of every effect of a round in words, by name: of its refit, or why it was not refitted; empty where there was no reason to."""
+    told = {str(name): str(why) for name, why in zip(one["effect"].values, one["passed_over"].values)}
+    winner, refits = str(one["winner"].item()), np.flatnonzero(one["trial_round"].values == one["round"].item())
+    sure = {str(one["trial_effect"].values[k]): not one["trial_held_out_z"].values[k] <= HELD_OUT_Z for k in refits}
+    for k in refits:
+        name, objection = str(one["trial_effect"].values[k]), str(one["trial_objection"].values[k])
+        less = "less sure on drives held out" if sure.get(winner) and not sure[name] else "gains less than the accepted one"
+        told[name] = "accepted" if name == winner else objection or less
+    return told
 
 
 def _alike(effect) -> str:
