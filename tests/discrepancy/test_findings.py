@@ -61,6 +61,14 @@ def test_what_grows_less_than_the_signal_is_relatively_most_where_that_is_small(
     assert findings.findings(rough)[0].when == ""
 
 
+def test_tyre_velocities_are_named_only_where_they_tell_more_than_those_of_the_suspension(located):
+    rough = located.isel(condition=[0, 0]).assign_coords(condition=["suspension_velocity", "tyre_velocity"]).copy(deep=True)
+    assert "suspension velocities above" in findings.findings(rough)[0].when
+    rough["condition_error"].loc[dict(condition="suspension_velocity")] = rough["condition_error"].sel(condition="suspension_velocity").mean("class")
+    rough["condition_measured"].loc[dict(condition="suspension_velocity")] = 1.0
+    assert "tyre velocities above" in findings.findings(rough)[0].when
+
+
 def test_bands_of_one_signal_do_not_crowd_out_the_others(located):
     many = located.copy(deep=True)
     many["power_share"].loc[dict(signal="yaw_rate")] = 10.0

@@ -85,6 +85,14 @@ def test_a_form_that_explains_little_is_not_to_be_switched_on(library, said):
     assert next_step.startswith(said) and "discovered.py" not in next_step
 
 
+@pytest.mark.parametrize(("left", "said"), [(0.011, "1.1 % of the power of any signal: the loop may end here"), (0.08, "8.0 % of the power of a_x, is worth a look")])
+def test_where_little_is_found_it_is_said_whether_what_is_left_matters(left, said):
+    found = {**made_up.VERDICT, "verdict": "outside", "share": 0.05, "held_out_share": 0.05, "remainder": {"a_z": 0.002, "a_x": left}}
+    found["proposal"] = {"name": "discovered", "form": "80 N tanh(velocity / 0.005)", "place": "strut", "port": "suspension", "share": 0.08,
+                         "held_out_share": 0.12, "p_value": 0.0015}  # fmt: skip
+    assert said in rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
+
+
 def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_from():
     said = words(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside"}))["verdict"])
     assert "suspension friction takes 80 % on the fitted drives, 75 % on drives held out" in said

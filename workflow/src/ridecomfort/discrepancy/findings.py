@@ -26,6 +26,9 @@ PREVAILING, HELD, LEAST = 2.0, 0.1, 0.1
 """How many times as large as below an edge an error is beside the signal above it (or the other way round) for that to be named; the least
 part of the error that one side holds, and of the signal that the other does; and the least that the error counts for there, beside its mean."""
 
+CLEARLY = 1.2
+"""Times as well as suspension velocities that tyre velocities must tell an error to be named: the two go together on any rough road."""
+
 STRAIGHT = 3000.0
 """m of radius above which a road is called straight."""
 
@@ -134,9 +137,10 @@ def _when(located: xr.Dataset, signal: int, band: int) -> str:
     parts = (np.cumsum(each, axis=1) / each.sum(axis=1, keepdims=True) for each in (error, measured))
     below, signal_below = (each[:, :-1] for each in parts)
     sides = [(1.0 - below, 1.0 - signal_below), (below, signal_below)]
-    ratios = [_times(*own, *other) for own, other in (sides, sides[::-1])]
-    side, condition, edge = np.unravel_index(int(np.argmax(ratios)), np.shape(ratios))
-    if ratios[side][condition, edge] < PREVAILING:
+    ratios = np.stack([_times(*own, *other) for own, other in (sides, sides[::-1])])
+    chosen = ratios / np.where(located["condition"].values == "tyre_velocity", CLEARLY, 1.0)[:, None]
+    side, condition, edge = np.unravel_index(int(chosen.argmax()), chosen.shape)
+    if ratios[side, condition, edge] < PREVAILING:
         return ""
     return CONDITIONS[str(located["condition"].values[condition])][side](float(located["condition_edge"][condition, edge + 1]))
 

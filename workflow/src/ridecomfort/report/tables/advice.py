@@ -31,7 +31,14 @@ GO_ON = (
 
 NO_FORM = "No form was found that would take the error away; see where it lies (compare)."
 
-LITTLE_FOUND = "Nothing that was found explains much: see where the error lies (compare), and by the reasons whether what is left matters."
+LITTLE_FOUND = "Nothing that was found explains much. "
+
+END = "What is left is no more than {most:.1f} % of the power of any signal: the loop may end here."
+
+GO_DEEPER = "What is left, {most:.1f} % of the power of {signal}, is worth a look at where it lies (compare)."
+
+SMALL = 0.02
+"""Share of a signal's power; an error below it changes its rms by a hundredth at most."""
 
 ROAD_FIRST = (
     "First set road: options: interpolation: {other} in the site file, which the drives fit better, and diagnose again, unless the road's "
@@ -87,6 +94,15 @@ def farther(beyond: Mapping) -> str:
     )
 
 
+def _left(verdict: Mapping) -> str:
+    """Whether what is left matters."""
+    remainder = verdict.get("remainder") or {}
+    if not remainder:
+        return "See where the error lies (compare)."
+    signal = max(remainder, key=remainder.get)
+    return (END if remainder[signal] < SMALL else GO_DEEPER).format(most=100 * remainder[signal], signal=signal)
+
+
 def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str) -> str:
     """The better of the proposed form and the effects that help comes first."""
     said = found.verdict
@@ -98,7 +114,7 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     held = lambda one: one["share"] if one["held_out_share"] is None else one["held_out_share"]
     (fitted, held_out), (fitted_of_form, held_out_of_form) = ((one["share"], held(one)) for one in (said, proposal))
     if max(fitted_of_form, held_out_of_form) < LITTLE:
-        return go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND
+        return go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
     file = Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py")
     try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"]]))
     if not library_helps(said):
