@@ -129,7 +129,7 @@ def test_a_setting_that_was_tried_and_not_fitted_is_said():
         for one in model.candidates
     )
     _, found = judged(model)
-    assert "effect_2 was found at setting 0.5, one of a few that were tried" in found.reasons
+    assert "effect_2 was found with setting 0.5 held, the best of a few values that were tried" in found.reasons
 
 
 def test_two_missing_effects_are_both_found():

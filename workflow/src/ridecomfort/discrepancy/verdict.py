@@ -339,7 +339,8 @@ def _set(selection: Selection, candidate: Candidate) -> list[str]:
         for size, value in values.items()
         if abs(value - size.neutral) > size.probe
     ]
-    return [f"{candidate.name} was found at {', '.join(told)}, one of a few that were tried"] if told else []
+    held = ', '.join(told)
+    return [f"{candidate.name} was found with {held} held, the best of a few values that were tried"] if told else []
 
 
 def _shaped_by(selection: Selection, effect: Named, found: Sequence[Named], by_name) -> str:

@@ -90,16 +90,16 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
     overall = _known(places, 100 * chosen["left_overall"].values)
     axes.plot(*overall, color="black", linewidth=2.2, zorder=1)
     for place, value in zip(*overall):
-        if value <= HIGHEST:
-            above = 6 if value < NEAR_TOP * HIGHEST else -9
-            axes.annotate(
-                f"{value:.0f}", (place, value), xytext=(6, above), textcoords="offset points", fontsize=6, fontweight="bold",
-                path_effects=LEGIBLE,
-            )  # fmt: skip
-    beyond = 100 * float(chosen["left"].max())
-    if beyond > HIGHEST:
+        above, said = (6 if value < NEAR_TOP * HIGHEST else -9), f"{value:.0f}" if value <= HIGHEST else f"{value:.0f} ↑"
+        axes.annotate(
+            said, (place, min(value, HIGHEST)), xytext=(6, above), textcoords="offset points", fontsize=6, fontweight="bold",
+            path_effects=LEGIBLE,
+        )  # fmt: skip
+    most = 100 * np.nan_to_num(chosen["left"].values).max(axis=chosen["left"].dims.index("rung"))
+    if most.max() > HIGHEST:
+        name = notation.signal(str(chosen["signal"].values[most.argmax()]))
         axes.text(
-            0.99, 0.97, f"beyond: up to {beyond:,.0f} %", transform=axes.transAxes, ha="right", va="top", fontsize="x-small",
+            0.99, 0.97, f"beyond: {name}, up to {most.max():,.0f} %", transform=axes.transAxes, ha="right", va="top", fontsize="x-small",
             path_effects=LEGIBLE,
         )  # fmt: skip
     axes.axhline(0.0, color=style.FLOOR, linestyle="--")
