@@ -180,6 +180,7 @@ def test_forces_of_any_form_are_told_by_place_with_what_became_of_them(monkeypat
     # The strongest, and the best of every other place: the third term is neither.
     assert [(row["place"], row["form"]) for row in first] == [("strut", "velocity direction"), ("body", "lift")]
     assert first[0]["outcome"] == "accepted" and first[0]["sizes"] == "front 80 N"
+    assert first[0]["expression"] == "tanh(velocity / 0.005)"
 
 
 def test_where_none_was_looked_for_the_table_says_so():

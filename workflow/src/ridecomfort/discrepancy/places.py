@@ -343,4 +343,5 @@ def expression(place: str, term: str, linear: bool) -> str:
     own = PLACES[place].terms[term]
     if not (own.beside and linear):
         return own.expression
-    return f"{own.expression} + linear * {_size(place, term, own.expression) / _size(place, term, own.beside):.4g} * {own.beside}"
+    times = _size(place, term, own.expression) / _size(place, term, own.beside)
+    return f"{own.expression} + linear * {times:.4g} * {own.beside}".replace(" * 1 * ", " * ")

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ...discrepancy import ranking
+from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.verdict import LITTLE, first_sentence, sentence
 from ...effects.contract import PORTS
@@ -145,10 +146,11 @@ def evidence(found: Diagnosis) -> Table:
 
 def forms(found: Diagnosis) -> Table:
     """Of forces of any form, by round, the STRONGEST and the best of every place."""
-    columns = (Column("round", ("", "Round"), "d"), Column("place", ("", "Place")), Column("form", ("", "Form")), *EVIDENCE)
+    said = Column("place", ("", "Place")), Column("form", ("", "Form")), Column("expression", ("", "In what the place sees"))
+    columns = (Column("round", ("", "Round"), "d"), *said, *EVIDENCE)
     tried = ranking.forms(found.ranking)
     if tried is None:
-        rows = [(None, NO_FORMS, "", *(None,) * 3, "", *(None,) * 4, "")]
+        rows = [(None, NO_FORMS, "", "", *(None,) * 3, "", *(None,) * 4, "")]
         return _table(found, "forms", columns, rows, _evidence_sources(found))
     rows, breaks = [], []
     for turn, told in _rounds(tried):
@@ -157,10 +159,10 @@ def forms(found: Diagnosis) -> Table:
         for number, (name, one) in enumerate(told.items()):
             place, _, form = name.partition(":")
             if number < STRONGEST or place not in places:
-                rows.append((turn, place, words(form), *one))
+                rows.append((turn, place, words(form), PLACES[place].terms[form].expression, *one))
             places.add(place)
     notes = (
-        "Forms are terms that a force may be made of at each place where it could act; their names say what they are made of. The first of "
+        "Forms are terms that a force may be made of at each place where it could act. The first of "
         "a place is its best, so that places are ranked by it. Gain, p-value (over all terms of all places) and shares as in the evidence "
         f"for the library. Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file.",
     )
