@@ -185,7 +185,7 @@ def test_forces_of_any_form_are_told_by_place_with_what_became_of_them(monkeypat
 
 def test_where_none_was_looked_for_the_table_says_so():
     only, = rows(diagnosed.tables(made_up.diagnosis())["forms"])
-    assert "none was looked for" in only["place"]
+    assert only["place"].startswith("No force of any form was looked for")
 
 
 @pytest.mark.parametrize(("name", "winner"), [("evidence", "suspension friction"), ("forms", "strut: velocity direction")])
@@ -210,6 +210,34 @@ def test_the_figure_says_what_came_of_every_refit():
     said = " ".join(text.get_text() for text in each.findobj(Text))
     assert re.search(r"\d+ / 75 %  accepted", said) and "makes the drives held out worse" in said
     assert "gains too little when refitted" in said
+
+
+@pytest.mark.parametrize(
+    ("why", "said"),
+    [
+        ("not refitted: the drives ask for the opposite sign, which is not plausible", "the other way round"),
+        ("not refitted: 5 others gain more", "not refitted, others gain more"),
+    ],
+)
+def test_the_figure_says_why_an_effect_was_not_refitted(why, said):
+    found = made_up.ranking()
+    found["passed_over"] = found["passed_over"].astype(object)
+    found["passed_over"].values[0, 2] = why
+    with style.styled():
+        each = diagnosed.figures(replace(made_up.diagnosis(), ranking=found))["evidence"]()
+    assert said in [text.get_text() for text in each.findobj(Text)]
+
+
+def test_a_round_with_nothing_left_to_test_is_drawn_and_told():
+    found = made_up.ranking()
+    for name in ("p_value", "gain", "absorbed"):
+        found[name].loc[dict(round=2)] = np.nan
+    last = replace(made_up.diagnosis(), ranking=found)
+    with style.styled():
+        each = diagnosed.figures(last)["evidence"]()
+        FigureCanvasAgg(each).draw()
+    assert "round 2: nothing accepted" in [text.get_text() for text in each.findobj(Text)]
+    assert {row["round"] for row in rows(diagnosed.tables(last)["evidence"])} == {1}
 
 
 def test_what_the_figure_shortens_is_what_the_search_says():

@@ -27,7 +27,7 @@ PREVAILING, HELD, LEAST = 2.0, 0.1, 0.1
 part of the error that one side holds, and of the signal that the other does; and the least that the error counts for there, beside its mean."""
 
 CLEARLY = 1.2
-"""Times as well as suspension velocities that tyre velocities must tell an error to be named: the two go together on any rough road."""
+"""How many times the ratio that suspension velocities have those of tyres must have to be named: the two go together on a rough road."""
 
 STRAIGHT = 3000.0
 """m of radius above which a road is called straight."""

@@ -19,6 +19,7 @@ from .signature import signature
 from .shared import is_material
 from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, is_slow, judge, standing, total_shares, with_remainder
 
+
 def rank(
     measured: Mapping[str, tuple],
     vehicle,

@@ -339,7 +339,7 @@ def _set(selection: Selection, candidate: Candidate) -> list[str]:
         for size, value in values.items()
         if abs(value - size.neutral) > size.probe
     ]
-    held = ', '.join(told)
+    held = ", ".join(told)
     return [f"{candidate.name} was found with {held} held, the best of a few values that were tried"] if told else []
 
 

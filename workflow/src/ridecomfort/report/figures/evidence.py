@@ -16,10 +16,7 @@ from ...discrepancy.ranking import forms as forms_of
 from .. import style
 from ..notation import words
 from ..study import Diagnosis
-from ..tables.diagnosis import outcomes
-
-SHOWN = 12
-"""Effects of each round that are drawn, the strongest."""
+from ..tables.diagnosis import NO_FORMS, STRONGEST, outcomes, refits
 
 LEAST = 1.0
 """Percent to both sides of zero that shares are drawn over at least: what removes nothing must look like nothing."""
@@ -35,7 +32,7 @@ OBJECTIONS = {
     "not worth its parameters": "not worth its sizes (BIC)",
     "does not improve the drives held out": "not surely better held out",
     "of the explainable error": "too little",
-    "not refitted": "not refitted, others gain more",
+    "others gain more": "not refitted, others gain more",
     "its refit gains less": "gains too little when refitted",
     "opposite sign": "the other way round",
 }
@@ -50,14 +47,13 @@ def evidence(found: Diagnosis) -> Figure:
 def forms(found: Diagnosis) -> Figure:
     """The same of forces of any form."""
     tried = forms_of(found.ranking)
-    none = "No force of any form was looked for: the library explains the error, or there is none."
-    return _drawn(xr.Dataset(coords={"round": [], "effect": []}) if tried is None else tried, none)
+    return _drawn(xr.Dataset(coords={"round": [], "effect": []}) if tried is None else tried, NO_FORMS)
 
 
 def _drawn(ranking: xr.Dataset, none: str) -> Figure:
     """The evidence of a ``ranking``; where it holds nothing, the words for ``none``."""
     rounds = ranking["round"].values
-    shown = min(SHOWN, ranking.sizes["effect"])
+    shown = min(STRONGEST, ranking.sizes["effect"])
     drawn = style.figure(style.DOUBLE, 0.9 + (0.5 + 0.155 * shown) * max(len(rounds), 1))
     if not len(rounds) or not shown:
         axes = drawn.subplots()
@@ -100,15 +96,14 @@ def _scores(axes: Axes, tested: xr.Dataset, names: Sequence[str], winner: str) -
     axes.set_yticks(range(len(names)), [_label(name) for name in names])
     axes.invert_yaxis()
     axes.set_xscale("function", functions=(np.sqrt, np.square))  # as a z-value: beside one large gain the others would be invisible
-    axes.set_xlim(0.0, 1.4 * max(float(np.nanmax(tested["gain"].values)), 1.0))
+    axes.set_xlim(0.0, 1.4 * max([1.0, *tested["gain"].values]))
 
 
 def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str]) -> None:
     """What the refits of a round removed, and what came of them, or why a significant effect was not refitted."""
     came = {name: _shortened(said) for name, said in outcomes(one).items()}
-    for k in np.flatnonzero(one["trial_round"].values == one["round"].item()):
-        name = str(one["trial_effect"].values[k])
-        shares = [100 * float(one[key].values[k]) for key in ("trial_share", "trial_held_out_share")]
+    for name, trial in refits(one).items():
+        shares = [100 * float(trial[key]) for key in ("trial_share", "trial_held_out_share")]
         if name in names:
             place = names.index(name)
             axes.plot(shares, [place, place], color=style.FAINT, linewidth=0.8, zorder=1)

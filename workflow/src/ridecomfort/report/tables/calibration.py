@@ -12,6 +12,7 @@ from ..table import Column, Source, Table
 from .comfort import OURS, PAPER
 
 CHANGE = r"$\pm$ [%]"
+
 OF_EFFECTS = (
     "Sizes of effects may differ from those of the missing effects, beyond the intervals of either: here all parameters of an effect are "
     "fitted, what only shapes it as well, and the rest of the vehicle is held; there what shapes it is held unless the drives ask for "
@@ -169,11 +170,11 @@ def calibrated(found: Difference) -> Table:
         Column("upper", ("Bounds", "upper"), ".7g"),
         Column("verdict", ("", "In words")),
     )
-    rows, sources, breaks, notes, has_effects = [], [], [], [], False
+    rows, sources, breaks, notes = [], [], [], []
     for name, calibration in found.calibrations.items():
         breaks.append(len(rows))
         for parameter in calibration["parameter"].values.tolist():
-            chosen, has_effects = calibration.sel(parameter=parameter), has_effects or "." in parameter
+            chosen = calibration.sel(parameter=parameter)
             shown = [float(chosen[column.key]) for column in columns[3:9]]
             in_words = words(parameter.replace(".", ": "))
             rows.append((catalogue.label(name), in_words, unit(str(chosen["unit"].item())), *shown, str(chosen["verdict"].item())))
@@ -186,7 +187,8 @@ def calibrated(found: Difference) -> Table:
         "At a bound the data ask for more than the bounds allow, or the model lacks something that the parameter stands in for. Not identified: "
         "the drives do not tell it, and another value would do. Intervals hold where the model lacks nothing."
     )
-    notes += [OF_EFFECTS] * has_effects
+    if any("." in name for calibration in found.calibrations.values() for name in calibration["parameter"].values.tolist()):
+        notes.append(OF_EFFECTS)
     notes += filter(None, [found.standin_note()])
     caption = f"{catalogue.DIFFERENCE_TABLES['calibrated']} Model: {found.model}."
     return Table("calibrated", caption, columns, tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks[1:]))

@@ -25,10 +25,10 @@ FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie
 """What is said where those are all that was found."""
 
 STRONGEST = 12
-"""Terms of a force of any form that are told in each round."""
+"""Candidates of a round that are drawn, and forms of a force that are told."""
 
-NO_FORMS = "none was looked for: the library explains the error, or there is none"
-"""What is said where no force of any form was looked for."""
+NO_FORMS = "No force of any form was looked for: the library explains the error, or the data are suspect."
+"""What is said there."""
 
 
 def _promise(proposal: Mapping) -> str:
@@ -172,13 +172,12 @@ def forms(found: Diagnosis) -> Table:
 def _rounds(tested: xr.Dataset) -> Iterator[tuple[int, dict[str, tuple]]]:
     """What EVIDENCE tells of each candidate by name, the largest gain first, round by round."""
     for number, turn in enumerate(tested["round"].values):
-        one, refitted = tested.isel(round=number), np.flatnonzero(tested["trial_round"].values == turn)
-        trials = {str(tested["trial_effect"].values[k]): k for k in refitted}
-        gain, came, told = one["gain"].values, outcomes(one), {}
+        one = tested.isel(round=number)
+        gain, trials, came, told = one["gain"].values, refits(one), outcomes(one), {}
         for place in sorted(np.flatnonzero(np.isfinite(gain)), key=lambda k: -gain[k]):
             name, refit = str(tested["effect"].values[place]), ("", *(None,) * 4)
             if name in trials:
-                trial = tested.isel(trial=trials[name])
+                trial = trials[name]
                 refit = (
                     str(trial["trial_sizes"].item()), *(float(trial[f"trial_{key}"]) for key in ("gain", "bic")),
                     *(_percent(float(trial[f"trial_{key}"])) for key in ("share", "held_out_share")),
@@ -189,23 +188,28 @@ def _rounds(tested: xr.Dataset) -> Iterator[tuple[int, dict[str, tuple]]]:
 
 
 def _evidence_sources(found: Diagnosis, prefix: str = "") -> tuple[Source, ...]:
-    file = found.files.get("ranking", "")
+    file, named = found.files.get("ranking", ""), lambda *keys: ", ".join(f"{prefix}{key}" for key in keys)
     return (
-        Source("score test", file, ", ".join(f"{prefix}{key}" for key in ("p_value", "gain", "absorbed")), "as in the file"),
-        Source("refit", file, f"{prefix}trial_*", "as in the file, shares in percent"),
-        Source("outcome", file, ", ".join(f"{prefix}{key}" for key in ("winner", "trial_objection", "trial_held_out_z", "passed_over")), "as in the file"),
+        Source("score test", file, named("p_value", "gain", "absorbed"), "as in the file"),
+        Source("refit", file, named("trial_*"), "as in the file, shares in percent"),
+        Source("outcome", file, named("winner", "trial_objection", "trial_held_out_z", "passed_over"), "as in the file"),
     )
+
+
+def refits(one: xr.Dataset) -> dict[str, xr.Dataset]:
+    """The refits of a round by the name of their effect."""
+    own = one.isel(trial=np.flatnonzero(one["trial_round"].values == one["round"].item()))
+    return {str(name): own.isel(trial=k) for k, name in enumerate(own["trial_effect"].values)}
 
 
 def outcomes(one: xr.Dataset) -> dict[str, str]:
     """What came of every effect of a round in words, by name: of its refit, or why it was not refitted; empty where there was no reason to."""
     told = {str(name): str(why) for name, why in zip(one["effect"].values, one["passed_over"].values)}
-    winner, refits = str(one["winner"].item()), np.flatnonzero(one["trial_round"].values == one["round"].item())
-    sure = {str(one["trial_effect"].values[k]): not one["trial_held_out_z"].values[k] <= HELD_OUT_Z for k in refits}
-    for k in refits:
-        name, objection = str(one["trial_effect"].values[k]), str(one["trial_objection"].values[k])
+    winner, trials = str(one["winner"].item()), refits(one)
+    sure = {name: not trial["trial_held_out_z"] <= HELD_OUT_Z for name, trial in trials.items()}
+    for name, trial in trials.items():
         less = "less sure on drives held out" if sure.get(winner) and not sure[name] else "gains less than the accepted one"
-        told[name] = "accepted" if name == winner else objection or less
+        told[name] = "accepted" if name == winner else str(trial["trial_objection"].item()) or less
     return told
 
 
