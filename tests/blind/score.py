@@ -116,7 +116,7 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
         said = f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3'
         line(said, single(kind, strong), lambda row: row["verdict"] == "outside", "80 %")
     placed = [row for kind in ("outside", "outside, messy") for row in single(kind, strong) if row["form_share"] != ""]
-    line("place of such an effect right (strut, tyre, contact, body, steering, structure)", placed, lambda row: row["place_right"])
+    line("place of such an effect right (strut, tyre, contact, links, body, steering, structure)", placed, lambda row: row["place_right"])
     formed = lambda row: row["form_share"] >= FORM
     line(f"its proposed form removes {100 * FORM:.0f} % of what the true one does, held out", placed, formed, "70 %")
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"], "85 %")

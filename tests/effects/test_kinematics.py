@@ -92,3 +92,22 @@ def test_wheels_that_are_turned_as_they_rise_steer_as_the_driver_would(car):
         for there in (turned, base)
     ]
     assert angle[0] - angle[1] == pytest.approx(-toe * (travel[0] - travel[1]) / 2, rel=0.05)
+
+
+def test_links_that_are_inclined_are_a_roll_centre(car):
+    """A wheel that moves out by h / (track / 2) per compression has its roll centre h higher, but for the mass of what rolls with it there."""
+    height, options = 0.08, {"speed": 20.0, "rate": 200.0}
+    car = car.replace(unsprung_mass_front=10.0, unsprung_mass_rear=10.0)
+
+    def rough(u, v):
+        return 0.004 * np.sin(2 * np.pi * u / 3.1 + 0.8 * v) + 0.006 * np.sin(2 * np.pi * u / 11.0 - 0.5 * v)
+
+    ground = road(200.0, curvature=1.0 / 150.0, height=rough)
+    shares = {axle: 2 * height / car[f"track_{axle}"] for axle in ("front", "rear")}
+    base = drive(ground, car, **options)
+    raised = drive(ground, car, effects={"roll_centre_height": {"front": height, "rear": height}}, **options)
+    inclined = drive(ground, car, effects={"inclined_links": shares}, **options)
+    for signal in ("a_y", "a_z", "roll_rate", "yaw_rate"):
+        change = (raised[signal] - base[signal]).values
+        assert change.std() > 0
+        assert ((inclined[signal] - raised[signal]).values).std() < 0.05 * change.std(), signal

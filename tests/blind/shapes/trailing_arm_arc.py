@@ -22,4 +22,4 @@ effect = Effect(
 
 def act(wheel, deflection, front, rear):
     slope = (front if wheel < 2 else rear) * deflection
-    return min(max(slope, -0.4), 0.4), 0.0
+    return min(max(slope, -0.4), 0.4), 0.0, 0.0

@@ -17,8 +17,12 @@ FORCE = 30.0
 STRONGEST, STRONGEST_OF_TYRE = 1500.0, 6000.0
 """N (or N m) at typical motion beyond which a term is not plausible; at a tyre, which bears 4000 N at rest, more is."""
 
-CORNERING, MASS = 8e4, 1500.0
-"""N that a slip (or an angle of the wheels) of one would make at typical stiffness, and that an acceleration of one stands for."""
+STRONGEST_OF_LINKS = 600.0
+"""N, the same of what links that are inclined by one, INCLINED, would make: steeper ones are not built."""
+
+CORNERING, MASS, INCLINED = 8e4, 1500.0, 1000.0
+"""N that a slip (or an angle of the wheels) of one would make at typical stiffness, that an acceleration of one stands for, and what a wheel
+makes that moves aside, fore or aft as far as it rises."""
 
 AXLES = ("front", "rear")
 
@@ -222,9 +226,26 @@ PLACES: Mapping[str, Place] = {
                 "late - slip_y", "1", "slip_y", states=(State("late", "speed * (slip_y - late) / length", 0.005),),
                 settings=(_setting("length", "m", 0.5, 0.1, 3.0, "way over which the slip follows"),),
             ),
+            "side_slip_of_push": Term(f"force_x * {SIDE}", "1/N", "slip_y"),
         },
         ("slip_x", "slip_y", "pull"),
         {"slip_x": CORNERING, "slip_y": CORNERING},
+    ),
+    "links": Place(
+        "kinematics",
+        ("wheel", "deflection"),
+        {"deflection": 0.012},
+        {
+            "recession": Term("1.0", "1", "recession"),
+            "recession_of_deflection": Term("deflection", "1/m", "recession"),
+            "scrub_of_sides": Term(SIDE, "1", "scrub"),
+            "scrub_of_deflection": Term(f"deflection * {SIDE}", "1/m", "scrub"),
+            "toe_of_deflection": Term(f"deflection * {SIDE}", "rad/m", "toe"),
+            "toe_of_deflection_square": Term(f"deflection**2 * {SIDE}", "rad/m2", "toe", beside=f"deflection * {SIDE}"),
+        },
+        ("recession", "toe", "scrub"),
+        {"recession": INCLINED, "toe": CORNERING, "scrub": INCLINED},
+        STRONGEST_OF_LINKS,
     ),
     "body": Place(
         "body",

@@ -19,4 +19,4 @@ effect = Effect(
 
 def act(wheel, deflection, front, rear):
     angle = deflection * (front if wheel < 2 else rear)
-    return 0.0, angle if wheel % 2 == 0 else -angle
+    return 0.0, angle if wheel % 2 == 0 else -angle, 0.0

@@ -37,10 +37,11 @@ PORTS: Mapping[str, Port] = MappingProxyType(
         ),
         "kinematics": Port(
             ("wheel", "deflection"),
-            ("recession", "toe"),
+            ("recession", "toe", "scrub"),
             True,
             "how the links lead a wheel that is compressed by `deflection` from rest (m): how far it moves back per "
-            "compression (m/m), and the angle in rad by which it is turned to the left",
+            "compression (m/m), the angle in rad by which it is turned to the left, and how far to the left it moves per "
+            "compression (m/m; beside the scrub of its roll centre)",
         ),
         "suspension": Port(
             ("wheel", "deflection", "velocity", "stiffness", "damping", "force_x", "force_y"),

@@ -20,8 +20,9 @@ def road_port(wheel, u, v, height, rotation, surface, elevation, parameters, sta
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def kinematics_port(wheel, deflection, parameters, states, slopes):
-    """How far the wheel moves back per compression, in m/m, and the angle in rad by which the links turn it to the left."""
-    return 0.0, 0.0
+    """How far the wheel moves back per compression, in m/m, the angle in rad by which the links turn it to the left, and how far to the
+    left it moves per compression, in m/m."""
+    return 0.0, 0.0, 0.0
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)

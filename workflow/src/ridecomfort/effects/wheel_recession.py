@@ -18,4 +18,4 @@ effect = Effect(
 
 
 def act(wheel, deflection, front, rear):
-    return front if wheel < 2 else rear, 0.0
+    return front if wheel < 2 else rear, 0.0, 0.0

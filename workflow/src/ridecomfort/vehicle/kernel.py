@@ -106,7 +106,7 @@ def drive(
     """
     body = np.zeros((5, 6))
     feels = np.zeros((2, 3))
-    wheel = np.zeros((16, 4))
+    wheel = np.zeros((17, 4))
     ground = np.zeros((4, 4))
     states = np.zeros((4, state_count))
     return _drive(
@@ -114,7 +114,7 @@ def drive(
         sensor, parameters, record, sensed, feels[0], feels[1],
         body[0], body[1], body[2], body[3], body[4],
         wheel[0], wheel[1], wheel[2], wheel[3], wheel[4], wheel[5], wheel[6], wheel[7], wheel[8], wheel[9],
-        wheel[10], wheel[11], wheel[12], wheel[13], wheel[14], wheel[15], ground, states[0], states[1], states[2], states[3],
+        wheel[10], wheel[11], wheel[12], wheel[13], wheel[14], wheel[15], wheel[16], ground, states[0], states[1], states[2], states[3],
     )  # fmt: skip
 
 
@@ -126,7 +126,7 @@ def _drive(
     sensor, parameters, record, sensed, felt, rates,
     pose, pose_rate, speeds, change, now,
     wheel_z, wheel_v, wheel_change, spin, spin_change, rotation, force_x, force_y, load, torque,
-    suspension, travel_rate, recession, toe, fore_push, side_push, ground, states, slopes, slopes_before, slopes_earlier,
+    suspension, travel_rate, recession, toe, scrub, fore_push, side_push, ground, states, slopes, slopes_before, slopes_earlier,
 ):  # fmt: skip
     half = 0.5 * step
     _settle(
@@ -161,14 +161,14 @@ def _drive(
         _vertical(
             car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
             force_x, force_y, fore_push, side_push, parameters, states, slopes, load, suspension, travel_rate,
-            recession, toe,
+            recession, toe, scrub,
         )  # fmt: skip
         _planar(
-            car, wheels, now, travel_rate, recession, toe, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
+            car, wheels, now, travel_rate, recession, toe, scrub, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
             friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
         )  # fmt: skip
         flex_x, flex_y, flex_z = _accelerate(
-            car, wheels, pose, now, slope_y, change, wheel_change, recession, force_x, force_y, torque, suspension,
+            car, wheels, pose, now, slope_y, change, wheel_change, recession, scrub, force_x, force_y, torque, suspension,
             fore_push, sensor, parameters, states, slopes,
         )  # fmt: skip
 
@@ -288,7 +288,7 @@ def _feel(
 def _vertical(
     car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
     force_x, force_y, fore_push, side_push, parameters, states, slopes, load, suspension, travel_rate,
-    recession, toe,
+    recession, toe, scrub,
 ):  # fmt: skip
     """Load of every tyre, force of every suspension (N, positive pushing apart), motion of every wheel, way of its links."""
     half = 0.5 * step
@@ -306,8 +306,8 @@ def _vertical(
             i, travel, wheel_speed - corner_speed, wheels[i, SPRING], wheels[i, DAMPING], force_x[i], force_y[i],
             parameters, states, slopes,
         )  # fmt: skip
-        held -= wheels[i, DAMPING] * corner_speed + wheels[i, SCRUB] * side_push[i]
-        recession[i], toe[i] = kinematics_port(i, travel, parameters, states, slopes)
+        recession[i], toe[i], scrub[i] = kinematics_port(i, travel, parameters, states, slopes)
+        held -= wheels[i, DAMPING] * corner_speed + (wheels[i, SCRUB] + scrub[i]) * side_push[i]
         held += recession[i] * fore_push[i]
 
         deflection = ground[1, i] + car.tyre_radius - wheel_z[i]
@@ -336,7 +336,7 @@ def _vertical(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _planar(
-    car, wheels, now, travel_rate, recession, toe, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
+    car, wheels, now, travel_rate, recession, toe, scrub, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
     friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
 ):  # fmt: skip
     """Driving torque and force in level axes of every wheel; their spin is advanced.
@@ -350,7 +350,7 @@ def _planar(
     for i in range(4):
         along = now[V_X] - wheels[i, Y] * now[YAW_RATE] - car.pitch_arm * now[PITCH_RATE]
         across = now[V_Y] + wheels[i, X] * now[YAW_RATE] + car.cg_height * now[ROLL_RATE]
-        across += wheels[i, SCRUB] * travel_rate[i]
+        across += (wheels[i, SCRUB] + scrub[i]) * travel_rate[i]
         along -= recession[i] * travel_rate[i]
         c, d = (cosine, sine) if i < 2 else (1.0, 0.0)
         c, d = c - d * toe[i], d + c * toe[i]
@@ -383,7 +383,7 @@ def _planar(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _accelerate(
-    car, wheels, pose, now, slope_y, change, wheel_change, recession, force_x, force_y, torque, suspension,
+    car, wheels, pose, now, slope_y, change, wheel_change, recession, scrub, force_x, force_y, torque, suspension,
     fore_push, sensor, parameters, states, slopes,
 ):  # fmt: skip
     """Time derivatives of the speeds from the forces and moments on the body, through the mass matrix.
@@ -409,6 +409,7 @@ def _accelerate(
         z += suspension[i]
         # Where the load passes the centre of gravity: tilted with the body down to the link, with the road below.
         aside = wheels[i, Y] + wheels[i, ROLL_ARM] * pose[ROLL] + wheels[i, ROLL_CENTRE] * slope_y
+        aside += scrub[i] * wheels[i, Y] * (slope_y - pose[ROLL])
         ahead = wheels[i, X] - car.pitch_arm * pose[PITCH]
         roll += car.cg_height * force_y[i] + aside * suspension[i]
         pitch -= car.pitch_arm * push + torque[i] + ahead * suspension[i]
