@@ -5,11 +5,12 @@ much as helps, is to weigh a series by the covariance of its noise and of the ro
 a path that may be wrong by some centimetres does not bend by a metre to make room for a force.
 
 What alignment may get wrong of clock and path is a sum of splines, each a few seconds long. Whole
-rows of them would be read for every projection; pieces are a twentieth of that.
+rows of them would be read for every projection; what is there within a stretch of a few seconds is a twentieth of that.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,6 +19,10 @@ from .spectrum import Whitening
 
 MEMORY = 2.0
 """s that a white series rings on beyond the one it was made from; what is later is less than a hundredth."""
+
+
+STRETCH = 256
+"""Samples of the stretches that white rows are kept by."""
 
 
 @dataclass(frozen=True)
@@ -61,16 +66,36 @@ def taken_apart(rows: np.ndarray) -> Rows:
     return Rows(found, len(rows), rows.shape[-1])
 
 
+def by_stretch(pieces: Sequence[Piece], total: int) -> list[Piece]:
+    """The same, all rows that are there within one stretch of STRETCH samples side by side."""
+    found = []
+    for start in range(0, total, STRETCH):
+        stop = min(start + STRETCH, total)
+        there = [piece for piece in pieces if piece.start < stop and piece.place.stop > start]
+        if not there:
+            continue
+        numbers = np.concatenate([piece.numbers for piece in there])
+        rows = np.zeros((len(numbers), there[0].rows.shape[1], stop - start), there[0].rows.dtype)
+        first = 0
+        for piece in there:
+            low, high = max(piece.start, start), min(piece.place.stop, stop)
+            own = rows[first : first + len(piece.numbers)]
+            own[..., low - start : high - start] = piece.rows[..., low - piece.start : high - piece.start]
+            first += len(piece.numbers)
+        found.append(Piece(numbers, start, rows))
+    return found
+
+
 @dataclass
 class Span:
-    """The ``rows`` after they have been made white."""
+    """The ``rows`` after they have been made ``white``, by stretch."""
 
     rows: Rows
     whitening: Whitening
     white: list[Piece] = field(init=False)
 
     def __post_init__(self):
-        self.white = [self._whitened(piece) for piece in self.rows.pieces]
+        self.white = by_stretch([self._whitened(piece) for piece in self.rows.pieces], self.rows.total)
         values, vectors = np.linalg.eigh(self._normal())
         root = np.sqrt(1.0 + np.maximum(values, 0.0))
         self._inverse = (vectors / root**2) @ vectors.T
@@ -97,8 +122,8 @@ class Span:
     def _products(self, white: np.ndarray) -> np.ndarray:
         found = np.zeros((*white.shape[:-2], self.rows.count))
         for piece in self.white:
-            part = white[..., piece.place].reshape(*white.shape[:-2], -1)
-            found[..., piece.numbers] = part @ piece.flat().T
+            part = white[..., piece.place].astype(piece.rows.dtype).reshape(*white.shape[:-2], -1)
+            found[..., piece.numbers] += part @ piece.flat().T
         return found
 
     def _whitened(self, piece: Piece) -> Piece:
@@ -110,21 +135,14 @@ class Span:
 
     def _normal(self) -> np.ndarray:
         normal = np.zeros((self.rows.count, self.rows.count))
-        starts, stops = (np.array([getattr(piece.place, end) for piece in self.white]) for end in ("start", "stop"))
-        for k, one in enumerate(self.white):
-            for j in np.flatnonzero((starts[: k + 1] < stops[k]) & (stops[: k + 1] > starts[k])):
-                other, start, stop = self.white[j], max(starts[j], starts[k]), min(stops[j], stops[k])
-                left, right = (
-                    part.rows[..., start - part.start : stop - part.start].reshape(len(part.rows), -1) for part in (one, other)
-                )
-                normal[np.ix_(one.numbers, other.numbers)] = left @ right.T
-                normal[np.ix_(other.numbers, one.numbers)] = right @ left.T
+        for piece in self.white:
+            normal[np.ix_(piece.numbers, piece.numbers)] += piece.flat() @ piece.flat().T
         return normal
 
 
 def _less(series: np.ndarray, amounts: np.ndarray, own: list[Piece]) -> np.ndarray:
     left = series.copy()
     for piece in own:
-        part = (amounts[..., piece.numbers].astype(series.dtype) @ piece.flat()).reshape(*series.shape[:-1], -1)
+        part = (amounts[..., piece.numbers].astype(piece.rows.dtype) @ piece.flat()).reshape(*series.shape[:-1], -1)
         left[..., piece.place] -= part
     return left
