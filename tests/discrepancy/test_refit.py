@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import probe, refit
+from ridecomfort.errors import InputError
 
 from .linear import Linear
 
@@ -39,3 +41,36 @@ def test_intervals_hold_the_truth_also_where_every_drive_has_an_error_of_its_own
     share_with_own, wider = covered(0.1)
     assert 0.8 <= share_with_own
     assert wider > 3 * width
+
+
+class Sooner(Linear):
+    """The same with columns that are ``wrong`` by a share, as longer steps make them."""
+
+    def __init__(self, seed, wrong, refused=False):
+        super().__init__(seed, {"effect_0.size": 3.0}, library=1)
+        self.columns = [{key: (1.0 + wrong) * column for key, column in own.items()} for own in self.columns]
+        self.wrong, self.refused = wrong, refused
+
+    def residual(self, values, index):
+        if self.refused and values.get("effect_0.size"):
+            raise InputError("did not stay finite")
+        truth = self.truth["effect_0.size"] * self.columns[index]["effect_0.size"]
+        return super().residual(values, index) + truth * self.wrong / (1.0 + self.wrong)  # equal where nothing is switched on
+
+
+@pytest.mark.parametrize(("wrong", "refused", "is_trusted"), [(1e-4, False, True), (0.5, False, False), (0.0, True, False)])
+def test_what_longer_steps_find_is_told_in_own_steps_and_found_in_them_where_the_gain_is_another(wrong, refused, is_trusted):
+    made, values, indices = Linear(3, {"effect_0.size": 3.0}, library=1), {"stiffness": 0.0}, range(3)
+    sooner = Sooner(3, wrong, refused)
+    residuals = exp.simulate(made, values, indices)
+    np.testing.assert_allclose(sooner.residual(values, 0), residuals[0], atol=1e-9)
+    frame = exp.frame(made, residuals, exp.nuisances(made, values, indices))
+    sizes = [*made.free, *made.candidates[0].sizes]
+    columns = probe.white(frame, probe.secants(made, values, residuals, sizes))
+    alone = refit.refit(made, frame, values, sizes, columns, residuals=residuals)
+    found = refit.refit_sooner(made, sooner, frame, values, sizes, columns, residuals=residuals)
+    assert (found.values == alone.values) is not is_trusted
+    assert found.values["effect_0.size"] == pytest.approx(alone.values["effect_0.size"], rel=1e-3)
+    for index, own in found.residuals.items():
+        np.testing.assert_array_equal(own, made.residual(found.values, index))
+    assert found.loss == pytest.approx(float(np.sum(frame.flat(found.residuals) ** 2)))

@@ -137,9 +137,17 @@ def test_two_missing_effects_are_both_found():
     assert {e.name for e in found.effects} == {"effect_1", "effect_4"}
 
 
-@pytest.mark.parametrize(("most", "why"), [(5, "its refit gains less than 5 % of the best"), (1, "not refitted: 1 others gain more")])
-def test_what_is_significant_and_not_judged_is_said_why(monkeypatch, most, why):
+@pytest.mark.parametrize(
+    ("most", "minor", "why"),
+    [
+        (5, 0.05, "not refitted: gains less than 5 % of the best in the score test"),
+        (5, 0.015, "its refit gains less than 1.5 % of the best"),
+        (1, 0.05, "not refitted: 1 others gain more"),
+    ],
+)
+def test_what_is_significant_and_not_judged_is_said_why(monkeypatch, most, minor, why):
     monkeypatch.setattr(select, "PROPOSED", most)
+    monkeypatch.setattr(select, "MINOR", minor)
     selection, _ = judged(Linear(2, {"effect_1.size": 1.0, "effect_4.size": 0.15}))
     first = selection.rounds[0]
     assert [trial.name for trial in first.trials] == ["effect_1"] and first.p_value[first.names.index("effect_4")] < 0.05

@@ -151,12 +151,15 @@ class Car:
             self, replays=mixed(self.replays, other.replays), records=mixed(self.records, other.records), driven=driven
         )
 
-    def coarser(self) -> Car:
-        """The same in steps twice as long, where the simulator is the study's own and they are no longer than LONGEST."""
-        stepped = [_stepped(again, 2.0) for again in self.replays]
-        if any(one is again or one.options["step"] > LONGEST for one, again in zip(stepped, self.replays)):
+    def coarser(self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> Car:
+        """The same with records in steps twice as long, where the simulator is the study's own and they are no longer than LONGEST; with
+        these residuals at these values, what the step makes wrong made good."""
+        stepped = {index: _stepped(self.replays[index], 2.0) for index in residuals}
+        if any(one is self.replays[index] or one.options["step"] > LONGEST for index, one in stepped.items()):
             return self
-        return replace(self, replays=stepped)
+        longer = replace(self, replays=[stepped.get(index, again) for index, again in enumerate(self.replays)], exactness={}, driven={})
+        wrong = by_record(self, lambda index: residuals[index] - longer.residual(values, index), residuals)
+        return replace(longer, exactness={**self.exactness, **wrong})
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""

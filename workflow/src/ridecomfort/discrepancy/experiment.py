@@ -118,8 +118,9 @@ class Experiment(Protocol):
     def taking(self, other: Experiment, indices: Collection[int]) -> Experiment:
         """The same with these records as ``other`` has them."""
 
-    def coarser(self) -> Experiment:
-        """The same in steps twice as long, whose residuals change with its values nearly alike, and which is simulated sooner."""
+    def coarser(self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> Experiment:
+        """The same with records in steps twice as long, whose residuals at these values are these ones, change with its values nearly
+        alike, and are simulated sooner."""
 
 
 def by_record(experiment: Experiment, function: Callable, indices: Iterable[int]) -> dict:

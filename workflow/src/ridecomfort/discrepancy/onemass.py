@@ -148,7 +148,7 @@ class OneMass:
         """The same: nothing is realigned."""
         return self
 
-    def coarser(self) -> OneMass:
+    def coarser(self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> OneMass:
         """The same: it is simulated soon enough."""
         return self
 

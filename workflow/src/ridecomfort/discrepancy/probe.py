@@ -17,9 +17,6 @@ Job = tuple[str, int]
 Raw = Mapping[str, Mapping[int, np.ndarray]]
 """Change of the residuals per probe of each size, by record."""
 
-MANY = 4
-"""Sizes from which on steps twice as long are worth the drives that probes start from."""
-
 
 @dataclass(frozen=True)
 class Probe:
@@ -46,18 +43,13 @@ class Probe:
         return columns
 
 
-def coarsely(
-    experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]
-) -> tuple[Experiment, Mapping[str, float], Mapping[int, np.ndarray]]:
-    """An experiment, values and its residuals there to probe from: in steps twice as long, which changes most columns by less than half a
+def coarsely(experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> Experiment:
+    """An experiment to probe and to fit in from these values: in steps twice as long, which changes most columns by less than half a
     percent, where the model can be driven so."""
-    coarser = experiment.coarser()
-    if coarser is experiment:
-        return experiment, values, residuals
     try:
-        return coarser, values, exp.simulate(coarser, values, residuals)
+        return experiment.coarser(values, residuals)
     except (InputError, ValueError):
-        return experiment, values, residuals
+        return experiment
 
 
 @dataclass(frozen=True)
@@ -83,11 +75,8 @@ def secants(
     each: Callable = map, steps: Mapping[str, float] | None = None,
 ) -> dict[str, dict[int, np.ndarray]]:  # fmt: skip
     """Change of the residuals per probe of every size from its value, into its bounds, by key; over ``steps`` (probes), where these are
-    given, without ever driving in longer steps of time."""
-    start = (experiment, values, residuals)
-    if steps is None and len(sizes) >= MANY:
-        start = coarsely(*start)
-    found = each(_Secant(*start, steps or {}), sizes)
+    given."""
+    found = each(_Secant(experiment, values, residuals, steps or {}), sizes)
     return {size.key: column for size, column in zip(sizes, found)}
 
 

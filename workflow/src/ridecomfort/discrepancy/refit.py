@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import lsq_linear
@@ -23,6 +23,9 @@ WORTHWHILE = 1.0
 
 SHORTEST = 0.1
 """Share of a step that it is shortened to at most."""
+
+SAME_GAIN = 0.05
+"""Share of a gain by which steps twice as long may tell another one; where they do, sizes are nearly those of the best fit."""
 
 RENEWAL = 0.3
 """Probes that a size must have moved for its column to be made anew."""
@@ -64,13 +67,14 @@ def refit(
     residuals: Mapping[int, np.ndarray] | None = None,
     beyond: float = BEYOND,
     tolerance: float = 2e-4,
+    halved: bool = True,
 ) -> Fit:
     """Gauss-Newton within bounds for ``sizes`` from ``values``, in the white frame.
 
     ``columns``: white change per probe of each key at the start; those of ``renewed`` are made anew, as secants, after
     every step. ``residuals``: those at the start, where they are known. ``beyond``: share of an effect's
     plausible range that its size may go beyond it. A step that does not lower the loss is shortened to where a parabola through
-    it has its least, one that cannot be simulated is halved.
+    it has its least, one that cannot be simulated is ``halved``, or raises InputError or ValueError.
     """
     free = {size.key for size in experiment.free}
     values = dict(values)
@@ -92,6 +96,8 @@ def refit(
             try:
                 found = exp.simulate(experiment, trial, frame.indices)
             except (InputError, ValueError):
+                if not halved:
+                    raise
                 step = step / 2
                 continue
             flat_trial = frame.flat(found)
@@ -114,6 +120,27 @@ def refit(
         if gained < tolerance * loss:
             break
     return Fit(values, residuals, tuple(size.key for size in sizes), matrix, loss)
+
+
+def refit_sooner(
+    experiment: Experiment, sooner: Experiment, frame: Frame, values: Mapping[str, float], sizes: Sequence[Size],
+    columns: Mapping[str, np.ndarray], *, residuals: Mapping[int, np.ndarray], **settings,
+) -> Fit:  # fmt: skip
+    """``refit`` in the longer steps of ``sooner`` (``probe.coarsely`` at these values), told in the experiment's own; fitted on in these where
+    the gain is another there, and in these alone where the model cannot be driven in the longer ones."""
+    if sooner is experiment:
+        return refit(experiment, frame, values, sizes, columns, residuals=residuals, **settings)
+    try:
+        found = refit(sooner, frame, values, sizes, columns, residuals=residuals, halved=False, **settings)
+        own = exp.simulate(experiment, found.values, frame.indices)
+    except (InputError, ValueError):
+        return refit(experiment, frame, values, sizes, columns, residuals=residuals, **settings)
+    before, loss = (float(np.sum(frame.flat(parts) ** 2)) for parts in (residuals, own))
+    if abs(loss - found.loss) < WORTHWHILE + SAME_GAIN * (before - found.loss):
+        return replace(found, residuals=own, loss=loss)
+    if loss < before:
+        values, residuals, columns = found.values, own, dict(zip(found.keys, found.columns))
+    return refit(experiment, frame, values, sizes, columns, residuals=residuals, **settings)
 
 
 def _step(matrix: np.ndarray, flat: np.ndarray, room: np.ndarray) -> np.ndarray:

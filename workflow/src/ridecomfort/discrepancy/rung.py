@@ -183,12 +183,14 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Ex
     """The fitted records aligned for a model, and the model fitted to them, at its own spectrum. Its drivers are brought to the path once
     more at the end: what a fit changes leads a model a millimetre off it in bends, in every repeat, which lift and wind imitate."""
     residuals, frame, experiment = realign.aligned(experiment, values, roles(experiment)[0])
-    raw = raw or probe.secants(experiment, values, residuals, sizes, each)
-    for _ in range(FITS):
+    sooner = probe.coarsely(experiment, values, residuals)
+    raw = raw or probe.secants(sooner, values, residuals, sizes, each)
+    for number in range(FITS):
+        if number:
+            frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
         columns = probe.white(frame, raw)
-        fit = refit.refit(experiment, frame, values, sizes, columns, iterations=3, residuals=residuals)
+        fit = refit.refit(sooner, frame, values, sizes, columns, iterations=3, residuals=residuals)
         values, residuals = fit.values, fit.residuals
-        frame = exp.frame(experiment, fit.residuals, frame.nuisances, frame.all_cleaned(fit.residuals))
     experiment, residuals = experiment.retuned(values, list(residuals), exactly=True)
     frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
     fit = replace(fit, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))

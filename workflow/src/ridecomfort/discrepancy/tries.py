@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from . import evidence, floor, probe, refit
 from . import experiment as exp
-from .experiment import Candidate, Size
+from .experiment import Candidate, Experiment, Size
 from .probe import Job, Raw
 from .refit import Fit
 from .rung import Rung, roles
@@ -44,12 +44,15 @@ LEAST_MOVED = 0.1
 @dataclass(frozen=True)
 class Tries:
     """Refits of ``candidates`` (by name) from a ``rung``, together with the sizes of it that are ``fitted`` anyway; ``columns``: raw
-    change of the residuals per probe of every size, by job and key; ``each``: a map over sizes that are probed."""
+    change of the residuals per probe of every size, by job and key; ``sooner``: the experiment of the rung in longer steps
+    (``probe.coarsely``); ``likely``: the information of the rung; ``each``: a map over sizes that are probed."""
 
     rung: Rung
     candidates: Mapping[str, Candidate]
     fitted: Sequence[Size]
     columns: Mapping[Job, Raw]
+    sooner: Experiment
+    likely: float
     each: Callable = map
 
     def first(self, job: Job) -> Trial | None:
@@ -62,9 +65,9 @@ class Tries:
         start, own = {**base.values, **candidate.at({}), **shape}, list(self.columns[job])
         settings = {"renewed": own, "residuals": base.residuals}
         try:
-            fit = refit.refit(rung.experiment, rung.frame, start, sizes, columns, **settings)
+            fit = refit.refit_sooner(rung.experiment, self.sooner, rung.frame, start, sizes, columns, **settings)
             if implausible(candidate, fit.values):
-                inside = refit.refit(rung.experiment, rung.frame, start, sizes, columns, **settings, beyond=0.0)
+                inside = refit.refit_sooner(rung.experiment, self.sooner, rung.frame, start, sizes, columns, **settings, beyond=0.0)
                 before = float(np.sum(rung.frame.flat(base.residuals) ** 2))
                 does = inside.loss - fit.loss < CHANCE or before - inside.loss > CONTENT * (before - fit.loss)
                 fit = inside if does else fit
@@ -121,11 +124,12 @@ class Tries:
                 cleaned = rung.frame.all_cleaned(fit.residuals)
                 frame = exp.frame(rung.experiment, fit.residuals, rung.frame.nuisances, cleaned)
                 anew = own if gained < HUGE * self._count() else every
-                raw = {**rung.raw, **probe.secants(rung.experiment, fit.values, fit.residuals, anew, self.each)}
+                sooner = probe.coarsely(rung.experiment, fit.values, fit.residuals)
+                raw = {**rung.raw, **probe.secants(sooner, fit.values, fit.residuals, anew, self.each)}
                 columns = probe.white(frame, raw)
                 sizes = [size for size in every if size.key in columns]
-                fit = refit.refit(
-                    rung.experiment, frame, fit.values, sizes, columns, renewed=[size.key for size in own],
+                fit = refit.refit_sooner(
+                    rung.experiment, sooner, frame, fit.values, sizes, columns, renewed=[size.key for size in own],
                     residuals=fit.residuals, beyond=beyond,
                 )  # fmt: skip
                 shape = {key: fit.values[key] for key in trial.shape}
@@ -144,14 +148,15 @@ class Tries:
         sizes = [size for size in (*self.fitted, *candidate.sizes) if size.key in fit.keys]
         own = [size for size in candidate.sizes if size.key in fit.keys]
         try:
-            raw = probe.secants(rung.experiment, fit.values, fit.residuals, [*own, *candidate.shaping], self.each)
+            sooner = probe.coarsely(rung.experiment, fit.values, fit.residuals)
+            raw = probe.secants(sooner, fit.values, fit.residuals, [*own, *candidate.shaping], self.each)
             columns = probe.white(rung.frame, {**rung.raw, **raw})
             apart = _apart(candidate.shaping, columns, own)
             if not self._is_promising(fit, columns, sizes, apart):
                 return trial
-            fitted = refit.refit(
-                rung.experiment, rung.frame, fit.values, [*sizes, *apart], columns, renewed=[size.key for size in (*own, *apart)],
-                residuals=fit.residuals, beyond=0.0,
+            fitted = refit.refit_sooner(
+                rung.experiment, sooner, rung.frame, fit.values, [*sizes, *apart], columns,
+                renewed=[size.key for size in (*own, *apart)], residuals=fit.residuals, beyond=0.0,
             )  # fmt: skip
             if all(abs(fitted.values[size.key] - fit.values[size.key]) < LEAST_MOVED * size.probe for size in apart):
                 return trial
@@ -175,7 +180,7 @@ class Tries:
     def _trial(self, candidate: Candidate, shape: Mapping[str, float], fit: Fit, more: int = 0) -> Trial:
         """What a refit gains on the drives that it was fitted to, ``more`` parameters than sizes fitted; the others have not been asked."""
         frame = self.rung.frame
-        gain = refit.information(frame, fit.residuals) - refit.information(frame, self.rung.fit.residuals)
+        gain = refit.information(frame, fit.residuals) - self.likely
         bic = gain - (len(candidate.sizes) + more) * self._price()
         unknown = (float("nan"),) * 4
         return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
