@@ -11,7 +11,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import binary_erosion, median_filter
+from scipy.ndimage import binary_erosion, median_filter, uniform_filter1d
+from scipy.stats import gamma
 
 from .experiment import Frame, Record
 from .propose import LEVEL, SURE
@@ -21,6 +22,10 @@ LONGEST = {"m": 7.0, "s": 0.33}
 
 AROUND = 101
 """Bins of the spectrum whose median a line is held against."""
+
+
+SURELY = 3.0
+"""Standard errors that are added to the share of an error that repeats have in common."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +54,7 @@ def line(
     """The strongest line of all channels in the residuals (channel, sample) of a frame, if it is sure and drives held out have it, too.
 
     Where all of an error came from one road, the power of a bin over that of its neighbourhood would be distributed exponentially,
-    though it is a mean over repeats; so it is taken to be.
+    though it is a mean over repeats; where none of it did, that mean would come near one. How much did is seen from the neighbourhood.
     """
     channels = frame.experiment.channels
     found, count = [], 0
@@ -57,7 +62,7 @@ def line(
         best = (0.0, 0, 0.0)
         for indices in _by_site(frame).values():
             records = [frame.experiment.records[i] for i in indices]
-            often, strength = _strength(records, [_white(frame, i, residuals) for i in indices], unit)
+            often, strength, common = _strength(records, [_white(frame, i, residuals) for i in indices], unit)
             if not often.size:
                 continue
             heard = np.all([_heard(record, often, unit) for record in records], axis=0)
@@ -65,13 +70,13 @@ def line(
             if not seen.any():
                 continue
             count += strength.shape[0] * int(seen.sum())
-            strength = np.where(seen, strength, 0.0)
-            channel, k = np.unravel_index(np.argmax(strength), strength.shape)
-            best = max(best, (float(strength[channel, k]), int(channel), float(often[k])))
+            surprise = np.where(seen, -_log_chance(strength, common, len(records)), 0.0)
+            channel, k = np.unravel_index(np.argmax(surprise), surprise.shape)
+            best = max(best, (float(surprise[channel, k]), int(channel), float(often[k])))
         if best[0] > 0:
             found.append((*best, unit))
-    for strength, channel, often, unit in sorted(found, reverse=True):
-        p_value = min(1.0, count * float(np.exp(-strength)))
+    for surprise, channel, often, unit in sorted(found, reverse=True):
+        p_value = min(1.0, count * float(np.exp(-surprise)))
         if p_value > SURE:
             return None
         held_out = [] if check_frame is None else [_at(check_frame, i, check, channel, often, unit) for i in check_frame.indices]
@@ -99,21 +104,44 @@ def _heard(record: Record, often: np.ndarray, unit: str) -> np.ndarray:
     return (often * speed > record.band[0]) & (often * speed < record.band[1])
 
 
-def _strength(records: Sequence[Record], white: Sequence[np.ndarray], unit: str) -> tuple[np.ndarray, np.ndarray]:
-    """How often (1/m or 1/s, by ``unit``), and the power that comes back so often against that around it, mean over records,
-    (channel, bin); over the way, or the time from the start, that these have in common. No bins where that is too short."""
+def _log_chance(strength: np.ndarray, common: np.ndarray, repeats: int) -> np.ndarray:
+    """Logarithm of the probability that noise is so strong in the mean over ``repeats``, of whose power the share ``common`` is the same in all.
+
+    As if of one road; or, if that is less, as a sum of independent exponentials none of which is larger than the largest eigenvalue of
+    the coherence of repeats: a gamma distribution.
+    """
+    largest = 1.0 + (repeats - 1) * common
+    return np.minimum(-strength, gamma.logsf(repeats * strength / largest, repeats))
+
+
+def _common(bins: Sequence[np.ndarray], power: np.ndarray) -> np.ndarray:
+    """Share of the power of a neighbourhood that is the same in all records, (channel, bin), no less than it may surely be; ``bins``: spectra
+    (channel, bin) by record, ``power``: the mean of their power."""
+    pairs = [(one * other.conj()).real for number, one in enumerate(bins) for other in bins[:number]]
+    if not pairs:
+        return np.ones_like(power)
+    around = lambda values: uniform_filter1d(values, AROUND, axis=1, mode="nearest")
+    shared = around(np.mean(pairs, axis=0)) / np.maximum(around(power), np.finfo(float).tiny)
+    return np.clip(shared + SURELY / np.sqrt(2.0 * AROUND * len(pairs)), 0.0, 1.0)
+
+
+def _strength(records: Sequence[Record], white: Sequence[np.ndarray], unit: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """How often (1/m or 1/s, by ``unit``); the power that comes back so often against that around it, mean over records, and the share of
+    the power around it that records have in common, both (channel, bin); over the way, or the time from the start, that these have in
+    common. No bins where that is too short."""
     axes = [record.place if unit == "m" else np.arange(len(record.place)) / record.rate for record in records]
     first, last = max(axis[0] for axis in axes), min(axis[-1] for axis in axes)
     spacing = min(float(np.median(np.diff(axis))) for axis in axes)
     even = np.arange(first, last, spacing)
     if even.size < 2 * AROUND:
-        return np.empty(0), np.empty((len(white[0]), 0))
-    power = 0.0
+        return np.empty(0), np.empty((len(white[0]), 0)), np.empty((len(white[0]), 0))
+    bins = []
     for axis, series in zip(axes, white):
         there = np.stack([np.interp(even, axis, row) for row in series])
-        power = power + np.abs(np.fft.rfft(there * np.hanning(even.size), axis=1)) ** 2
+        bins.append(np.fft.rfft(there * np.hanning(even.size), axis=1))
+    power = np.mean([np.abs(own) ** 2 for own in bins], axis=0)
     around = median_filter(power, size=(1, AROUND), mode="nearest") / np.log(2.0)
-    return np.fft.rfftfreq(even.size, spacing), power / np.where(around > 0, around, np.inf)
+    return np.fft.rfftfreq(even.size, spacing), power / np.where(around > 0, around, np.inf), _common(bins, power)
 
 
 def _at(frame: Frame, index: int, residuals: Mapping[int, np.ndarray], channel: int, often: float, unit: str) -> float:
@@ -121,7 +149,7 @@ def _at(frame: Frame, index: int, residuals: Mapping[int, np.ndarray], channel: 
     record = frame.experiment.records[index]
     if not _heard(record, np.array([often]), unit)[0]:
         return float("nan")
-    every, strength = _strength([record], [_white(frame, index, residuals)], unit)
+    every, strength, _ = _strength([record], [_white(frame, index, residuals)], unit)
     if not every.size:
         return float("nan")
     k = int(np.argmin(np.abs(every - often)))
