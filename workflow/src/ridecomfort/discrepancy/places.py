@@ -226,6 +226,10 @@ PLACES: Mapping[str, Place] = {
                 "late - slip_y", "1", "slip_y", states=(State("late", "speed * (slip_y - late) / length", 0.005),),
                 settings=(_setting("length", "m", 0.5, 0.1, 3.0, "way over which the slip follows"),),
             ),
+            "side_slip_of_late_load": Term(
+                "slip_y * (late - load) / max(load, 400.0)", "1", "slip_y", states=(State("late", "speed * (load - late) / length", 3500.0),),
+                settings=(_setting("length", "m", 0.5, 0.1, 3.0, "way over which the force follows the load"),),
+            ),
             "side_slip_of_push": Term(f"force_x * {SIDE}", "1/N", "slip_y"),
         },
         ("slip_x", "slip_y", "pull"),

@@ -177,6 +177,22 @@ class _Search:
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         likely = refit.information(rung.frame, base.residuals)
         self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self._sooner(), likely)
+        asked, tried, trials, winner = self._contest(found, order)
+        like, correlation, apart = (), {}, {}
+        if winner is not None:
+            frames = [frame for frame in (rung.frame, rung.check_frame) if frame is not None]
+            like, correlation, apart = cluster.cluster(
+                rung.experiment, frames, base.values, winner, trials, found.columns
+            )
+        return Round(
+            found.names, found.p_value, found.gain, found.size, found.size_error, found.absorbed, tuple(trials), winner,
+            like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
+            _passed_over(found, asked, tried, trials),
+        )  # fmt: skip
+
+    def _contest(self, found: Proposal, order: Sequence[str]) -> tuple[list[str], list[Trial], list[Trial], Trial | None]:
+        """Names of an ``order`` that were asked for, their refits, those of them that were judged, and the best without objection. What gains
+        little, in its score test or in its refit, is asked for or judged only where nothing else will do."""
         score = dict(zip(found.names, found.gain))
         minor = [name for name in order if score[name] < MINOR * score[order[0]]]
         asked, tried, trials, winner = [], [], [], None
@@ -190,17 +206,7 @@ class _Search:
                 if winner is None:
                     trials += self._followed_up(stage)
                     winner = max((t for t in trials if not t.objection), key=_merit, default=None)
-        like, correlation, apart = (), {}, {}
-        if winner is not None:
-            frames = [frame for frame in (rung.frame, rung.check_frame) if frame is not None]
-            like, correlation, apart = cluster.cluster(
-                rung.experiment, frames, base.values, winner, trials, found.columns
-            )
-        return Round(
-            found.names, found.p_value, found.gain, found.size, found.size_error, found.absorbed, tuple(trials), winner,
-            like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
-            _passed_over(found, asked, tried, trials),
-        )  # fmt: skip
+        return asked, tried, trials, winner
 
     def _refitted(self, found: Proposal, names: Sequence[str]) -> list[Trial]:
         """Refits of these names in their best shapes; without those that cannot be simulated."""
