@@ -69,8 +69,8 @@ def test_what_longer_steps_find_is_told_in_own_steps_and_found_in_them_where_the
     columns = probe.white(frame, probe.secants(made, values, residuals, sizes))
     alone = refit.refit(made, frame, values, sizes, columns, residuals=residuals)
     found = refit.refit_sooner(made, sooner, frame, values, sizes, columns, residuals=residuals)
-    assert (found.values == alone.values) is not is_trusted
-    assert found.values["effect_0.size"] == pytest.approx(alone.values["effect_0.size"], rel=1e-3)
+    assert found.values["effect_0.size"] == pytest.approx(alone.values["effect_0.size"], rel=1e-3 if is_trusted else 1e-8)
+    assert (abs(found.values["effect_0.size"] - alone.values["effect_0.size"]) > 1e-8) is is_trusted
     for index, own in found.residuals.items():
         np.testing.assert_array_equal(own, made.residual(found.values, index))
     assert found.loss == pytest.approx(float(np.sum(frame.flat(found.residuals) ** 2)))

@@ -9,6 +9,7 @@ from ridecomfort.discrepancy import curves, opening
 from ridecomfort.discrepancy.rung import begin
 from ridecomfort.discrepancy.signature import _Estimate, signature
 from ridecomfort.effects import library
+from ridecomfort.effects.contract import PORTS
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
 
@@ -76,6 +77,21 @@ def test_stiffness_that_grows_less_than_the_load_shows_as_a_falling_line(car):
 def test_only_what_acts_where_named_effects_do_is_estimated_beside_struts_and_tyres(found):
     assert list(found["seen"].values) == ["strut velocity", "strut deflection", "tyre deflection"]
     assert list(curves.at(["kinematics"])) == ["strut velocity", "strut deflection", "tyre deflection", "wheel travel"]
+
+
+@pytest.mark.parametrize("seen", curves.SEEN.values(), ids=curves.SEEN.keys())
+def test_a_curve_returns_what_its_port_does(seen, tmp_path):
+    """At a knot, its value there; on the left and on the right side of the front axle."""
+    (tmp_path / "drawn.py").write_text(curves.source("drawn", seen))
+    act = library.find(tmp_path)["drawn"].act
+    given = {key: 0.0 if key == "rest" else 1.0 for key in PORTS[seen.port].sees} | {seen.expression.partition(" ")[0]: seen.knots[1]}
+    values = {size.key.partition(".")[2]: 0.0 for size in curves.candidate("drawn", seen).sizes} | {"front_1": 0.5 * seen.usual}
+    for wheel in (0, 1):
+        found = act(**{**given, "wheel": wheel}, **values)
+        told = found if isinstance(found, tuple) else (found,)
+        assert len(told) == len(PORTS[seen.port].returns)
+        plain = act(**{**given, "wheel": wheel}, **(values | {"front_1": 0.0}))
+        assert told != (plain if isinstance(plain, tuple) else (plain,))
 
 
 def test_what_changes_nothing_has_no_curve(car):

@@ -65,7 +65,7 @@ SEEN: Mapping[str, Seen] = {
     ),
     "wheel travel": Seen(
         "kinematics", "deflection", "m", "wheel travel, in compression", (-0.05, -0.03, -0.015, 0.0, 0.015, 0.03, 0.05),
-        ("0.0", f"y * {SIDE}"), "missing toe-out", "rad", 0.006, LEVEL,
+        ("0.0", f"y * {SIDE}", "0.0"), "missing toe-out", "rad", 0.006, LEVEL,
     ),
 }  # fmt: skip
 

@@ -38,8 +38,7 @@ PROPOSED = 5
 """Candidates that are refitted in a round."""
 
 MINOR = 0.05
-"""Share of the largest gain of a round, in its score test or in its refits, below which a candidate is refitted or followed up only where
-none above it will do."""
+"""Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
 
 WEAK = 16.0
 """White power of what an effect changes on the held-out drives below which even the true effect misses HELD_OUT_Z half of the time: if
@@ -177,7 +176,13 @@ class _Search:
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         likely = refit.information(rung.frame, base.residuals)
         self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self._sooner(), likely)
-        asked, tried, trials, winner = self._contest(found, order)
+        tried = [trial for trial in self.each(_Try(self.tries), [found.best[name] for name in order]) if trial is not None]
+        least = MINOR * max((trial.gain for trial in tried), default=0.0)
+        trials, winner = [], None
+        for stage in ([t for t in tried if t.gain >= least], [t for t in tried if t.gain < least]):
+            if winner is None:
+                trials += self._followed_up(stage)
+                winner = max((t for t in trials if not t.objection), key=_merit, default=None)
         like, correlation, apart = (), {}, {}
         if winner is not None:
             frames = [frame for frame in (rung.frame, rung.check_frame) if frame is not None]
@@ -187,30 +192,8 @@ class _Search:
         return Round(
             found.names, found.p_value, found.gain, found.size, found.size_error, found.absorbed, tuple(trials), winner,
             like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
-            _passed_over(found, asked, tried, trials),
+            _passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials),
         )  # fmt: skip
-
-    def _contest(self, found: Proposal, order: Sequence[str]) -> tuple[list[str], list[Trial], list[Trial], Trial | None]:
-        """Names of an ``order`` that were asked for, their refits, those of them that were judged, and the best without objection. What gains
-        little, in its score test or in its refit, is asked for or judged only where nothing else will do."""
-        score = dict(zip(found.names, found.gain))
-        minor = [name for name in order if score[name] < MINOR * score[order[0]]]
-        asked, tried, trials, winner = [], [], [], None
-        for names in (order[: len(order) - len(minor)], minor):
-            if winner is not None:
-                break
-            fresh = self._refitted(found, names)
-            asked, tried = [*asked, *names], [*tried, *fresh]
-            least = MINOR * max((trial.gain for trial in tried), default=0.0)
-            for stage in ([t for t in fresh if t.gain >= least], [t for t in fresh if t.gain < least]):
-                if winner is None:
-                    trials += self._followed_up(stage)
-                    winner = max((t for t in trials if not t.objection), key=_merit, default=None)
-        return asked, tried, trials, winner
-
-    def _refitted(self, found: Proposal, names: Sequence[str]) -> list[Trial]:
-        """Refits of these names in their best shapes; without those that cannot be simulated."""
-        return [trial for trial in self.each(_Try(self.tries), [found.best[name] for name in names]) if trial is not None]
 
     def _followed_up(self, tried: Sequence[Trial]) -> list[Trial]:
         """Refits settled where they gain much, and judged, the best first; without those that cannot be simulated."""
@@ -287,20 +270,14 @@ class _Search:
         return left, 1.0 - left.power / before.power if before.power > 0 else float("nan"), before.z
 
 
-def _passed_over(found: Proposal, asked: Collection[str], tried: Sequence[Trial], trials: Sequence[Trial]) -> dict[str, str]:
-    """Why candidates that are significant, or would be with the opposite sign, are not among the judged ``trials`` of a round; ``asked``: names
-    of those to be refitted, of which the ones that can be simulated were ``tried``."""
-    least, refitted = f"{100 * MINOR:g} % of the best", {trial.name for trial in tried}
+def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial]) -> dict[str, str]:
+    """Why candidates that are significant, or would be with the opposite sign, are not among the ``trials`` of a round; ``minor``: names of
+    those whose refits gain little."""
+    significant, judged = found.significant(len(found.names)), {trial.name for trial in trials}
     why = dict.fromkeys(found.opposite, "not refitted: the drives ask for the opposite sign, which is not plausible")
-    for place, name in enumerate(found.significant(len(found.names))):
-        if name in refitted:
-            why[name] = f"its refit gains less than {least}"
-        elif name in asked:
-            why[name] = "could not be simulated"
-        else:
-            others, minor = f"not refitted: {PROPOSED} others gain more", f"not refitted: gains less than {least} in the score test"
-            why[name] = others if place >= PROPOSED else minor
-    judged = {trial.name for trial in trials}
+    why |= {name: f"not refitted: {PROPOSED} others gain more" for name in significant[PROPOSED:]}
+    for name in significant[:PROPOSED]:
+        why[name] = f"its refit gains less than {100 * MINOR:g} % of the best" if name in minor else "could not be simulated"
     return {name: said for name, said in why.items() if name not in judged}
 
 

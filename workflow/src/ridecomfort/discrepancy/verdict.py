@@ -205,9 +205,12 @@ def judge(
     by_name = {candidate.name: candidate for candidate in candidates}
     found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
     effects, reasons = _kept(selection, found, by_name)
-    reasons += notes
     balance = _balance(selection, notes, is_material)
-    is_little = balance.is_little
+    is_vain = bool(found) and balance.share <= 0
+    if is_vain:
+        effects, reasons, balance = [], [_vain(found)], replace(balance, share=0.0, held_out=0.0)
+    reasons += notes
+    is_little = bool(found) and balance.is_little and not is_vain
     is_wrong, is_like_error = lambda name: by_name[name].instrument, False
     wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
     vehicle = [effect for effect in effects if effect not in wrong]
@@ -226,10 +229,11 @@ def judge(
     if wrong or decoys or suspicions:
         said = (*reasons, *suspicions)
         return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
-    reasons += _removed(balance) if found else _unfound(selection, len(candidates))
-    if found and is_little or balance.is_left and not effects:
+    if not is_vain:
+        reasons += _removed(balance) if found else _unfound(selection, len(candidates))
+    if is_little or balance.is_left and not effects:
         kind = "outside"
-        reasons.append(_unexplained(selection, balance, found and is_little))
+        reasons.append(_unexplained(selection, balance, is_little))
     elif effects:
         kind = "cluster" if any(effect.like for effect in effects) else "named"
         reasons += [_alike(effect) for effect in effects if effect.like]
@@ -270,6 +274,12 @@ def _removed(balance: _Balance) -> list[str]:
     """How much of the explainable error the effects remove, in words."""
     held_out = [f"{_percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
     return [f"{_percent(balance.share)} of the explainable error is removed on the fitted drives", *held_out]
+
+
+def _vain(found: Sequence[Named]) -> str:
+    """What is said of effects that each helped beside what the one before left, and in all do not."""
+    names = ", ".join(effect.name for effect in found)
+    return f"{names} helped when added, and with the vehicle's parameters fitted anew nothing of the explainable error is removed"
 
 
 def _unfound(selection: Selection, count: int) -> list[str]:

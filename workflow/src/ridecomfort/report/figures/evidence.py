@@ -34,7 +34,6 @@ OBJECTIONS = {
     "of the explainable error": "too little",
     "others gain more": "not refitted, others gain more",
     "its refit gains less": "gains too little when refitted",
-    "in the score test": "not refitted, gains too little",
     "opposite sign": "the other way round",
 }
 """How objections of the search are said in a few words, by a part of each."""
