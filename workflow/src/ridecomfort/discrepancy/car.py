@@ -151,15 +151,19 @@ class Car:
             self, replays=mixed(self.replays, other.replays), records=mixed(self.records, other.records), driven=driven
         )
 
-    def coarser(self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> Car:
+    def coarser(
+        self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]
+    ) -> tuple[Car, Mapping[int, np.ndarray]]:
         """The same with records in steps twice as long, where the simulator is the study's own and they are no longer than LONGEST; with
-        these residuals at these values, what the step makes wrong made good."""
+        these residuals at these values, what the step makes wrong made good. Beside it these as it rounds them: of what changes nothing
+        the difference is nil."""
         stepped = {index: _stepped(self.replays[index], 2.0) for index in residuals}
         if any(one is self.replays[index] or one.options["step"] > LONGEST for index, one in stepped.items()):
-            return self
+            return self, residuals
         longer = replace(self, replays=[stepped.get(index, again) for index, again in enumerate(self.replays)], exactness={}, driven={})
-        wrong = by_record(self, lambda index: residuals[index] - longer.residual(values, index), residuals)
-        return replace(longer, exactness={**self.exactness, **wrong})
+        plain = by_record(self, lambda index: longer.residual(values, index), residuals)
+        wrong = {index: residuals[index] - own for index, own in plain.items()}
+        return replace(longer, exactness={**self.exactness, **wrong}), {index: own + wrong[index] for index, own in plain.items()}
 
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Car:
         """The same with slow errors of the clock (s) and of the path (m) taken out; biases, gains and tilts stay linear."""

@@ -118,9 +118,11 @@ class Experiment(Protocol):
     def taking(self, other: Experiment, indices: Collection[int]) -> Experiment:
         """The same with these records as ``other`` has them."""
 
-    def coarser(self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> Experiment:
+    def coarser(
+        self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]
+    ) -> tuple[Experiment, Mapping[int, np.ndarray]]:
         """The same with records in steps twice as long, whose residuals at these values are these ones, change with its values nearly
-        alike, and are simulated sooner."""
+        alike, and are simulated sooner; and its own at these values, which differ from these by rounding."""
 
 
 def by_record(experiment: Experiment, function: Callable, indices: Iterable[int]) -> dict:

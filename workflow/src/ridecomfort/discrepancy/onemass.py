@@ -148,9 +148,11 @@ class OneMass:
         """The same: nothing is realigned."""
         return self
 
-    def coarser(self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> OneMass:
+    def coarser(
+        self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]
+    ) -> tuple[OneMass, Mapping[int, np.ndarray]]:
         """The same: it is simulated soon enough."""
-        return self
+        return self, residuals
 
     def _linear(self) -> tuple[float, float, float]:
         """Gain, damping, stiffness from the response of the first record (Sanathanan and Koerner 1963)."""

@@ -43,13 +43,15 @@ class Probe:
         return columns
 
 
-def coarsely(experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]) -> Experiment:
-    """An experiment to probe and to fit in from these values: in steps twice as long, which changes most columns by less than half a
-    percent, where the model can be driven so."""
+def coarsely(
+    experiment: Experiment, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]
+) -> tuple[Experiment, Mapping[int, np.ndarray]]:
+    """An experiment to probe and to fit in from these values, and its residuals there: in steps twice as long, which changes most columns by
+    less than half a percent, where the model can be driven so."""
     try:
         return experiment.coarser(values, residuals)
     except (InputError, ValueError):
-        return experiment
+        return experiment, residuals
 
 
 @dataclass(frozen=True)

@@ -183,8 +183,8 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Ex
     """The fitted records aligned for a model, and the model fitted to them, at its own spectrum. Its drivers are brought to the path once
     more at the end: what a fit changes leads a model a millimetre off it in bends, in every repeat, which lift and wind imitate."""
     residuals, frame, experiment = realign.aligned(experiment, values, roles(experiment)[0])
-    sooner = probe.coarsely(experiment, values, residuals)
-    raw = raw or probe.secants(sooner, values, residuals, sizes, each)
+    sooner, base = probe.coarsely(experiment, values, residuals)
+    raw = raw or probe.secants(sooner, values, base, sizes, each)
     for number in range(FITS):
         if number:
             frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))

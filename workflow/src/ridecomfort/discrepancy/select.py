@@ -150,14 +150,15 @@ class _Search:
     def _state(self, name: str, fit: Fit, check) -> State:
         return State(name, fit, *self.rung.squares(fit, check))
 
-    def _sooner(self) -> Experiment:
-        """The experiment of the rung in longer steps."""
+    def _sooner(self) -> tuple[Experiment, Mapping[int, np.ndarray]]:
+        """The experiment of the rung in longer steps, and its residuals."""
         return probe.coarsely(self.rung.experiment, self.rung.fit.values, self.rung.fit.residuals)
 
     def _probe(self, base: Fit) -> dict[Job, Raw]:
         """Change of the residuals per probe of every size of every candidate and shape, in single precision."""
         jobs = [(c.name, shape) for c in self.rung.experiment.candidates for shape in range(len(c.shapes))]
-        results = self.each(probe.Probe(self._sooner(), base.values, base.residuals), jobs)
+        sooner, residuals = self._sooner()
+        results = self.each(probe.Probe(sooner, base.values, residuals), jobs)
         kept = {job: found for job, found in zip(jobs, results) if found}
         alias = {name for name, candidate in self.by_name.items() if candidate.instrument or candidate.port == "road"}
         least = lambda name: ALIAS if name in alias else LEAST_OWN
@@ -175,7 +176,7 @@ class _Search:
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         likely = refit.information(rung.frame, base.residuals)
-        self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self._sooner(), likely)
+        self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self._sooner()[0], likely)
         tried = [trial for trial in self.each(_Try(self.tries), [found.best[name] for name in order]) if trial is not None]
         least = MINOR * max((trial.gain for trial in tried), default=0.0)
         trials, winner = [], None

@@ -55,8 +55,8 @@ def signature(
     with beside(effects_folder, sources) as folder:
         candidates = [curves.candidate(_name(number), seen) for number, seen in enumerate(chosen.values())]
         experiment = rung.experiment.looking_for(candidates, folder)
-        experiment = probe.coarsely(experiment, values, residuals)
-        found = each(probe.Probe(experiment, values, residuals), [(c.name, 0) for c in candidates])
+        sooner, base = probe.coarsely(experiment, values, residuals)
+        found = each(probe.Probe(sooner, values, base), [(c.name, 0) for c in candidates])
         estimates = list(each(_Estimate(frame, np.stack(to_explain), free), list(zip(found, chosen.values()))))
     return _dataset(chosen, estimates)
 

@@ -124,8 +124,8 @@ class Tries:
                 cleaned = rung.frame.all_cleaned(fit.residuals)
                 frame = exp.frame(rung.experiment, fit.residuals, rung.frame.nuisances, cleaned)
                 anew = own if gained < HUGE * self._count() else every
-                sooner = probe.coarsely(rung.experiment, fit.values, fit.residuals)
-                raw = {**rung.raw, **probe.secants(sooner, fit.values, fit.residuals, anew, self.each)}
+                sooner, base = probe.coarsely(rung.experiment, fit.values, fit.residuals)
+                raw = {**rung.raw, **probe.secants(sooner, fit.values, base, anew, self.each)}
                 columns = probe.white(frame, raw)
                 sizes = [size for size in every if size.key in columns]
                 fit = refit.refit_sooner(
@@ -148,8 +148,8 @@ class Tries:
         sizes = [size for size in (*self.fitted, *candidate.sizes) if size.key in fit.keys]
         own = [size for size in candidate.sizes if size.key in fit.keys]
         try:
-            sooner = probe.coarsely(rung.experiment, fit.values, fit.residuals)
-            raw = probe.secants(sooner, fit.values, fit.residuals, [*own, *candidate.shaping], self.each)
+            sooner, base = probe.coarsely(rung.experiment, fit.values, fit.residuals)
+            raw = probe.secants(sooner, fit.values, base, [*own, *candidate.shaping], self.each)
             columns = probe.white(rung.frame, {**rung.raw, **raw})
             apart = _apart(candidate.shaping, columns, own)
             if not self._is_promising(fit, columns, sizes, apart):
