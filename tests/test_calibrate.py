@@ -276,6 +276,14 @@ def test_a_collinear_pair_is_named():
     assert words.startswith("a and b are hard to tell apart (correlation -1.00)")
 
 
+@pytest.mark.parametrize(("name", "is_of_effect"), [("tyre_friction", False), ("suspension_friction.front", True)])
+def test_what_ends_at_a_bound_is_said_of_an_effect_it_may_be_none(name, is_of_effect):
+    known = identifiability.Knowledge(0.01 * np.eye(1), np.array([0.01]), np.ones(1), np.ones((1, 6)), 40)
+    (words,) = identifiability.remarks([name], np.zeros(1), known)
+    assert words.startswith(f"{name} is at its lower bound: the data ask for more than the bounds allow")
+    assert ("none of it" in words) is is_of_effect
+
+
 class Overshooting:
     """A problem of one parameter whose first step leads far beyond its optimum of 0.3, where nothing can be driven."""
 

@@ -109,7 +109,8 @@ def remarks(names: list[str], places: np.ndarray, knowledge: Knowledge) -> list[
                 f"{name} is {words}: its 90 % interval reaches {width:.2g} of the bounds' width to either side"
             )
         elif words != "identified":
-            sentences.append(f"{name} is {words}: the data ask for more than the bounds allow")
+            of_effect = ", or for none of it where that is nil" if "." in name else ""
+            sentences.append(f"{name} is {words}: the data ask for more than the bounds allow{of_effect}")
     deviation = np.sqrt(np.diag(knowledge.covariance))
     is_finite = (deviation > 0) & np.isfinite(deviation)
     scale = np.where(is_finite, deviation, np.inf)
