@@ -50,6 +50,12 @@ def test_noise_is_not_even_where_it_is_that_of_one_road(share):
         assert turns.line(*frame([22.0, 22.3, 21.8], rng, road=road), *frame([16.0], rng, road=road)) is None
 
 
+def test_a_line_that_is_far_above_all_has_a_p_value_all_the_same():
+    rng = np.random.default_rng(5)
+    found = turns.line(*frame([22.0, 22.3, 21.8], rng, line=20.0), *frame([16.0], rng, line=20.0))
+    assert found.period == pytest.approx(0.8, rel=0.002) and 0.0 < found.p_value < 1e-100
+
+
 def test_repeats_that_have_no_error_in_common_hear_what_one_drive_would_not():
     """In the mean over three the noise is even: a line is heard that in one would be no more than the strongest of chance."""
     heard, alone = 0, 0

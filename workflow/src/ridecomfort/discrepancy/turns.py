@@ -76,7 +76,7 @@ def line(
         if best[0] > 0:
             found.append((*best, unit))
     for surprise, channel, often, unit in sorted(found, reverse=True):
-        p_value = min(1.0, count * float(np.exp(-surprise)))
+        p_value = float(np.clip(count * np.exp(-surprise), np.finfo(float).tiny, 1.0))
         if p_value > SURE:
             return None
         held_out = [] if check_frame is None else [_at(check_frame, i, check, channel, often, unit) for i in check_frame.indices]
@@ -110,8 +110,8 @@ def _log_chance(strength: np.ndarray, common: np.ndarray, repeats: int) -> np.nd
     As if of one road; or, if that is less, as a sum of independent exponentials none of which is larger than the largest eigenvalue of
     the coherence of repeats: a gamma distribution.
     """
-    largest = 1.0 + (repeats - 1) * common
-    return np.minimum(-strength, gamma.logsf(repeats * strength / largest, repeats))
+    over = repeats * strength / (1.0 + (repeats - 1) * common)
+    return np.minimum(-strength, np.maximum(gamma.logsf(over, repeats), -over))  # it is no less than that, where the logarithm of nil fails
 
 
 def _common(bins: Sequence[np.ndarray], power: np.ndarray) -> np.ndarray:
