@@ -110,7 +110,8 @@ class _Search:
         states = [self._state("calibrated", self.rung.fit, self.rung.check)]
         self.first = states[0]
         self.say("probing every candidate")
-        self.columns = self._probe(self.rung.fit)
+        self.sooner, residuals = self._sooner()
+        self.columns = self._probe(residuals)
         rounds = self.rounds
         while len(self.accepted) < self.most:
             turn = self._round(len(rounds))
@@ -125,6 +126,7 @@ class _Search:
             self.rung = climb(
                 self.rung.experiment, turn.winner.fit.values, self._sizes(), self.each, before=self.rung
             )
+            self.sooner, _ = self._sooner()
             states.append(self._state(turn.winner.name, self.rung.fit, self.rung.check))
         rung = self.rung
         final, frame = final_fit(rung, self._sizes(), self.each)
@@ -154,11 +156,10 @@ class _Search:
         """The experiment of the rung in longer steps, and its residuals."""
         return probe.coarsely(self.rung.experiment, self.rung.fit.values, self.rung.fit.residuals)
 
-    def _probe(self, base: Fit) -> dict[Job, Raw]:
-        """Change of the residuals per probe of every size of every candidate and shape, in single precision."""
+    def _probe(self, residuals: Mapping[int, np.ndarray]) -> dict[Job, Raw]:
+        """Change of the ``residuals`` in longer steps per probe of every size of every candidate and shape, in single precision."""
         jobs = [(c.name, shape) for c in self.rung.experiment.candidates for shape in range(len(c.shapes))]
-        sooner, residuals = self._sooner()
-        results = self.each(probe.Probe(sooner, base.values, residuals), jobs)
+        results = self.each(probe.Probe(self.sooner, self.rung.fit.values, residuals), jobs)
         kept = {job: found for job, found in zip(jobs, results) if found}
         alias = {name for name, candidate in self.by_name.items() if candidate.instrument or candidate.port == "road"}
         least = lambda name: ALIAS if name in alias else LEAST_OWN
@@ -176,7 +177,7 @@ class _Search:
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         likely = refit.information(rung.frame, base.residuals)
-        self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self._sooner()[0], likely)
+        self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self.sooner, likely)
         tried = [trial for trial in self.each(_Try(self.tries), [found.best[name] for name in order]) if trial is not None]
         least = MINOR * max((trial.gain for trial in tried), default=0.0)
         trials, winner = [], None
