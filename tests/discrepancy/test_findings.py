@@ -82,6 +82,14 @@ def test_nothing_is_said_of_what_is_not_worth_a_sentence(located):
     assert findings.words(located * 0.0) == []
 
 
+def test_where_nothing_is_large_the_largest_alone_is_told(located):
+    share = located["power_share"]
+    small = located.assign(power_share=share * 0.3 * findings.NAMED / float(share.sum("stretch").max()))
+    (found,) = findings.findings(small)
+    assert (found.signal, found.lower) == ("a_z", 8.0) and findings.are_small([found])
+    assert not findings.are_small(findings.findings(located))
+
+
 def test_a_band_begins_where_its_signal_is_judged_from(located):
     slow = located.copy(deep=True)
     share = slow["power_share"]

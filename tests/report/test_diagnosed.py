@@ -165,6 +165,13 @@ def test_a_size_whose_interval_includes_none_is_marked():
     assert "may be nil" not in words(diagnosed.tables(made_up.diagnosis())["missing_effects"])
 
 
+def test_what_shapes_an_effect_and_was_held_is_told_with_its_value():
+    held = {"parameter": "knee_velocity", "size": 0.1, "unit": "m/s"}
+    found = made_up.diagnosis({**made_up.VERDICT, "effects": [{**made_up.VERDICT["effects"][0], "held": [held]}]})
+    (row,) = [row for row in rows(diagnosed.tables(found)["missing_effects"]) if row["parameter"] == "knee velocity"]
+    assert (row["size"], row["unit"], row["plausible"], row["interval_lower"]) == (0.1, "m/s", "held, not fitted", None)
+
+
 def looked_for_any_form() -> Diagnosis:
     """A diagnosis whose search went on with forces of any form: that of made_up.ranking as terms at two places, a third term beside."""
     found, terms = made_up.ranking(), ["strut:velocity_direction", "body:lift", "strut:side_force_size_times_direction"]
@@ -202,6 +209,7 @@ def test_the_figure_shows_every_round_and_nothing_is_cut_off_or_lies_over_anothe
         assert not any(one.overlaps(other) for k, one in enumerate(shown) for other in shown[:k])
     assert winner in said and "round 1" in said and "round 2: nothing accepted" in said
     assert any("Stand-in data" in text for text in said)
+    assert any("Diagnosed: the model base" in text for text in said)
 
 
 def test_the_figure_says_what_came_of_every_refit():
@@ -209,14 +217,14 @@ def test_the_figure_says_what_came_of_every_refit():
         each = diagnosed.figures(made_up.diagnosis())["evidence"]()
     said = " ".join(text.get_text() for text in each.findobj(Text))
     assert re.search(r"\d+ / 75 %  accepted", said) and "makes the drives held out worse" in said
-    assert "gains too little when refitted" in said
+    assert "refit gains too little" in said
 
 
 @pytest.mark.parametrize(
     ("why", "said"),
     [
-        ("not refitted: the drives ask for the opposite sign, which is not plausible", "the other way round"),
-        ("not refitted: 5 others gain more", "not refitted, others gain more"),
+        ("not refitted: the drives ask for the opposite sign, which is not plausible", "not refitted: opposite sign"),
+        ("not refitted: the 5 that gain most were", "not refitted"),
     ],
 )
 def test_the_figure_says_why_an_effect_was_not_refitted(why, said):

@@ -168,11 +168,12 @@ def test_conditions_have_the_same_axis_for_every_model_with_ticks_to_read_it_by(
 def test_what_lies_beyond_the_axis_of_the_ladder_is_said_with_its_signal(study):
     far = study.ladder.copy(deep=True)
     far["left"].loc[dict(rung=far["rung"].values[0], signal="roll_rate")] = 9.0
+    far["left"].loc[dict(rung=far["rung"].values[0], signal="a_x")] = 3.0
     far["left_overall"].loc[dict(rung=far["rung"].values[0])] = 4.0
     with style.styled():
         made = differing.figures(replace(study, ladder=far))["error_ladder"]()
     said = [text.get_text() for text in made.findobj(Text)]
-    assert "beyond: roll rate, up to 900 %" in said and "400 ↑" in said
+    assert "beyond, up to:\nroll rate 900 %\n$a_x$ 300 %" in said and "400 ↑" in said
 
 
 def test_every_line_of_the_ladder_has_a_key(drawn):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,10 @@ import xarray as xr
 from .judged import AGAINST, LOWEST_OF_DRIVER, wrong_sign
 
 NAMED = 0.01
-"""Share of the signal's power below which a finding is not worth a sentence."""
+"""Share of the signal's power below which a finding is not worth a sentence, unless there is no other."""
+
+LEAST_NAMED = 0.001
+"""Share of the signal's power below which nothing is."""
 
 OF_A_SIGNAL = 2
 """Findings of one signal at most: bands of one error beside each other would crowd out all that is wrong elsewhere."""
@@ -88,12 +91,13 @@ class Finding:
 
 
 def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
-    """The largest errors above the floor of what ``locate.locate`` returned, at most ``count`` and OF_A_SIGNAL each, by their share of power."""
+    """The largest errors above the floor of what ``locate.locate`` returned, by their share of power: at most ``count`` that reach NAMED,
+    OF_A_SIGNAL each; the largest alone, from LEAST_NAMED on, where none does."""
     share = located["power_share"].values
     whole = share.sum(axis=1)
     found = []
     for signal, band in sorted(np.ndindex(whole.shape), key=lambda key: -whole[key]):
-        if not whole[signal, band] >= NAMED or len(found) == count:
+        if not whole[signal, band] >= (NAMED if found else LEAST_NAMED) or len(found) == count:
             break
         name = str(located["signal"].values[signal])
         if sum(finding.signal == name for finding in found) == OF_A_SIGNAL:
@@ -104,6 +108,11 @@ def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
         lower = max(lower, LOWEST_OF_DRIVER.get(name, lower))
         found.append(Finding(name, lower, upper, place, _when(located, signal, band), float(whole[signal, band]), explainable))
     return found
+
+
+def are_small(found: Sequence[Finding]) -> bool:
+    """Whether findings hold no more than the largest of errors that are none worth a sentence."""
+    return all(finding.power_share < NAMED for finding in found)
 
 
 def doubts(located: xr.Dataset) -> list[str]:

@@ -257,11 +257,11 @@ class _Search:
         if outside:
             return outside
         if trial.bic <= 0:
-            return "not worth its parameters (BIC)"
+            return "not worth its sizes (BIC)"
         if np.isfinite(trial.held_out_gain):
             enough = trial.held_out_z > 0 and not trial.held_out_share <= 0 if is_weak else trial.held_out_z > HELD_OUT_Z
             if not (trial.held_out_gain > 0 and enough):
-                return "does not improve the drives held out"
+                return "not surely better on drives held out"
         if trial.share < (LEAST_SHARE if trial.met else LEAST_UNMET) and not trial.share > MOST_OF_REST * left:
             return f"removes {100 * trial.share:.1f} % of the explainable error" + ("" if trial.met else ", and no drive held out meets it")
         return ""
@@ -277,7 +277,7 @@ def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial
     those whose refits gain little."""
     significant, judged = found.significant(len(found.names)), {trial.name for trial in trials}
     why = dict.fromkeys(found.opposite, "not refitted: the drives ask for the opposite sign, which is not plausible")
-    why |= {name: f"not refitted: {PROPOSED} others gain more" for name in significant[PROPOSED:]}
+    why |= {name: f"not refitted: the {PROPOSED} that gain most were" for name in significant[PROPOSED:]}
     for name in significant[:PROPOSED]:
         why[name] = f"its refit gains less than {100 * MINOR:g} % of the best" if name in minor else "could not be simulated"
     return {name: said for name, said in why.items() if name not in judged}

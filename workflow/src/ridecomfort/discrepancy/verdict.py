@@ -84,6 +84,8 @@ class Named:
     differ_on: dict[str, str]
     is_of_measurement: bool = False
     """Whether it is an error of the measurement, not of the vehicle."""
+    held: tuple[dict, ...] = ()
+    """What shapes it and was not fitted: parameter, unit and the value at which it was held."""
 
 
 @dataclass(frozen=True)
@@ -372,10 +374,16 @@ def _named(selection: Selection, number: int, by_name) -> Named:
     for size in (*by_name[winner.name].sizes, *by_name[winner.name].shaping):
         if size.key in selection.intervals:
             sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
+    held = [
+        {"parameter": size.key.partition(".")[2], "size": float(selection.final.values.get(size.key, size.neutral)), "unit": size.unit}
+        for size in by_name[winner.name].shaping
+        if size.key not in selection.intervals
+    ]
     before, after = selection.states[number : number + 2]
     return Named(
         winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]),
         *shares(selection, before, after), float(turn.absorbed[place]), turn.cluster, turn.differ_on, by_name[winner.name].instrument,
+        tuple(held),
     )  # fmt: skip
 
 

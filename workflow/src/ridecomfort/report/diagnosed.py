@@ -28,7 +28,8 @@ def scores(found: Diagnosis) -> dict[str, Table]:
 
 
 def figures(found: Diagnosis) -> dict[str, Callable]:
-    """Functions without arguments that draw the figures of ``catalogue.DIAGNOSIS_FIGURES``."""
-    marked = lambda draw: style.marked(draw(found), found.standin_mark())
+    """Functions without arguments that draw the figures of ``catalogue.DIAGNOSIS_FIGURES``; each says what was diagnosed."""
+    mark = " ".join(filter(None, [found.subject(), found.standin_mark()]))
+    marked = lambda draw: style.marked(draw(found), mark)
     drawn = {"evidence": evidence.evidence, "forms": evidence.forms, "signature": signature.signature}
     return {name: partial(marked, draw) for name, draw in drawn.items()}

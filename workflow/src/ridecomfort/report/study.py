@@ -105,6 +105,10 @@ class Diagnosis:
         """As of a Study."""
         return standin_mark(list(self.standin))
 
+    def subject(self) -> str:
+        """Which model was diagnosed, and on which sites, as a sentence."""
+        return f"Diagnosed: the model {self.model} on {', '.join(label(site) for site in self.sites)}."
+
 
 @dataclass(frozen=True)
 class Study:

@@ -29,12 +29,11 @@ DIAMOND = {**DOT, "marker": "D", "color": style.REFERENCE, "markeredgecolor": "b
 
 OBJECTIONS = {
     "lies outside what is plausible": "size not plausible",
-    "not worth its parameters": "not worth its sizes (BIC)",
-    "does not improve the drives held out": "not surely better held out",
-    "of the explainable error": "too little",
-    "others gain more": "not refitted, others gain more",
-    "its refit gains less": "gains too little when refitted",
-    "opposite sign": "the other way round",
+    "not surely better on drives held out": "not surely better held out",
+    "of the explainable error": "removes too little",
+    "that gain most were": "not refitted",
+    "its refit gains less": "refit gains too little",
+    "opposite sign": "not refitted: opposite sign",
 }
 """How objections of the search are said in a few words, by a part of each."""
 

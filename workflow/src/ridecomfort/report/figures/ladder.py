@@ -96,10 +96,10 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
             path_effects=LEGIBLE,
         )  # fmt: skip
     most = 100 * np.nan_to_num(chosen["left"].values).max(axis=chosen["left"].dims.index("rung"))
-    if most.max() > HIGHEST:
-        name = notation.signal(str(chosen["signal"].values[most.argmax()]))
+    beyond = [f"{notation.signal(str(chosen['signal'].values[k]))} {most[k]:,.0f} %" for k in np.argsort(-most) if most[k] > HIGHEST]
+    if beyond:
         axes.text(
-            0.99, 0.97, f"beyond: {name}, up to {most.max():,.0f} %", transform=axes.transAxes, ha="right", va="top", fontsize="x-small",
+            0.99, 0.97, "\n".join(["beyond, up to:", *beyond]), transform=axes.transAxes, ha="right", va="top", fontsize="x-small",
             path_effects=LEGIBLE,
         )  # fmt: skip
     axes.axhline(0.0, color=style.FLOOR, linestyle="--")

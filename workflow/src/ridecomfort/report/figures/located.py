@@ -33,7 +33,8 @@ PER_OCTAVE = 6
 LONGEST = 125
 """Letters in a line below the maps."""
 
-NOTHING = f"No error above the floor reaches {100 * findings.NAMED:g} % of its signal's power in any band; what is left: above the maps."
+SMALL = f"No error above the floor reaches {100 * findings.NAMED:g} % of its signal's power in any band; what is left: above the maps."
+"""What is said where no finding is worth it."""
 
 
 def located(study: Difference, site: str) -> Figure:
@@ -43,7 +44,8 @@ def located(study: Difference, site: str) -> Figure:
     errors = findings.findings(found)
     lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
     lines = [f"!  {doubt}" for doubt in findings.doubts(found)] + lines
-    lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines] or [NOTHING]
+    lines = [SMALL] * findings.are_small(errors) + lines
+    lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines]
     model = study.model.replace(JOIN, f" {JOIN} ")
     words = [*lines, fill(f"{chosen.label}, model {model}, {found.attrs['located_state']}; {floor_note(chosen)}", LONGEST)]
     count = "\n".join(words).count("\n") + 1

@@ -24,6 +24,9 @@ SUSPECT = "The data are suspect: what stands here explains their error as they a
 FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
 """What is said where those are all that was found."""
 
+HELD = "held, not fitted"
+"""What is said of what only shapes an effect where the drives did not ask for another value."""
+
 STRONGEST = 12
 """Candidates of a round that are drawn, and forms of a force that are told."""
 
@@ -88,11 +91,14 @@ def missing_effects(found: Diagnosis) -> Table:
         shares = [_percent(effect[key]) for key in ("share", "held_out_share", "absorbed")]
         like = ", ".join(words(name) for name in effect["like"]) or "–"
         of_all = (effect["p_value"], *shares, like)
-        for number, size in enumerate(effect["sizes"] or [{}]):
+        sizes = [*effect["sizes"], *({**one, "is_held": True} for one in effect.get("held", ()))]
+        for number, size in enumerate(sizes or [{}]):
             lower, upper = size.get("interval", (None, None))
             plausible = {True: "yes", False: "no", None: ""}[size.get("is_plausible")]
             if lower is not None and lower <= 0.0 <= upper:
                 plausible += ", may be nil"
+            if size.get("is_held"):
+                plausible = HELD
             if size.get("plausible"):
                 plausible += " ({:.4g} to {:.4g})".format(*size["plausible"])
             rows.append(
@@ -107,8 +113,8 @@ def missing_effects(found: Diagnosis) -> Table:
         "joins those above it, all sizes fitted together and the drives aligned for them, above the floor that the last model shows: "
         "the evidence has the refit that it was chosen by, above the floor of that round, and the error ladder what is left when the "
         "study calibrates anew, site by site. They are of all sizes of an effect together and stand beside its first. Absorbed: "
-        "share of the effect's response that calibration can take up, and so hide. What only shapes an effect (a frequency, a place) is told "
-        "where the drives asked for another value than its typical one, else held there.",
+        "share of the effect's response that calibration can take up, and so hide. What only shapes an effect (a frequency, a place) is fitted "
+        "where the drives asked for another value, else held at its typical one or the best of a few.",
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
@@ -139,7 +145,7 @@ def evidence(found: Diagnosis) -> Table:
         "Gain: fall of twice the negative log-likelihood. The p-value is that of the largest gain over the whole library, by block "
         "wild bootstrap: a screen of what is worth a refit, too small on short drives (docs/diagnosis.md). Every effect is tested; the "
         "best are refitted together with the calibrated parameters, and what that removes "
-        "is told above the floor as known in the round: for what an accepted effect removes in the end see the missing effects.",
+        "is told above the floor as known in the round: for what an accepted effect removes, and its size, in the end see the missing effects.",
     )
     return _table(found, "evidence", columns, rows, _evidence_sources(found), notes, breaks[1:])
 
@@ -164,7 +170,8 @@ def forms(found: Diagnosis) -> Table:
     notes = (
         "Forms are terms that a force may be made of at each place where it could act. The first of "
         "a place is its best, so that places are ranked by it. Gain, p-value (over all terms of all places) and shares as in the evidence "
-        f"for the library. Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file.",
+        f"for the library. Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file. Accepted is the best "
+        "of a round; whether it is proposed, and with which factors, fitted together in the end, says the verdict, which takes the library where that does as well.",
     )
     return _table(found, "forms", columns, rows, _evidence_sources(found, ranking.FORMS), notes, breaks[1:])
 
@@ -222,7 +229,6 @@ def _percent(share: float | None) -> float | None:
 
 
 def _table(found: Diagnosis, name, columns, rows, sources, notes=(), breaks=()) -> Table:
-    sites = ", ".join(catalogue.label(site) for site in found.sites)
-    notes = [*notes, f"Diagnosed: the model {found.model} on {sites}.", *filter(None, [found.standin_note()])]
+    notes = [*notes, found.subject(), *filter(None, [found.standin_note()])]
     caption = catalogue.DIAGNOSIS_TABLES[name]
     return Table(name, caption, tuple(columns), tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks))

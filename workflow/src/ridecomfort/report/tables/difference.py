@@ -66,12 +66,15 @@ def findings(study: Difference) -> Table:
     rows, sources, breaks = [], [], []
     for site in study.sites:
         breaks.append(len(rows))
-        for number, each in enumerate(located.findings(site.comparison), start=1):
+        errors = located.findings(site.comparison)
+        for number, each in enumerate(errors, start=1):
             shares = 100 * each.power_share, 100 * each.explainable_share
             band = f"{each.lower:g}–{each.upper:g}"
             rows.append((site.label, number, notation.signal(each.signal), band, each.where, each.when or "any time", *shares))
-        if len(rows) == breaks[-1]:
+        if not errors:
             rows.append((site.label, None, "none", "", "", "", None, None))
+        elif located.are_small(errors):
+            notes.append(f"{site.label}: nothing reaches {100 * located.NAMED:g} %; told is the largest of what is left.")
         rule = "largest shares over bands, attribute words has them as sentences"
         sources.append(Source(site.label, site.files.get("comparison", ""), "power_share, explainable_share, condition_error", rule))
         notes += [f"{site.label}: {doubt}" for doubt in located.doubts(site.comparison)]
