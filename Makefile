@@ -5,7 +5,7 @@ BIN = .venv/bin
 # Processes run side by side; threads of linear algebra would wait for one another.
 export OPENBLAS_NUM_THREADS = 1
 
-.PHONY: env study test bench blind recovery
+.PHONY: env study test quick bench blind recovery
 
 env: .venv/installed
 
@@ -21,6 +21,9 @@ study: env
 
 test: env
 	$(BIN)/python -m pytest
+
+quick: env
+	$(BIN)/python -m pytest -m "not slow"
 
 bench: env
 	$(BIN)/python tests/bench

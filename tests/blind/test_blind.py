@@ -16,6 +16,8 @@ from ridecomfort.vehicle import parameters
 from tests.blind import score, trials
 from tests.blind.__main__ import one
 
+pytestmark = pytest.mark.slow
+
 AMONG = ("suspension_friction", "damper_asymmetry", "spring_progression", "tyre_progression", "top_mount")
 
 

@@ -9,6 +9,8 @@ from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def car(repository):

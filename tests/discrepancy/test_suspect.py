@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy import suspect
+from ridecomfort.discrepancy import nuisances, suspect
+from ridecomfort.vocabulary import SIGNALS
 from tests.vehicle import roads
 
 
@@ -32,6 +33,29 @@ def test_clocks_are_suspect_that_wander_where_alignment_saw_it_too(jump, wander,
     came = SimpleNamespace(replays=[SimpleNamespace(drive=drive)] * 3)
     reasons = suspect.of_clocks(came, SimpleNamespace(experiment=fitted, indices=[0, 1, 2]))
     assert [("10 ms" in reason) for reason in reasons] == ([True] if is_suspect else [])
+
+
+def fitted(rates: dict[str, float], noise: float = 0.1):
+    """Half a minute of a record whose signals are these many times what the model says, and what of ``suspect.of_fit`` that leads to."""
+    random, names = np.random.default_rng(3), list(SIGNALS)
+    simulated = random.standard_normal((6, 3000))
+    factors = np.array([rates.get(name, 1.0) for name in names])[:, None]
+    measured = factors * simulated + noise * random.standard_normal(simulated.shape)
+    again = SimpleNamespace(measured=lambda: measured, compared=np.ones(3000, bool))
+    came = SimpleNamespace(records=[SimpleNamespace(name="first", rate=100.0)], replays=[again], channels=names)
+    amounts = np.zeros(30)
+    amounts[nuisances.OF_RATES] = (1.0 - factors[3:].mean()) / nuisances.GAIN
+    frame = SimpleNamespace(indices=[0], experiment=SimpleNamespace(shifts=lambda *_: np.zeros(3)), amounts=lambda *_: amounts)
+    return suspect.of_fit(came, frame, {0: simulated - measured})
+
+
+def test_a_gyroscope_of_which_all_rates_are_too_large_has_a_gain():
+    (reason,) = fitted({"roll_rate": 1.03, "pitch_rate": 1.03, "yaw_rate": 1.03})
+    assert "gain of 1.030 of the gyroscope" in reason
+
+
+def test_a_vehicle_that_rolls_less_is_no_gyroscope_with_a_gain():
+    assert fitted({"roll_rate": 0.90}) == []
 
 
 def test_the_size_of_white_noise_is_estimated(rough):

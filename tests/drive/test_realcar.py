@@ -116,6 +116,7 @@ def test_with_its_roll_calibrated_the_other_drive_has_the_strength_that_was_meas
         assert simulated[row].std() == pytest.approx(measured[row].std(), rel=0.2), name
 
 
+@pytest.mark.slow
 def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_file_of_the_vehicle_is_wrong(drives, road, car, calibration):
     _, verdict, _ = diagnose({"realcar": (road, drives)}, car, calibration=calibration, bounds=BOUNDS)
     assert verdict.verdict == "outside" and verdict.held_out_share > 0.25

@@ -9,7 +9,7 @@ from ridecomfort.vocabulary import DRIVE
 
 from .conftest import new_project
 
-pytestmark = pytest.mark.study
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import shutil
 
 import pytest
 
-pytestmark = pytest.mark.study
+pytestmark = pytest.mark.slow
 
 NAMED = {"verdict": "named", "effects": [{"name": "suspension_friction", "like": []}], "reasons": []}
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-pytestmark = pytest.mark.study
+pytestmark = pytest.mark.slow
 
 
 def assert_refused(answer, *said):

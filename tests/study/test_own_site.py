@@ -5,7 +5,7 @@ import pytest
 
 from ridecomfort import store
 
-pytestmark = pytest.mark.study
+pytestmark = pytest.mark.slow
 
 
 def resource(shared, name):

@@ -11,7 +11,7 @@ from ridecomfort.comfort import iri, iriclass
 from ridecomfort.road import crg
 from ridecomfort.steps import standin_scan
 
-pytestmark = pytest.mark.study
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import yaml
 
 from ridecomfort import store
 
-pytestmark = pytest.mark.study
+pytestmark = pytest.mark.slow
 
 METHODS = ("thresholds", "iso2631", "iri")
 

@@ -248,6 +248,12 @@ PLACES: Mapping[str, Place] = {
             "toe_of_deflection": Term("deflection", "rad/m", "toe"),
             "toe_of_deflection_on_sides": Term(f"deflection * {SIDE}", "rad/m", "toe"),
             "toe_of_deflection_square_on_sides": Term(f"deflection**2 * {SIDE}", "rad/m2", "toe", beside=f"deflection * {SIDE}"),
+            "toe_dragged_on_sides": Term(
+                f"(deflection - held) * {SIDE}", "rad/m", "toe",
+                states=(State("held", "100.0 * (max(deflection - held - way, 0.0) + min(deflection - held + way, 0.0))", 0.008),),
+                settings=(_setting("way", "m", 0.003, 0.0005, 0.01, "travel to either side until it slides"),),
+                beside=f"deflection * {SIDE}",
+            ),
         },
         ("recession", "toe", "scrub"),
         {"recession": INCLINED, "toe": CORNERING, "scrub": INCLINED},
@@ -269,6 +275,11 @@ PLACES: Mapping[str, Place] = {
                 "motion.roll / (1.0 + abs(motion.roll) / knee)", "N m", "moment_x", WHOLE, settings=(ANGLE,), beside="motion.roll"
             ),
             "roll_rate_direction": Term("tanh(motion.roll_rate / 0.005)", "N m", "moment_x", WHOLE, beside="motion.roll_rate"),
+            "roll_sliding": Term(
+                "strain", "N m", "moment_x", WHOLE,
+                (State("strain", "(motion.roll_rate - abs(motion.roll_rate) * strain) / (grip + 0.003 * abs(motion.roll_rate))", 1.0),),
+                (_setting("grip", "rad", 0.002, 0.0003, 0.02, "angle over which the direction turns"),), beside="motion.roll_rate",
+            ),
             "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x", WHOLE),
             "roll_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_x", WHOLE),
             "lift_of_turning": Term("motion.speed * motion.yaw_rate", "kg", "force_z", WHOLE),

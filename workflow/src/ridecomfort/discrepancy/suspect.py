@@ -42,6 +42,10 @@ GAIN = 0.02
 SURELY = 2.0
 """Standard errors by which a gain must lie beyond that."""
 
+APART, INDEPENDENT = 0.5, 10.0
+"""Share of a gain's difference from one by which, and by SURELY standard errors beyond it, a signal of an instrument must disagree for that to
+have no gain: a vehicle that rolls less makes the rate of roll smaller and no other. Independent values of a signal in a second."""
+
 WANDERING = 0.006
 """s, the median over records, by which a clock wanders against place beyond which it is wrong where alignment has taken out more than LATE
 before: 8.6 ms where the clocks of three records jump by 20 ms. Most of what a model lacks makes it wander by up to 3.7 ms, a payload by 7,
@@ -124,10 +128,26 @@ def of_fit(experiment: Car, frame: Frame, residuals) -> list[str]:
         if abs(late) > LATE:
             reasons.append(f"{name}: the model fits at a clock that is {1e3 * late:+.1f} ms off the recorded one")
         gains = nuisances.gains(frame.amounts(index, residuals[index]))
-        for gain, instrument in zip(gains, ("accelerometer", "gyroscope")):
-            if abs(gain - 1.0) > GAIN:
+        own, errors = _own_gains(experiment, index, residuals[index])
+        for gain, instrument, part in zip(gains, ("accelerometer", "gyroscope"), (slice(3), slice(3, 6))):
+            if abs(gain - 1.0) > GAIN and _are_of_one(gain, own[part], errors[part]):
                 reasons.append(f"{name}: the model fits a gain of {gain:.3f} of the {instrument}")
     return reasons
+
+
+def _own_gains(experiment: Car, index: int, residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Gain of each signal of a record beside the model, in the band that is judged, and its standard error, (6,) each."""
+    record, again = experiment.records[index], experiment.replays[index]
+    left = judged(residual, record.rate, experiment.channels)
+    simulated = judged(again.measured()[:, again.compared] + residual, record.rate, experiment.channels)
+    power = np.maximum(np.sum(simulated**2, axis=1), np.finfo(float).tiny)
+    seconds = residual.shape[1] / record.rate
+    return 1.0 - np.sum(left * simulated, axis=1) / power, np.sqrt(np.sum(left**2, axis=1) / power / (INDEPENDENT * seconds))
+
+
+def _are_of_one(gain: float, own: np.ndarray, errors: np.ndarray) -> bool:
+    """Whether the gains of an instrument's signals may all be this one."""
+    return bool(np.all(np.abs(own - gain) <= APART * abs(gain - 1.0) + SURELY * errors))
 
 
 def of_clocks(experiment: Car, frame: Frame) -> list[str]:
