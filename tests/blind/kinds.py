@@ -31,12 +31,14 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "instrument_post", "machine_hum", "polygonised_tyre", "roof_load", "rough_road_drag", "steering_resonance",
            "tender_spring", "tyre_bridging", "tyre_relaxing_rubber",
            "contact_damping", "inclined_inertia_axis", "rising_rate_linkage", "scanner_skew", "seat_rocking", "self_pumping_strut",
-           "side_force_load_lag", "trailing_arm_arc")  # fmt: skip
+           "side_force_load_lag", "trailing_arm_arc",
+           "antiroll_bar_bush_friction", "damper_cold_oil", "oncoming_lorries", "puddle_drag", "rear_axle_steering",
+           "toe_link_friction")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
           "breakaway_friction": "suspension_friction", "bump_steer_by_load": "bump_steer", "tyre_flat_spot": "tyre_runout",
-          "one_sided_load": "uneven_load"}  # fmt: skip
+          "one_sided_load": "uneven_load", "bump_stop_creep": "bump_stop"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
 
 OF_MEASUREMENT = ("imu_lever_arm", "road_bank", "road_grade", "sensor_bandwidth")

@@ -11,7 +11,7 @@ import pytest
 from ridecomfort.discrepancy import select, verdict
 from ridecomfort.discrepancy.experiment import Record
 from ridecomfort.discrepancy.judged import band
-from ridecomfort.discrepancy.shared import is_material, shared_error
+from ridecomfort.discrepancy.shared import Band, is_material, shared_error
 
 from .linear import RATE, SAMPLES, Linear
 
@@ -31,6 +31,14 @@ def test_what_repeats_share_in_a_narrow_band_is_told_with_its_signal_and_band():
     assert surest.signal == "c" and surest.lower <= 27.3 <= surest.upper
     assert selection.remaining.share < verdict.SHARED, "it is too narrow to be seen in the whole"
     assert found.verdict == "outside" and any("c, 2" in reason for reason in found.reasons)
+
+
+@pytest.mark.parametrize(("lower", "z", "said"), [(1.0, 13.8, "outside"), (1.0, 6.5, "nothing"), (31.0, 13.8, "nothing")])
+def test_on_a_road_that_is_another_an_error_that_repeats_share_counts_where_it_is_too_slow_to_be_the_road(lower, z, said):
+    selection, _ = judged(Linear(8, {}))
+    shared = replace(selection.remaining, band=Band("a_y", lower, lower + 2.0, z))
+    found = verdict.judge(replace(selection, remaining=shared), Linear(8, {}).candidates, notes=["the road is another"])
+    assert found.verdict == said
 
 
 @pytest.mark.parametrize("seed", range(20, 26))

@@ -35,13 +35,16 @@ def test_clocks_are_suspect_that_wander_where_alignment_saw_it_too(jump, wander,
     assert [("10 ms" in reason) for reason in reasons] == ([True] if is_suspect else [])
 
 
-def fitted(rates: dict[str, float], noise: float = 0.1):
-    """Half a minute of a record whose signals are these many times what the model says, and what of ``suspect.of_fit`` that leads to."""
+def fitted(monkeypatch, rates: dict[str, float], bends: float, noise: float = 0.1):
+    """Half a minute of a record whose signals are these many times what the model says, and its yaw rate in ``bends``, and what
+    ``suspect.of_fit`` says of it."""
+    monkeypatch.setattr(suspect.turning, "gyroscope_gain", lambda drive, road: (bends, 0.002))
     random, names = np.random.default_rng(3), list(SIGNALS)
     simulated = random.standard_normal((6, 3000))
     factors = np.array([rates.get(name, 1.0) for name in names])[:, None]
     measured = factors * simulated + noise * random.standard_normal(simulated.shape)
-    again = SimpleNamespace(measured=lambda: measured, compared=np.ones(3000, bool))
+    known = {"drive": SimpleNamespace(attrs={}), "road": SimpleNamespace(road=None)}
+    again = SimpleNamespace(measured=lambda: measured, compared=np.ones(3000, bool), **known)
     came = SimpleNamespace(records=[SimpleNamespace(name="first", rate=100.0)], replays=[again], channels=names)
     amounts = np.zeros(30)
     amounts[nuisances.OF_RATES] = (1.0 - factors[3:].mean()) / nuisances.GAIN
@@ -49,13 +52,18 @@ def fitted(rates: dict[str, float], noise: float = 0.1):
     return suspect.of_fit(came, frame, {0: simulated - measured})
 
 
-def test_a_gyroscope_of_which_all_rates_are_too_large_has_a_gain():
-    (reason,) = fitted({"roll_rate": 1.03, "pitch_rate": 1.03, "yaw_rate": 1.03})
+@pytest.mark.parametrize("bends", [1.03, np.nan])
+def test_a_gyroscope_of_which_all_rates_are_too_large_has_a_gain(monkeypatch, bends):
+    (reason,) = fitted(monkeypatch, {"roll_rate": 1.03, "pitch_rate": 1.03, "yaw_rate": 1.03}, bends)
     assert "gain of 1.030 of the gyroscope" in reason
 
 
-def test_a_vehicle_that_rolls_less_is_no_gyroscope_with_a_gain():
-    assert fitted({"roll_rate": 0.90}) == []
+def test_a_vehicle_that_rolls_less_is_no_gyroscope_with_a_gain(monkeypatch):
+    assert fitted(monkeypatch, {"roll_rate": 0.90}, np.nan) == []
+
+
+def test_rates_that_are_too_large_where_the_road_does_not_bend_alone_are_no_gyroscope_with_a_gain(monkeypatch):
+    assert fitted(monkeypatch, {"roll_rate": 1.03, "pitch_rate": 1.03, "yaw_rate": 1.03}, 1.001) == []
 
 
 def test_the_size_of_white_noise_is_estimated(rough):

@@ -53,8 +53,8 @@ DISAGREE = 0.01
 PROFILE_PLACES = 9
 """Places of a profile of the cost."""
 
-DECIMALS = 12
-"""Of a parameter's place between its bounds: what lies nearer to one is there."""
+NEAR = 1e-12
+"""Share of the way between its bounds by which a parameter may miss one and be there."""
 
 BLOCK = 2.0
 """s; residuals at places farther apart than this at the mean speed are independent in the intervals."""
@@ -311,7 +311,8 @@ def _assess(task: Problem, point: np.ndarray, jacobian: np.ndarray) -> identifia
 def _dataset(task, start, chosen, in_sequence, steps: Mapping[str, Descent], knowledge) -> xr.Dataset:
     names = list(task.parameters)
     width = task.upper - task.lower
-    value = task.values(np.round(chosen, DECIMALS))
+    bound = np.round(chosen)
+    value = task.values(np.where(np.abs(chosen - bound) < NEAR, bound, chosen))
     verdicts = [identifiability.verdict(place, size) for place, size in zip(chosen, knowledge.half_width)]
     left_over = task.left_over(chosen)
     half = np.minimum(knowledge.half_width, 1.0) * width

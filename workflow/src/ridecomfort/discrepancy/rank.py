@@ -79,7 +79,7 @@ def ranked(
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
     doubts = suspicions(experiment, selection, is_explained, matters and selection.remaining.z > SHARED_Z)
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
-    if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED:
+    if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
     verdict = with_remainder(verdict, _remainder(selection))

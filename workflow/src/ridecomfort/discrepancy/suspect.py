@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -43,8 +44,9 @@ SURELY = 2.0
 """Standard errors by which a gain must lie beyond that."""
 
 APART, INDEPENDENT = 0.5, 10.0
-"""Share of a gain's difference from one by which, and by SURELY standard errors beyond it, a signal of an instrument must disagree for that to
-have no gain: a vehicle that rolls less makes the rate of roll smaller and no other. Independent values of a signal in a second."""
+"""Share of a gain's difference from one by which, and by SURELY standard errors beyond it, a signal of an instrument, gravity or the bends of the
+road must disagree for that to have no gain: a vehicle that rolls less makes the rate of roll smaller and no other. Independent values of a
+signal in a second."""
 
 WANDERING = 0.006
 """s, the median over records, by which a clock wanders against place beyond which it is wrong where alignment has taken out more than LATE
@@ -129,8 +131,10 @@ def of_fit(experiment: Car, frame: Frame, residuals) -> list[str]:
             reasons.append(f"{name}: the model fits at a clock that is {1e3 * late:+.1f} ms off the recorded one")
         gains = nuisances.gains(frame.amounts(index, residuals[index]))
         own, errors = _own_gains(experiment, index, residuals[index])
-        for gain, instrument, part in zip(gains, ("accelerometer", "gyroscope"), (slice(3), slice(3, 6))):
-            if abs(gain - 1.0) > GAIN and _are_of_one(gain, own[part], errors[part]):
+        drive, road = experiment.replays[index].drive, experiment.replays[index].road.road
+        elsewhere = (drive.attrs.get("acceleration_gain", np.nan), 0.0), turning.gyroscope_gain(drive, road)
+        for gain, instrument, part, seen in zip(gains, ("accelerometer", "gyroscope"), (slice(3), slice(3, 6)), elsewhere):
+            if abs(gain - 1.0) > GAIN and _are_of_one(gain, [*own[part], seen[0]], [*errors[part], seen[1]]):
                 reasons.append(f"{name}: the model fits a gain of {gain:.3f} of the {instrument}")
     return reasons
 
@@ -145,9 +149,10 @@ def _own_gains(experiment: Car, index: int, residual: np.ndarray) -> tuple[np.nd
     return 1.0 - np.sum(left * simulated, axis=1) / power, np.sqrt(np.sum(left**2, axis=1) / power / (INDEPENDENT * seconds))
 
 
-def _are_of_one(gain: float, own: np.ndarray, errors: np.ndarray) -> bool:
-    """Whether the gains of an instrument's signals may all be this one."""
-    return bool(np.all(np.abs(own - gain) <= APART * abs(gain - 1.0) + SURELY * errors))
+def _are_of_one(gain: float, own: Sequence[float], errors: Sequence[float]) -> bool:
+    """Whether the gains of an instrument, by its signals and by what it was held against before (nan where it was not), may all be this one."""
+    apart = np.abs(np.array(own) - gain) - SURELY * np.array(errors)
+    return not np.any(apart > APART * abs(gain - 1.0))
 
 
 def of_clocks(experiment: Car, frame: Frame) -> list[str]:

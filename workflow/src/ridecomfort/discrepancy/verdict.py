@@ -34,9 +34,10 @@ SHARED = 0.05
 """Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
 nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 
-SLOW, SLOW_Z = 3.0, 7.0
-"""Hz up to which, in waves of several metres, noise of a road's points does not show beside the road itself, and z of an error that repeats
-share there from which on it is none: up to 5.7 where the road is noisy by 0.1 mm or interpolated otherwise."""
+SLOW, SLOW_Z = 7.0, 7.0
+"""Hz up to which, in waves of some metres, noise of a road's points does not show beside the road itself, and z of an error that repeats
+share there from which on it is none: up to 5.7 where the road is noisy by 0.1 mm or interpolated otherwise (8.7 with 0.2 mm, at 30 Hz and
+more)."""
 
 SHARED_BAND_Z = 5.0
 """z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain; up to
@@ -183,7 +184,8 @@ class _Balance:
 def _balance(selection: Selection, notes: Sequence[str], is_material: bool) -> _Balance:
     share, held_out = total_shares(selection)
     band = selection.remaining.band
-    in_band = band is not None and band.z > SHARED_BAND_Z and not notes  # a road that is another makes errors that repeats share
+    # A road that is another makes errors that repeats share, but fast ones.
+    in_band = band is not None and band.z > SHARED_BAND_Z and (not notes or is_slow(selection))
     is_shared = something_left(selection) or in_band
     is_left = is_material and (is_shared or bool(_answered(selection)))
     explained = max(share, selection.shared_gone) if selection.has_repeats else share
