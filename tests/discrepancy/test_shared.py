@@ -8,10 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import select, verdict
+from ridecomfort.discrepancy import select, shared, verdict
 from ridecomfort.discrepancy.experiment import Record
 from ridecomfort.discrepancy.judged import band
-from ridecomfort.discrepancy.shared import Band, is_material, shared_error
+from ridecomfort.discrepancy.shared import is_material, shared_error
 
 from .linear import RATE, SAMPLES, Linear
 
@@ -36,8 +36,8 @@ def test_what_repeats_share_in_a_narrow_band_is_told_with_its_signal_and_band():
 @pytest.mark.parametrize(("lower", "z", "said"), [(1.0, 13.8, "outside"), (1.0, 6.5, "nothing"), (31.0, 13.8, "nothing")])
 def test_on_a_road_that_is_another_an_error_that_repeats_share_counts_where_it_is_too_slow_to_be_the_road(lower, z, said):
     selection, _ = judged(Linear(8, {}))
-    shared = replace(selection.remaining, band=Band("a_y", lower, lower + 2.0, z))
-    found = verdict.judge(replace(selection, remaining=shared), Linear(8, {}).candidates, notes=["the road is another"])
+    left = replace(selection.remaining, band=shared.Band("a_y", lower, lower + 2.0, z))
+    found = verdict.judge(replace(selection, remaining=left), Linear(8, {}).candidates, notes=["the road is another"])
     assert found.verdict == said
 
 
@@ -45,6 +45,20 @@ def test_on_a_road_that_is_another_an_error_that_repeats_share_counts_where_it_i
 def test_noise_of_every_drive_agrees_in_no_band(seed):
     selection, found = judged(Linear(seed, {}))
     assert selection.remaining.band.z < verdict.SHARED_BAND_Z and found.verdict == "nothing"
+
+
+@pytest.mark.parametrize("is_everywhere", [False, True])
+def test_the_places_of_an_error_that_sits_at_a_few_of_them_are_told(is_everywhere):
+    """Three repeats of 1.2 km at 20 m/s that share a pulse of 0.3 s at 210 m and one at 810 m, or an error all along the road."""
+    random, time = np.random.default_rng(4), np.arange(6000) / RATE
+    pulses = sum(np.exp(-(((time - place / 20.0) / 0.15) ** 2)) for place in (210.0, 810.0))
+    error = 0.3 * random.standard_normal(time.size) if is_everywhere else pulses
+    record = Record("drive", "fit", "ts1", "usual", RATE, (0.3, 40.0), 20.0 * time, 1.0)
+    series = [error[None] + 0.1 * random.standard_normal((1, time.size)) for _ in range(3)]
+    pairs = [(record, series[a], series[b]) for a in range(3) for b in range(a)]
+    places = shared._places(pairs, 0, (1.0, 3.0))
+    said = str(shared.Band("a_y", 1.0, 3.0, 13.0, places))
+    assert said == ("a_y, 1-3 Hz (z = 13.0)" if is_everywhere else "a_y, 1-3 Hz (z = 13.0), half of it at 0.20-0.22, 0.80-0.82 km")
 
 
 @pytest.mark.parametrize("share, matters", [(0.02, False), (0.2, True)])

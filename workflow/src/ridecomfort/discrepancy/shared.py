@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.signal.windows import tukey
 
 from .experiment import Frame, Record
 from .floor import denser
+from .judged import band
 
 FINER = 10.0
 """Parts of a block within which white errors that repeats share depend on one another: they may be those of a single place."""
@@ -34,21 +35,30 @@ OF_SIGNAL = 0.05
 LIKELY = 3.0
 """z of what repeats share in a band from which on it may be worth explaining."""
 
+STRETCH, FEW = 20.0, 0.1
+"""m of road whose errors are taken together, and share of the road that may hold half of an error for its places to be told: a vehicle that
+is modelled wrongly errs all along a road, one that is blown at, or wades, at places."""
+
 FADING = 0.2
 """Share of a record over which it fades in and out before its spectrum is taken."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """A band (Hz) of a signal, and how surely repeats share an error in it, as a z."""
+    """A band (Hz) of a signal, and how surely repeats share an error in it, as a z; ``places``: the stretches (site, start and end in m) that
+    hold half of that, where they are FEW."""
 
     signal: str
     lower: float
     upper: float
     z: float
+    places: tuple[tuple[str, float, float], ...] = ()
 
     def __str__(self) -> str:
-        return f"{self.signal}, {self.lower:.0f}-{self.upper:.0f} Hz (z = {self.z:.1f})"
+        one_site = len({site for site, _, _ in self.places}) == 1
+        told = [f"{'' if one_site else f'{site} '}{start / 1000:.2f}-{end / 1000:.2f}" for site, start, end in self.places]
+        where = f", half of it at {', '.join(told)} km" if told else ""
+        return f"{self.signal}, {self.lower:.0f}-{self.upper:.0f} Hz (z = {self.z:.1f}){where}"
 
 
 @dataclass(frozen=True)
@@ -82,8 +92,10 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     z = float(total.sum() / np.sqrt(np.sum(total**2)))
     # Equally loud all along the road: were rough places the same ones in all repeats, neighbouring frequencies would not be independent.
     even = {index: part / frame.whitening[index].scale for index, part in cleaned.items()}
-    band = _surest(frame.experiment.channels, list(_pairs(frame, even)))
-    return Shared(float(total.sum() / power), z, float(total.sum()), band)
+    pairs = list(_pairs(frame, even))
+    surest = _surest(frame.experiment.channels, pairs)
+    places = _places(pairs, frame.experiment.channels.index(surest.signal), (surest.lower, surest.upper))
+    return Shared(float(total.sum() / power), z, float(total.sum()), replace(surest, places=places))
 
 
 def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:
@@ -126,6 +138,28 @@ def _surest(channels, pairs) -> Band:
     z = agreement / np.sqrt(np.where(variance > 0, variance, np.inf))
     c, k = np.unravel_index(np.argmax(z), z.shape)
     return Band(channels[c], float(edges[k]), float(edges[k + 1]), float(z[c, k]))
+
+
+def _places(pairs, channel: int, edges: tuple[float, float]) -> tuple[tuple[str, float, float], ...]:
+    """The fewest stretches that hold half of what repeats share of a channel between ``edges`` (Hz), in order; none where they are not FEW."""
+    held: dict[tuple[str, int], float] = {}
+    for record, *both in pairs:
+        one, other = (band(series[channel], record.rate, edges) for series in both)
+        numbers, where = np.unique(np.floor(record.place / STRETCH).astype(int), return_inverse=True)
+        for number, product in zip(numbers.tolist(), np.bincount(where, one * other).tolist()):
+            held[record.site, number] = held.get((record.site, number), 0.0) + product
+    largest = sorted(held, key=lambda key: -held[key])
+    count = int(np.searchsorted(np.cumsum([held[key] for key in largest]), 0.5 * sum(held.values()))) + 1
+    if count > FEW * len(held):
+        return ()
+    found: list[tuple[str, float, float]] = []
+    for site, number in sorted(largest[:count]):
+        start, end = STRETCH * number, STRETCH * (number + 1)
+        if found and found[-1][0] == site and found[-1][2] == start:
+            found[-1] = (site, found[-1][1], end)
+        else:
+            found.append((site, start, end))
+    return tuple(found)
 
 
 def _bands(channels, pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
