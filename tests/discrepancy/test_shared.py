@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import select, shared, verdict
+from ridecomfort.discrepancy import balance, select, shared, verdict
 from ridecomfort.discrepancy.experiment import Record
 from ridecomfort.discrepancy.judged import band
 from ridecomfort.discrepancy.shared import is_material, shared_error
@@ -29,7 +29,7 @@ def test_what_repeats_share_in_a_narrow_band_is_told_with_its_signal_and_band():
     selection, found = judged(model)
     surest = selection.remaining.band
     assert surest.signal == "c" and surest.lower <= 27.3 <= surest.upper
-    assert selection.remaining.share < verdict.SHARED, "it is too narrow to be seen in the whole"
+    assert selection.remaining.share < balance.SHARED, "it is too narrow to be seen in the whole"
     assert found.verdict == "outside" and any("c, 2" in reason for reason in found.reasons)
 
 
@@ -44,7 +44,7 @@ def test_on_a_road_that_is_another_an_error_that_repeats_share_counts_where_it_i
 @pytest.mark.parametrize("seed", range(20, 26))
 def test_noise_of_every_drive_agrees_in_no_band(seed):
     selection, found = judged(Linear(seed, {}))
-    assert selection.remaining.band.z < verdict.SHARED_BAND_Z and found.verdict == "nothing"
+    assert selection.remaining.band.z < balance.SHARED_BAND_Z and found.verdict == "nothing"
 
 
 @pytest.mark.parametrize("is_everywhere", [False, True])

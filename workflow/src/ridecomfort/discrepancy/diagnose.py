@@ -10,6 +10,7 @@ import xarray as xr
 
 from .. import pool
 from . import opening, refit
+from .balance import CONFIRMED, DOUBTFUL, ENOUGH, LITTLE
 from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, without_effects
 from .car import Car
 from .discover import Discovery, discovered
@@ -20,7 +21,7 @@ from .rank import ranked
 from .ranking import with_forms
 from .rung import Rung, begin
 from .selection import Selection
-from .verdict import CONFIRMED, DOUBTFUL, ENOUGH, LITTLE, Verdict, with_parameters
+from .verdict import Verdict, with_parameters
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""

@@ -16,6 +16,7 @@ import xarray as xr
 
 from .. import pool
 from . import opening
+from .balance import total_shares
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words
@@ -25,7 +26,7 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import search
 from .selection import Selection
-from .verdict import plain, total_shares
+from .verdict import plain
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ import xarray as xr
 
 from .. import pool
 from . import floor, opening, suspect, turns
+from .balance import CONFIRMED, ENOUGH, SHARED_Z, is_slow, total_shares
 from .car import Car
 from .experiment import Frame
 from .ranking import dataset
@@ -17,7 +18,7 @@ from .select import search
 from .selection import Selection
 from .signature import signature
 from .shared import is_material
-from .verdict import CONFIRMED, ENOUGH, SHARED_Z, Verdict, is_slow, judge, standing, total_shares, with_remainder
+from .verdict import Verdict, judge, standing, with_remainder
 
 
 def rank(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from ...discrepancy.balance import LITTLE
 from ...discrepancy.diagnose import EQUAL
-from ...discrepancy.verdict import LITTLE
 from ...effects import library
 from ...study import BASE, JOIN
 from ..study import Diagnosis

@@ -8,9 +8,10 @@ import numpy as np
 import xarray as xr
 
 from ...discrepancy import ranking
+from ...discrepancy.balance import LITTLE
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
-from ...discrepancy.verdict import LITTLE, first_sentence, sentence
+from ...discrepancy.verdict import first_sentence, sentence
 from ...effects.contract import PORTS
 from .. import catalogue
 from ..notation import unit, words

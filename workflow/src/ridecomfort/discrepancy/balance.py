@@ -1,0 +1,107 @@
+"""What accepted effects explain of what repeats share (of the error where nothing was repeated), what they leave, and whether that matters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+from .propose import HELD_OUT_Z, SURE
+from .selection import Selection, shares
+
+ENOUGH = 0.5
+"""Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
+
+DOUBTFUL = 0.8
+"""Share of the explainable error below which what was named may be the work of something that is not in the library, and is not named
+where repeats surely share an error still."""
+
+SHARED_Z = 3.0
+"""z of the error that repeats still share above which something is left to explain."""
+
+LEFT_Z = 2.33
+"""z above which more than half of what repeats shared is left, so that something else is missing, too: at a level of 1 %."""
+
+LITTLE = 0.2
+"""Share of the explainable error below which what was found may be what a road that is otherwise looks like, or a driver: forces of any
+form take up to 0.13 where nothing but noise of the road is wrong."""
+
+SHARED = 0.05
+"""Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
+nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
+
+SLOW, SLOW_Z = 7.0, 7.0
+"""Hz up to which, in waves of some metres, noise of a road's points does not show beside the road itself, and z of an error that repeats
+share there from which on it is none: up to 5.7 where the road is noisy by 0.1 mm or interpolated otherwise (8.7 with 0.2 mm, at 30 Hz and
+more)."""
+
+SHARED_BAND_Z = 5.0
+"""z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain; up to
+3.8 where nothing is missing and the road is as its file says, 6.5 where it is interpolated otherwise."""
+
+CONFIRMED = 0.25
+"""Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What a selection explains of what repeats share (of the error where nothing was repeated), and what it leaves."""
+
+    share: float
+    held_out: float
+    explained: float
+    is_refuted: bool
+    """Whether drives held out, which have what was named, are hardly better for it."""
+    is_shared: bool
+    """Whether repeats surely share an error still."""
+    is_left: bool
+    """Whether they share one that is worth explaining."""
+    is_little: bool
+    """Whether what was found is too little to be what is missing."""
+
+
+def balanced(selection: Selection, notes: Sequence[str], is_material: bool) -> Balance:
+    """The balance of a selection; ``notes`` say that the road may be another than that of its file, ``is_material`` whether what repeats share
+    is worth explaining."""
+    share, held_out = total_shares(selection)
+    band = selection.remaining.band
+    # A road that is another makes errors that repeats share, but fast ones.
+    in_band = band is not None and band.z > SHARED_BAND_Z and (not notes or is_slow(selection))
+    is_shared = something_left(selection) or in_band
+    is_left = is_material and (is_shared or bool(answered(selection)))
+    explained = max(share, selection.shared_gone) if selection.has_repeats else share
+    is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
+    is_refuted = is_met and held_out < CONFIRMED
+    was_shared = selection.shared_z > SHARED_Z or not selection.has_repeats
+    # Both z hold the same noise, of which that of the difference to a half has half.
+    left_z = (selection.remaining.z - ENOUGH * selection.shared_z) / ENOUGH
+    may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
+    enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
+    is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
+    return Balance(share, held_out, explained, is_refuted, is_shared, is_left, is_little)
+
+
+def total_shares(selection: Selection) -> tuple[float, float]:
+    """Share of the explainable error that all accepted effects remove together, fitted and held out (nan without)."""
+    return shares(selection, selection.states[0], selection.states[-1])
+
+
+def something_left(selection: Selection) -> bool:
+    """Whether repeats share an error that the last model does not explain; False without repeats."""
+    return bool(selection.remaining.z > SHARED_Z and selection.remaining.share > SHARED)
+
+
+def answered(selection: Selection) -> list[str]:
+    """Names of candidates that make surely something better, on fitted drives and on those held out, where nothing was accepted or
+    repeated: what is left is more than noise."""
+    if selection.has_repeats or selection.accepted or not selection.rounds:
+        return []
+    turn = selection.rounds[-1]
+    p_value = dict(zip(turn.names, turn.p_value))
+    return [trial.name for trial in turn.trials if p_value[trial.name] <= SURE and trial.held_out_z > HELD_OUT_Z]
+
+
+def is_slow(selection: Selection) -> bool:
+    """Whether what repeats share most surely is too slow to be noise of the road's points or what lies between them."""
+    band = selection.remaining.band
+    return band is not None and band.upper <= SLOW and band.z > SLOW_Z
