@@ -39,9 +39,9 @@ PORTS: Mapping[str, Port] = MappingProxyType(
             ("wheel", "deflection"),
             ("recession", "toe", "scrub"),
             True,
-            "how the links lead a wheel that is compressed by `deflection` from rest (m): how far it moves back per "
-            "compression (m/m), the angle in rad by which it is turned to the left, and how far to the left it moves per "
-            "compression (m/m; beside the scrub of its roll centre)",
+            "how the links lead a wheel that is compressed by `deflection` from rest (m): `recession`, how far it moves back per "
+            "compression (m/m), `toe`, the angle in rad by which it is turned to the left, and `scrub`, how far to the left it "
+            "moves per compression (m/m; beside that of its roll centre)",
         ),
         "suspension": Port(
             ("wheel", "deflection", "velocity", "stiffness", "damping", "force_x", "force_y"),
