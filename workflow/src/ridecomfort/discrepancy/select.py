@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import InputError
 from . import cluster, floor, probe, realign, refit
 from . import experiment as exp
+from .consistency import birge_ratio
 from .experiment import Candidate, Experiment
 from .probe import Job, Raw
 from .propose import HELD_OUT_Z, Proposal, propose
@@ -131,7 +132,12 @@ class _Search:
         rung = self.rung
         final, frame = final_fit(rung, self._sizes(), self.each)
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
-        bounds = {key: found for key, found in refit.intervals(final, frame, self._sizes()).items() if key not in typical}
+        wider = birge_ratio(rung, final, frame, self._sizes(), self.each)
+        bounds = {
+            key: tuple(final.values[key] + wider * (end - final.values[key]) for end in found)
+            for key, found in refit.intervals(final, frame, self._sizes()).items()
+            if key not in typical
+        }
         # What shapes an effect means nothing where that is not there: it is held where only this is asked.
         sizes = [size for size in self._sizes() if not size.shaping]
         strict = refit.intervals(final, frame, sizes, held=True)
@@ -142,7 +148,7 @@ class _Search:
         return Selection(
             tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,
-            rung.check_frame,
+            rung.check_frame, wider,
         )  # fmt: skip
 
     def _sizes(self) -> list[exp.Size]:

@@ -102,6 +102,8 @@ class Selection:
     """Residuals of the records held out with the last model..."""
     check_frame: Frame | None = None
     """...and their frame; none without such records."""
+    birge_ratio: float = 1.0
+    """Times by which those drives miss the sizes beyond the errors of both, and by which the intervals are widened (``consistency``)."""
 
 
 def shares(selection: Selection, before: State, after: State, *others: Selection | Rung) -> tuple[float, float]:

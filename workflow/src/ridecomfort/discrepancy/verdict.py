@@ -151,6 +151,8 @@ def judge(
         kind = "nothing"
         if something_left(selection):
             reasons.append(f"repeats share an error, too small to matter or of a kind that drivers make: {selection.remaining}")
+    if effects and selection.birge_ratio > 1.0:
+        reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
     said = (*reasons, _floor(selection))
     left = balance.is_left, balance.is_shared
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error)

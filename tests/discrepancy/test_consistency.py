@@ -1,0 +1,42 @@
+"""Drives held out that ask for other sizes than the fitted ones make intervals wider, and those that agree do not."""
+
+from __future__ import annotations
+
+from ridecomfort.discrepancy import refit, select, verdict
+
+from .linear import Linear
+
+SIZE = "effect_2.size"
+
+
+class Otherwise(Linear):
+    """The drive held out was driven by a car that has a little less of an effect, and another stiffness."""
+
+    def residual(self, values, index):
+        own = {SIZE: values.get(SIZE, 0.0) + 0.3, "stiffness": values.get("stiffness", 0.0) - 0.3} if index == 3 else {}
+        return super().residual({**values, **own}, index)
+
+
+def half_widths(selection):
+    own = refit.intervals(selection.final, selection.frame, [selection.frame.experiment.candidates[2].sizes[0]])[SIZE]
+    return [0.5 * (upper - lower) for lower, upper in (selection.intervals[SIZE], own)]
+
+
+def test_intervals_stay_as_they_are_where_held_out_drives_have_the_same_sizes():
+    ratios = [select.select(Linear(seed, {SIZE: 2.0}), {"stiffness": 0.0}, most=1).birge_ratio for seed in range(60, 80)]
+    assert ratios.count(1.0) >= 19
+
+
+def test_intervals_are_widened_by_what_held_out_drives_disagree_and_the_verdict_says_so():
+    model = Otherwise(60, {SIZE: 2.0})
+    selection = select.select(model, {"stiffness": 0.0}, most=1)
+    told, own = half_widths(selection)
+    assert selection.birge_ratio > 2.0 and told > 1.5 * own
+    found = verdict.judge(selection, model.candidates)
+    assert any(f"ask for other sizes by {selection.birge_ratio:.1f} times" in reason for reason in found.reasons)
+
+
+def test_without_a_drive_held_out_nothing_is_widened():
+    model = Linear(60, {SIZE: 2.0})
+    model.records, model.columns, model.noise = model.records[:3], model.columns[:3], model.noise[:3]
+    assert select.select(model, {"stiffness": 0.0}, most=1).birge_ratio == 1.0
