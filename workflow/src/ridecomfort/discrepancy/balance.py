@@ -67,8 +67,8 @@ def balanced(selection: Selection, notes: Sequence[str], is_material: bool) -> B
     band = selection.remaining.band
     # A road that is another makes errors that repeats share, but fast ones.
     in_band = band is not None and band.z > SHARED_BAND_Z and (not notes or is_slow(selection))
-    is_shared = something_left(selection) or in_band
-    is_left = is_material and (is_shared or bool(answered(selection)))
+    still = something_left(selection) or in_band
+    is_left = is_material and (still or bool(answered(selection)))
     explained = max(share, selection.shared_gone) if selection.has_repeats else share
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     is_refuted = is_met and held_out < CONFIRMED
@@ -78,7 +78,7 @@ def balanced(selection: Selection, notes: Sequence[str], is_material: bool) -> B
     may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
     enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
-    return Balance(share, held_out, explained, is_refuted, is_shared, is_left, is_little)
+    return Balance(share, held_out, explained, is_refuted, still, is_left, is_little)
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:
@@ -89,6 +89,12 @@ def total_shares(selection: Selection) -> tuple[float, float]:
 def something_left(selection: Selection) -> bool:
     """Whether repeats share an error that the last model does not explain; False without repeats."""
     return bool(selection.remaining.z > SHARED_Z and selection.remaining.share > SHARED)
+
+
+def is_shared(selection: Selection) -> bool:
+    """Whether repeats surely share an error still, in all or in one band of one signal."""
+    band = selection.remaining.band
+    return selection.remaining.z > SHARED_Z or (band is not None and band.z > SHARED_BAND_Z)
 
 
 def answered(selection: Selection) -> list[str]:

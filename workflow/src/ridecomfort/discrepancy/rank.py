@@ -9,7 +9,7 @@ import xarray as xr
 
 from .. import pool
 from . import floor, opening, suspect, turns
-from .balance import CONFIRMED, ENOUGH, SHARED_Z, is_slow, total_shares
+from .balance import CONFIRMED, ENOUGH, is_shared, is_slow, total_shares
 from .car import Car
 from .experiment import Frame
 from .ranking import dataset
@@ -78,7 +78,7 @@ def ranked(
     matters = _is_material(selection)
     of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
-    doubts = suspicions(experiment, selection, is_explained, matters and selection.remaining.z > SHARED_Z)
+    doubts = suspicions(experiment, selection, is_explained, matters and is_shared(selection))
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]

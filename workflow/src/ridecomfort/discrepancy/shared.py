@@ -35,9 +35,9 @@ OF_SIGNAL = 0.05
 LIKELY = 3.0
 """z of what repeats share in a band from which on it may be worth explaining."""
 
-STRETCH, FEW = 20.0, 0.1
-"""m of road whose errors are taken together, and share of the road that may hold half of an error for its places to be told: a vehicle that
-is modelled wrongly errs all along a road, one that is blown at, or wades, at places."""
+STRETCH, FEW, PLACED = 20.0, 0.1, 5.0
+"""m of road whose errors are taken together, share of the road that may hold half of an error for its places to be told, and z from which on
+they are: a vehicle that is modelled wrongly errs all along a road, one that is blown at, or wades, at places."""
 
 FADING = 0.2
 """Share of a record over which it fades in and out before its spectrum is taken."""
@@ -94,8 +94,10 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     even = {index: part / frame.whitening[index].scale for index, part in cleaned.items()}
     pairs = list(_pairs(frame, even))
     surest = _surest(frame.experiment.channels, pairs)
-    places = _places(pairs, frame.experiment.channels.index(surest.signal), (surest.lower, surest.upper))
-    return Shared(float(total.sum() / power), z, float(total.sum()), replace(surest, places=places))
+    if surest.z > PLACED:
+        places = _places(pairs, frame.experiment.channels.index(surest.signal), (surest.lower, surest.upper))
+        surest = replace(surest, places=places)
+    return Shared(float(total.sum() / power), z, float(total.sum()), surest)
 
 
 def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:
