@@ -141,6 +141,8 @@ def test_a_setting_that_was_tried_and_not_fitted_is_said():
     )
     _, found = judged(model)
     assert "effect_2 was found with setting 0.5 held, the best of a few values that were tried" in found.reasons
+    (held,) = found.effects[0].held
+    assert (held["parameter"], held["size"], held["is_typical"]) == ("setting", 0.5, False)
 
 
 def test_two_missing_effects_are_both_found():

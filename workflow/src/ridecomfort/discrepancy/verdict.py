@@ -13,6 +13,7 @@ from .cluster import SAME_PORT
 from .experiment import Candidate, Size
 from .propose import LEVEL, SURE
 from .selection import Selection, shares
+from .tries import LEAST_MOVED
 
 MOST = 0.8
 """Share of what repeats share that an error of the measurement must take to be all that is wrong."""
@@ -54,7 +55,7 @@ class Named:
     is_of_measurement: bool = False
     """Whether it is an error of the measurement, not of the vehicle."""
     held: tuple[dict, ...] = ()
-    """What shapes it and was not fitted: parameter, unit and the value at which it was held."""
+    """What shapes it and was not fitted, or came out as is typical: parameter, unit, value, and whether that is the typical one."""
 
 
 @dataclass(frozen=True)
@@ -285,7 +286,7 @@ def _named(selection: Selection, number: int, by_name) -> Named:
         if size.key in selection.intervals:
             sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
     held = [
-        {"parameter": size.key.partition(".")[2], "size": float(selection.final.values.get(size.key, size.neutral)), "unit": size.unit}
+        _held(size, selection.final.values.get(size.key, size.neutral))
         for size in by_name[winner.name].shaping
         if size.key not in selection.intervals
     ]
@@ -305,6 +306,16 @@ def _size(size: Size, value: float, interval: tuple[float, float]) -> dict:
         "interval": [float(end) for end in interval],
         "plausible": [float(size.lower), float(size.upper)],
         "is_plausible": size.holds(value),
+    }
+
+
+def _held(size: Size, value: float) -> dict:
+    is_typical = abs(value - size.neutral) < LEAST_MOVED * size.probe
+    return {
+        "parameter": size.key.partition(".")[2],
+        "size": float(size.neutral if is_typical else value),
+        "unit": size.unit,
+        "is_typical": bool(is_typical),
     }
 
 

@@ -25,8 +25,8 @@ SUSPECT = "The data are suspect: what stands here explains their error as they a
 FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
 """What is said where those are all that was found."""
 
-HELD = "held, not fitted"
-"""What is said of what only shapes an effect where the drives did not ask for another value."""
+HELD = {True: "as is typical", False: "held, the best of a few"}
+"""What is said of what only shapes an effect, by whether it is as is typical, where the drives did not ask for another value."""
 
 STRONGEST = 12
 """Candidates of a round that are drawn, and forms of a force that are told."""
@@ -99,7 +99,7 @@ def missing_effects(found: Diagnosis) -> Table:
             if lower is not None and lower <= 0.0 <= upper:
                 plausible += ", may be nil"
             if size.get("is_held"):
-                plausible = HELD
+                plausible = HELD[size["is_typical"]]
             if size.get("plausible"):
                 plausible += " ({:.4g} to {:.4g})".format(*size["plausible"])
             rows.append(
