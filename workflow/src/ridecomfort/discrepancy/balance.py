@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-
 from .propose import HELD_OUT_Z, SURE
 from .selection import Selection, shares
 
