@@ -47,6 +47,9 @@ asked = {"compare", "diagnose"} & set(sys.argv)
 if asked and not study.measured:
     sites = ", ".join(study.names)
     sys.exit(f"error: no site of {sites} has measured drives, so that there is nothing to {min(asked)} (expected drives in its file)")
+if "diagnose" in asked and not study.diagnosed:
+    sites = ", ".join(study.measured)
+    sys.exit(f"error: all drives of {sites} are held out, so that there is nothing to diagnose on (expected drives with role: fit)")
 
 progress.follow(workflow)
 

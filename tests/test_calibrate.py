@@ -267,6 +267,13 @@ def test_what_a_single_block_knows_is_not_known():
     assert known.half_width[0] < 0.01 and known.half_width[1] > 100
 
 
+def test_a_record_of_one_block_knows_nothing():
+    """A stretch of two seconds fits as well as any; no other says by how much it would differ."""
+    rng = np.random.default_rng(2)
+    known = identifiability.assess(rng.standard_normal((1, 200, 2)), 0.01 * rng.standard_normal((1, 200)), np.zeros(200, int))
+    assert np.isinf(known.half_width).all()
+
+
 def test_a_collinear_pair_is_named():
     rng = np.random.default_rng(0)
     first = rng.standard_normal(2000)

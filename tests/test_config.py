@@ -369,6 +369,21 @@ def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
     assert "noise_density" not in stepsettings.as_json(study, "measured", "own")
 
 
+def test_without_calibration_the_drives_of_one_vehicle_are_diagnosed_together(project):
+    """Those that only hold drives out come behind one that has some to fit; of another vehicle nothing is diagnosed beside them."""
+    (project / "drive.csv").touch()
+    site = {"road": {"file": "road.crg"}, "drives": [DRIVE], "calibrated_on": "none"}
+    write(project, "checked", {**site, "drives": [{**DRIVE, "role": "check"}]})
+    write(project, "fitted", site)
+    write(project, "of_a_van", {**site, "vehicle": "van"})
+    study = config.load({"sites": ["checked", "of_a_van", "fitted"]}, project)
+    assert study.diagnosed == ["of_a_van"]
+    study = config.load({"sites": ["checked", "fitted", "of_a_van"]}, project)
+    assert study.diagnosed == ["fitted", "checked"]
+    study = config.load({"sites": ["checked"]}, project)
+    assert study.diagnosed == [] and not study.forward
+
+
 def test_the_study_goes_forward_only_where_drives_are_diagnosed_and_is_scored_only_on_stand_ins(project):
     paper = config.load({**read(project), "sites": ["ts1"]}, project)
     assert paper.forward and paper.scored

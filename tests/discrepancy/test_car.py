@@ -38,6 +38,16 @@ def test_what_a_vehicle_has_not_is_no_size_of_it(made):
     assert {"anti_roll_stiffness_rear"} == {size.key for size in made.free} - {size.key for size in free}
 
 
+def test_a_roll_centre_below_the_ground_may_be_wrong_by_a_share_of_its_depth(made):
+    below = made.vehicle.replace(roll_centre_height_front=-0.05)
+    site = opening.Site("trial", made.replays[0].road, [made.replays[0].drive])
+    (found,) = (
+        size for size in opening.car([site], below, library_names=["crosswind"], uncertain={"roll_centre_height_front": 0.2}).free
+        if size.key == "roll_centre_height_front"
+    )  # fmt: skip
+    assert (found.lower, found.upper) == pytest.approx((-0.06, -0.04))
+
+
 def test_what_was_calibrated_is_fitted_again_within_its_bounds_and_nothing_twice(made):
     """Of the paper's five, those that the user took out are not."""
     calibration = xr.Dataset(

@@ -19,8 +19,9 @@ def comparison(repeats=3):
     noise = np.stack([coloured(rng, 6000) for _ in range(repeats)])
     residual = np.stack([common + noise, 0.5 * common + noise])
     series = (("drive", "time"), np.broadcast_to(20.0 * time, (repeats, 6000)))
+    constant = lambda value: series[:1] + (np.full((repeats, 6000), value),)
     return noise, xr.Dataset(
-        {"residual": (("state", "drive", "signal", "time"), residual), "s": series, "v_x": series[:1] + (np.full((repeats, 6000), 20.0),)},
+        {"residual": (("state", "drive", "signal", "time"), residual), "s": series, "v_x": constant(20.0), "e": constant(0.0)},
         {"state": ["reference", "calibrated"], "time": time},
     )
 
@@ -79,10 +80,20 @@ def test_drives_at_one_speed_on_other_stretches_repeat_nothing():
         assert floor in explain(moved).attrs["floor"]
 
 
+def test_drives_on_other_tracks_repeat_nothing():
+    """Their wheels meet another road: what a model of it gets wrong differs, too, and is no noise."""
+    compared = comparison(repeats=2)[1]
+    for apart, floor in ((0.1, "from repeats"), (0.25, "from repeats"), (0.5, "nil"), (3.5, "nil")):
+        moved = compared.assign(e=compared["e"] + xr.DataArray([0.0, apart], dims="drive"))
+        assert floor in explain(moved).attrs["floor"]
+    weaving = compared.assign(e=compared["e"] + 0.3 * np.sin(compared["s"] / 30.0) * xr.DataArray([-1.0, 1.0], dims="drive"))
+    assert "nil" in explain(weaving).attrs["floor"]
+
+
 def test_drives_that_repeat_one_another_all_have_a_stretch_in_common():
     """The third has all of its own in common with the first, but hardly anything with both others."""
     passages, numbers = [], []
     for start, end in ((0.0, 2000.0), (0.0, 1020.0), (1000.0, 2000.0)):
-        numbers.append(joined(passages, np.linspace(start, end, 101), np.linspace(0.0, (end - start) / 20.0, 101)))
+        numbers.append(joined(passages, np.linspace(start, end, 101), np.linspace(0.0, (end - start) / 20.0, 101), np.zeros(101)))
     assert numbers == [0, 0, 1]
-    assert passages == [(20.0, 0.0, 1020.0), (20.0, 1000.0, 2000.0)]
+    assert [passage[:3] for passage in passages] == [(20.0, 0.0, 1020.0), (20.0, 1000.0, 2000.0)]

@@ -55,7 +55,8 @@ def assess(
     correlated in any way among signals and within a block, and have any variance; blocks are independent. Unlike the
     sandwich it holds where few blocks (the only bends of a road) carry what is known of a parameter.
     Intervals take Student's t with blocks - 1 degrees of freedom. A parameter that has a part in a direction which the
-    data do not see at all gets an infinite variance, not an error.
+    data do not see at all gets an infinite variance, not an error. So does every parameter where there is one
+    block only: nothing tells by how much another would differ.
     """
     count = jacobian.shape[-1]
     influence = jacobian if influence is None else influence
@@ -72,7 +73,7 @@ def assess(
     weights, directions = np.linalg.eigh(normal)
     is_known = weights > SEEN * weights.max()
     known = directions[:, is_known]
-    seen = seen & ~(np.abs(directions[:, ~is_known]) > LEAST_PART).any(axis=1)
+    seen = seen & ~(np.abs(directions[:, ~is_known]) > LEAST_PART).any(axis=1) & (labels.size > 1)
     without = known.T @ (normal - squares) @ known + ONLY_HERE * np.eye(known.shape[1])
     shifts = np.linalg.solve(without, (scores @ known)[:, :, None])[:, :, 0] @ known.T / size
     covariance = (labels.size - 1) / labels.size * shifts.T @ shifts

@@ -137,11 +137,14 @@ class Study:
     def diagnosed(self) -> list[str]:
         """The sites whose drives are searched for missing effects: those of the vehicle that is calibrated first.
 
-        The site that it is calibrated on comes first; without any calibration, all sites with drives.
+        The site that it is calibrated on comes first; without any calibration, the first with drives to fit, and those of its vehicle.
         """
         first = self.calibrations[:1]
-        same = [site for site in self.measured if [self.calibrated_on(site)] == first and site not in first]
-        return [*first, *same] or self.measured
+        if first:
+            return [*first, *(site for site in self.measured if [self.calibrated_on(site)] == first and site not in first)]
+        first = [site for site in self.measured if has_fit(self.sites[site])][:1]
+        vehicle = [self.vehicle(site) for site in first]
+        return [*first, *(site for site in self.measured if [self.vehicle(site)] == vehicle and site not in first)]
 
     def library_files(self) -> list[str]:
         """The file of every effect that may be missing."""

@@ -19,7 +19,7 @@ SAME = 0.8
 """Canonical correlation beyond which two candidates are one cluster."""
 
 SEEN = 1e-3
-"""Share of a column's power that must be left after projection for it to count as seen."""
+"""Share of a column's rms that must be left after projection for it to count as seen."""
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,10 @@ from .experiment import Record
 from .floor import deviations
 from .judged import judged, lowest
 
-SAME_SPEED, COMMON = 0.05, 0.5
-"""Relative difference of mean speeds within which drives repeat one another, and share of the shorter that both must have driven."""
+SAME_SPEED, COMMON, SAME_PATH = 0.05, 0.5, 0.3
+"""Relative difference of mean speeds within which drives repeat one another, share of the shorter that both must have driven, and m (rms)
+that their paths may lie apart. On other tracks wheels meet another road, so that errors of the model differ, too, and pass for noise: up to
+15 % of them at 0.3 m, half at 0.6 m."""
 
 REPEATS = "from repeats"
 NIL = "taken as nil: no drive was repeated"
@@ -28,11 +30,18 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 
 class Passage(NamedTuple):
-    """What drives that repeat one another drove: the mean ``speed`` of the first (m/s), ``start`` and ``end`` (m)."""
+    """What drives that repeat one another drove: the mean ``speed`` of the first (m/s), ``start`` and ``end`` (m), and its ``path``, lateral
+    position over place (m)."""
 
     speed: float
     start: float
     end: float
+    path: tuple[np.ndarray, np.ndarray]
+
+    def apart(self, other: Passage) -> float:
+        """rms distance (m) of the paths where both were driven."""
+        place = np.linspace(max(self.start, other.start), min(self.end, other.end), 200)
+        return float(np.sqrt(np.mean((np.interp(place, *self.path) - np.interp(place, *other.path)) ** 2)))
 
 
 @dataclass(frozen=True)
@@ -99,21 +108,23 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
     groups: list[list[int]] = []
     for number, place in enumerate(comparison["s"].transpose("drive", "time").values):
         known = np.isfinite(place)
-        group = joined(passages, place[known], comparison["time"].values[known])
+        aside = comparison["e"].isel(drive=number).values[known]
+        group = joined(passages, place[known], comparison["time"].values[known], aside)
         groups += [[]] * (len(passages) - len(groups))
         groups[group] = [*groups[group], number]
     return [own for own in groups if len(own) > 1]
 
 
-def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray) -> int:
-    """Number of the first of ``passages`` that a drive (places in m over time in s) repeats, which is cut to what they have in common; of a
-    passage of its own, which is added, where there is none."""
-    own = Passage(float(np.ptp(place) / np.ptp(time)), float(np.min(place)), float(np.max(place)))
+def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral: np.ndarray) -> int:
+    """Number of the first of ``passages`` that a drive (place and lateral position in m over time in s) repeats, which is cut to what they
+    have in common; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
+    own = Passage(float(np.ptp(place) / np.ptp(time)), float(np.min(place)), float(np.max(place)), (place, np.nan_to_num(lateral)))
     for number, known in enumerate(passages):
         start, end = max(own.start, known.start), min(own.end, known.end)
         enough = COMMON * min(own.end - own.start, known.end - known.start)
-        if abs(known.speed - own.speed) < SAME_SPEED * known.speed and end - start > enough:
-            passages[number] = Passage(known.speed, start, end)
+        is_along = abs(known.speed - own.speed) < SAME_SPEED * known.speed and end - start > enough
+        if is_along and known.apart(own) < SAME_PATH:
+            passages[number] = known._replace(start=start, end=end)
             return number
     passages.append(own)
     return len(passages) - 1

@@ -149,7 +149,7 @@ def _not_repeated(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
     passages: list[Passage] = []
     first = {}
     for drive in drives:
-        first.setdefault(joined(passages, drive["s"].values, drive["time"].values), drive)
+        first.setdefault(joined(passages, drive["s"].values, drive["time"].values, drive["e"].values), drive)
     return list(first.values())
 
 
@@ -185,7 +185,7 @@ def _parameters(vehicle, calibrated: Mapping[str, Sequence[float]], uncertain: M
         if name in calibrated:
             continue
         span = PARAMETERS[name]
-        lower, upper = (min(max(vehicle[name] * factor, span.lower), span.upper) for factor in (1 - share, 1 + share))
+        lower, upper = sorted(min(max(vehicle[name] * factor, span.lower), span.upper) for factor in (1 - share, 1 + share))
         if lower < upper:  # what a vehicle has not, as a bar, is no size of it
             free.append(_parameter(name, vehicle[name], (lower, upper)))
     return free
@@ -211,7 +211,7 @@ def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[
 
 def _record(site: str, again: Replay, role: str, passages: list[Passage], several: bool) -> Record:
     place, time = again.place[again.compared], again.time[again.compared]
-    number = joined(passages, place, time)
+    number = joined(passages, place, time, again.drive["e"].values[again.compared])
     speed = passages[number].speed
     rate = rate_of(time)
     band = (LOWEST, min(HIGHEST * float(again.drive.attrs["cut_off"]), 0.45 * rate))
