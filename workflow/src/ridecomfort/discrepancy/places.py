@@ -102,10 +102,10 @@ def _sliding(expression: str, unit: str, beside: str) -> Term:
     return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
 
 
-def _beyond(expression: str, *clearances: float) -> Term:
+def _beyond(expression: str, *clearances: float, unit: str = "N/m", beside: str = "deflection") -> Term:
     """What acts from a deflection on: a typical clearance, the least and the largest."""
     clearance = _setting("clearance", "m", *clearances, "deflection from which on it acts")
-    return Term(expression, "N/m", settings=(clearance,), beside="deflection")
+    return Term(expression, unit, settings=(clearance,), beside=beside)
 
 
 def _on_spring(
@@ -162,7 +162,14 @@ PLACES: Mapping[str, Place] = {
             "deflection_times_velocity": Term("deflection * velocity", "N s/m2", beside="velocity"),
             "bump_beyond": _beyond("max(deflection - clearance, 0.0)", 0.02, 0.005, 0.06),
             "rebound_beyond": _beyond("min(deflection + clearance, 0.0)", 0.02, 0.005, 0.06),
+            "bump_damping_beyond": _beyond(
+                "max(deflection - clearance, 0.0) * max(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity"
+            ),
+            "rebound_damping_beyond": _beyond(
+                "min(deflection + clearance, 0.0) * min(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity"
+            ),
             "deflection_direction": Term("tanh(deflection / 0.002)", "N", beside="deflection"),
+            "velocity_size_times_deflection_direction": Term("abs(velocity) * tanh(deflection / 0.002)", "N s/m", beside="velocity"),
             "deflection_size_times_direction": Term("abs(deflection) * tanh(velocity / 0.005)", "N/m", beside="velocity"),
             "deflection_of_sides": Term(f"deflection * {SIDE}", "N/m"),
             "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
@@ -248,6 +255,12 @@ PLACES: Mapping[str, Place] = {
             "toe_of_deflection": Term("deflection", "rad/m", "toe"),
             "toe_of_deflection_on_sides": Term(f"deflection * {SIDE}", "rad/m", "toe"),
             "toe_of_deflection_square_on_sides": Term(f"deflection**2 * {SIDE}", "rad/m2", "toe", beside=f"deflection * {SIDE}"),
+            "toe_late_on_sides": Term(
+                f"(deflection - slow) * {SIDE}", "rad/m", "toe",
+                states=(State("slow", f"{2 * pi:.4f} * frequency * (deflection - slow)", 0.004),),
+                settings=(_setting("frequency", "Hz", 15.0, 3.0, 60.0, "frequency up to which it goes by the speed of travel"),),
+                beside=f"deflection * {SIDE}",
+            ),
             "toe_dragged_on_sides": Term(
                 f"(deflection - held) * {SIDE}", "rad/m", "toe",
                 states=(State("held", "100.0 * (max(deflection - held - way, 0.0) + min(deflection - held + way, 0.0))", 0.008),),
