@@ -36,6 +36,17 @@ def test_the_missing_effect_is_named_measured_and_confirmed_on_the_held_out_driv
     assert selection.final.values["stiffness"] == pytest.approx(0.7, abs=0.05)
 
 
+def test_a_size_that_ends_beyond_what_is_plausible_is_a_reason_more():
+    """It was plausible when its effect was found; what is fitted beside it may have moved it since."""
+    model = Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0})
+    selection, found = judged(model)
+    assert not any("beyond what is plausible" in reason for reason in found.reasons)
+    narrow = lambda size: replace(size, upper=0.5) if size.key == "effect_2.size" else size
+    candidates = [replace(one, sizes=tuple(map(narrow, one.sizes))) for one in model.candidates]
+    (said,) = (reason for reason in verdict.judge(selection, candidates).reasons if "beyond what is plausible" in reason)
+    assert said.startswith("effect_2 ends at a size of ") and "to 0.5)" in said
+
+
 def test_what_white_noise_would_do_as_well_is_not_named_however_well_places_agree(monkeypatch):
     scored = evidence.score_test
 

@@ -249,9 +249,17 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
         else:
             kept.append(effect)
             reasons += _set(selection, by_name[effect.name])
+            reasons += [_beyond(effect, size) for size in effect.sizes if not size["is_plausible"]]
             if effect.name in unmet:
                 reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
     return kept, reasons
+
+
+def _beyond(effect: Named, size: Mapping) -> str:
+    """What is said of a size that was plausible when its effect was found, and is not once all is fitted together."""
+    value, unit, (lower, upper) = f"{size['size']:.3g}", size["unit"], size["plausible"]
+    told = f"{effect.name} ends at a {size['parameter']} of {value} {unit}".removesuffix(" 1")
+    return f"{told}, beyond what is plausible ({lower:g} to {upper:g}): it may stand in for something beside it"
 
 
 def _set(selection: Selection, candidate: Candidate) -> list[str]:
