@@ -36,9 +36,9 @@ def table():
             "ax [g]": 0.1 * np.sin(time),
             "ay right [m/s2]": np.cos(time),
             "az [g]": 1 + 0.1 * np.sin(time),
-            "p [deg/s]": 0 * time,
+            "p [deg/s]": np.cos(3 * time),
             "q [deg/s]": 10 * np.sin(time),
-            "r [deg/s]": 0 * time,
+            "r [deg/s]": np.sin(0.3 * time),
         }
     )
 
@@ -162,6 +162,26 @@ def test_what_is_wrong_in_a_table_is_said_in_one_line(tmp_path, frame, columns, 
     assert "\n" not in message and message.startswith(str(path))
     for word in words:
         assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("dead", "said"),
+    [(0.0, "roll_rate holds 0 rad/s throughout its 1000 samples"), (np.r_[1.0, np.full(999, 0.0)], "roll_rate holds 0 and 0.0174533 rad/s")],
+    ids=["filled", "filled behind its first sample"],
+)
+def test_a_dead_channel_is_refused_with_its_column_and_value(tmp_path, dead, said):
+    path = write(tmp_path, table().assign(**{"p [deg/s]": dead}))
+    with pytest.raises(InputError) as problem:
+        readers.read(path, COLUMNS)
+    message = str(problem.value)
+    assert message.startswith(f"{path}: column 'p [deg/s]': {said}") and "expected at least 3 different values" in message
+
+
+def test_a_coarse_channel_is_kept_and_so_is_a_simulated_vehicle_that_does_not_roll(tmp_path):
+    coarse = table().assign(**{"r [deg/s]": np.round(0.6 * np.sin(np.arange(1000)))})  # -1, 0 and 1: the last digit
+    assert set(np.round(np.degrees(readers.read(write(tmp_path, coarse), COLUMNS)["yaw_rate"].values), 9)) == {-1.0, 0.0, 1.0}
+    even = write(tmp_path, table().assign(**{"p [deg/s]": 0.0}))
+    assert not readers.read(even, COLUMNS, measured=False)["roll_rate"].any()
 
 
 def test_of_a_header_that_is_none_only_the_beginning_is_shown(tmp_path):

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import InputError
+from ...vocabulary import SIGNALS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,11 +41,12 @@ def check(path, columns: Mapping[str, Mapping] | None = None) -> None:
         look(path, columns)
 
 
-def read(path, columns: Mapping[str, Mapping] | None = None, **attributes) -> xr.Dataset:
-    """A measured drive from a file, by the reader of its suffix; see ``record.from_arrays``.
+def read(path, columns: Mapping[str, Mapping] | None = None, *, measured: bool = True, **attributes) -> xr.Dataset:
+    """A drive from a file, by the reader of its suffix; see ``record.from_arrays``.
 
     ``columns`` maps quantities to ``{"column": ..., "unit": ..., "factor": 1}``.
-    Attributes given here (name, role, gravity, sensor, ...) win over what the file says.
+    Attributes given here (name, role, gravity, sensor, ...) win over what the file says. A signal that is constant is
+    refused where it was ``measured``; a simulated vehicle need not roll or yaw on an even, straight road.
     """
     from .. import record
 
@@ -56,4 +58,8 @@ def read(path, columns: Mapping[str, Mapping] | None = None, **attributes) -> xr
         raise InputError(f"no reader for {path.suffix!r} (expected {', '.join(sorted(readers))})", file=path)
     reader = importlib.import_module(readers[path.suffix.lower()])
     quantities, own = reader.read(path, columns)
+    for signal in SIGNALS if measured else ():
+        if signal in quantities:
+            column = (columns or {}).get(signal, {}).get("column", signal)
+            record.check_alive(signal, quantities[signal][1], file=path, place=f"column {column!r}")
     return record.from_arrays(quantities, **{"name": path.stem, **own, **attributes}, file=path)
