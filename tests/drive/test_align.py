@@ -221,11 +221,18 @@ def test_the_end_of_a_record_is_continued_by_its_trend_and_not_by_its_noise(driv
     assert np.abs(moved["v_x"].values[-5:] - 20.0).max() < 0.02
 
 
+def test_a_drive_against_the_reference_line_is_called_that(drive, road, nominal):
+    recorded = quarter_cars.recorded(drive, name="back")
+    with pytest.raises(InputError, match="^drive back: s falls from .* driven against the reference line"):
+        aligned(recorded.assign(s=600 - recorded["s"]), road, nominal)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
         (lambda d: d.assign(v_x=d["v_x"].where(d["time"] < 10, 0.2)), "expected above 1 m/s"),
         (lambda d: d.assign(s=d["s"] + 300), "within the road"),
+        (lambda d: d.assign(s=600 - d["s"]), "s falls from 5.* to .* m: driven against the reference line, which is not supported"),
     ],
 )
 def test_a_drive_that_cannot_be_driven_again_is_refused(drive, road, change, words):
