@@ -117,6 +117,54 @@ def test_a_netcdf_file_whose_units_are_others_than_those_of_the_columns_is_refus
         readers.read(path, columns)
 
 
+@pytest.mark.parametrize(
+    ("unit", "factor"),
+    [("seconds", 1.0), ("milliseconds", 1e-3), ("seconds since 2020-01-01", 1.0), ("milliseconds since 2020-01-01 06:00:00", 1e-3)],
+)
+def test_the_clock_of_a_netcdf_file_may_be_spelled_out_or_hold_dates(tmp_path, unit, factor):
+    path, wave = netcdf(tmp_path / "drive.nc")
+    dataset = xr.open_dataset(path).load()
+    dataset.assign_coords(t=("t", (dataset["t"].values + 5.0) / factor, {"units": unit})).to_netcdf(tmp_path / "stamped.nc")
+    drive = readers.read(tmp_path / "stamped.nc", {"time": {"column": "t"}})
+    assert float(drive["time"][-1]) == pytest.approx(9.99)
+    np.testing.assert_allclose(drive["a_z"], wave, atol=1e-6)
+
+
+def test_dates_of_another_calendar_and_of_no_calendar_are_refused_in_one_line(tmp_path):
+    for name, unit, calendar in (("noleap", "seconds since 2020-01-01", "noleap"), ("none", "fortnights since yesterday", "standard")):
+        path, _ = netcdf(tmp_path / "drive.nc")
+        dataset = xr.open_dataset(path).load()
+        dataset = dataset.assign_coords(t=("t", dataset["t"].values, {"units": unit, "calendar": calendar}))
+        dataset.to_netcdf(tmp_path / f"{name}.nc")
+        with pytest.raises(InputError) as problem:
+            readers.read(tmp_path / f"{name}.nc", {"time": {"column": "t"}})
+        assert "\n" not in str(problem.value) and f"{name}.nc" in str(problem.value)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit", "written"),
+    [
+        ("time", "s", ("seconds", "second", "sec")),
+        ("a_x", "m/s2", ("m s-2", "m/s^2", "m/s²", "m/s**2", "m s^-2", "m s**-2", "m*s-2", "m.s-2", "m s⁻²", "meters per second^2")),
+        ("v_x", "m/s", ("m/s", "m s-1", "m s^-1", "m s**-1", "metres per second", "meter second-1")),
+        ("v_x", "km/h", ("km h-1", "kph", "kilometers/hour")),
+        ("s", "m", ("m", "metre", "meter", "metres", "meters")),
+        ("yaw_rate", "rad/s", ("rad s-1", "radian s-1", "radians/second")),
+        ("yaw_rate", "deg/s", ("degree s-1", "degrees/s", "°/s", "deg s⁻¹")),
+    ],
+)
+def test_units_may_be_spelled_as_udunits_and_headers_do(quantity, unit, written):
+    for other in written:
+        assert units.spelled(other) == unit, other
+        assert units.factor(quantity, other) == units.factor(quantity, unit)
+
+
+@pytest.mark.parametrize("unit", ["s-1", "mph", "m s-3", "metre s-2 rad", "seconds since 2020-01-01", ""])
+def test_units_that_are_not_known_stay_what_they_are_to_the_reader(unit):
+    with pytest.raises(InputError, match=rf"unit '{unit}' does not fit v_x"):
+        units.factor("v_x", unit)
+
+
 def test_places_at_the_car_become_places_about_its_centre_of_gravity(tmp_path, car):
     entry = {
         "columns": COLUMNS,
@@ -166,7 +214,10 @@ def test_what_is_wrong_in_a_table_is_said_in_one_line(tmp_path, frame, columns, 
 
 @pytest.mark.parametrize(
     ("dead", "said"),
-    [(0.0, "roll_rate holds 0 rad/s throughout its 1000 samples"), (np.r_[1.0, np.full(999, 0.0)], "roll_rate holds 0 and 0.0174533 rad/s")],
+    [
+        (0.0, "roll_rate holds 0 rad/s throughout its 1000 samples"),
+        (np.r_[1.0, np.full(999, 0.0)], "roll_rate holds 0 and 0.0174533 rad/s"),
+    ],
     ids=["filled", "filled behind its first sample"],
 )
 def test_a_dead_channel_is_refused_with_its_column_and_value(tmp_path, dead, said):
