@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -33,10 +33,25 @@ def suffixes() -> dict[str, str]:
     return found
 
 
+def reader_of(path):
+    """The module that reads a file of this name; InputError where there is none."""
+    readers, suffix = suffixes(), Path(path).suffix.lower()
+    if suffix not in readers:
+        raise InputError(f"no reader for {Path(path).suffix!r} (expected {', '.join(sorted(readers))})", file=path)
+    return importlib.import_module(readers[suffix])
+
+
+def missing(found: Collection[str]) -> str:
+    """What a drive lacks whose quantities these are, with what is expected; "" for nothing."""
+    lacks = [name for name in ("time", *SIGNALS) if name not in found]
+    if not lacks and not {"v_x", "s"} & {*found}:
+        lacks = ["v_x or s"]
+    return f"no {', '.join(lacks)} (expected time, {', '.join(SIGNALS)}, and v_x or s)" if lacks else ""
+
+
 def check(path, columns: Mapping[str, Mapping] | None = None) -> None:
-    """Raise InputError where a file cannot hold what ``columns`` asks for, as far as that is seen at a glance."""
-    reader = suffixes().get(Path(path).suffix.lower())
-    look = getattr(importlib.import_module(reader), "check", None) if reader else None
+    """Raise InputError where a file cannot hold what ``columns`` asks for and a drive needs, as far as that is seen at a glance."""
+    look = getattr(reader_of(path), "check", None)
     if look:
         look(path, columns)
 
@@ -53,11 +68,7 @@ def read(path, columns: Mapping[str, Mapping] | None = None, *, measured: bool =
     path = Path(path)
     if not path.exists():
         raise InputError("no such file", file=path)
-    readers = suffixes()
-    if path.suffix.lower() not in readers:
-        raise InputError(f"no reader for {path.suffix!r} (expected {', '.join(sorted(readers))})", file=path)
-    reader = importlib.import_module(readers[path.suffix.lower()])
-    quantities, own = reader.read(path, columns)
+    quantities, own = reader_of(path).read(path, columns)
     for signal in SIGNALS if measured else ():
         if signal in quantities:
             column = (columns or {}).get(signal, {}).get("column", signal)

@@ -10,6 +10,7 @@ import numpy as np
 from ...errors import InputError
 from ...vocabulary import DRIVE
 from .. import units
+from . import missing
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,6 +56,24 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     if "sensor_x" in dataset.attrs:
         attributes["sensor"] = tuple(float(dataset.attrs[f"sensor_{axis}"]) for axis in "xyz")
     return quantities, attributes
+
+
+def check(path, columns: Mapping[str, Mapping] | None) -> None:
+    """Raise InputError where the file has no variables for what ``columns`` asks for, or for what a drive needs."""
+    import netCDF4
+
+    try:
+        with netCDF4.Dataset(path) as file:
+            variables = set(file.variables)
+    except (OSError, RuntimeError):
+        return  # reading it says why
+    named = {name: (columns or {}).get(name, {}).get("column", name) for name in ("time", *DRIVE)}
+    for quantity in columns or {}:
+        if named.get(quantity, quantity) not in variables:
+            raise InputError(f"has no variable {named.get(quantity, quantity)!r} for {quantity}", file=path)
+    lacks = missing([quantity for quantity, variable in named.items() if variable in variables])
+    if lacks:
+        raise InputError(f"{lacks}; `columns` says what variables of other names hold", file=path, place="variables")
 
 
 def _clock(series: xr.DataArray, entry: Mapping, path) -> np.ndarray:
