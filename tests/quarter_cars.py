@@ -22,16 +22,16 @@ def vehicle(repository):
     return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
 
 
-def road(length=800.0, seed=1, bend=0.004, slope=0.02):
+def road(length=800.0, seed=1, bend=0.004, slope=0.02, width=4.0):
     """A rough, bending, rising road: independent random roughness every 0.5 m across, smooth in between."""
     rng = np.random.default_rng(seed)
-    u, v = np.arange(0.0, length + 0.05, 0.1), np.arange(-2.0, 2.01, 0.1)
+    u, v = np.arange(0.0, length + 0.05, 0.1), np.arange(-width / 2, width / 2 + 0.01, 0.1)
     frequency = np.fft.rfftfreq(u.size, 0.1)
     amplitude = np.where(frequency > 0.01, 1 / np.maximum(frequency, 0.01), 0.0)
-    tracks = rng.standard_normal((9, u.size))
+    place = np.arange(-width / 2, width / 2 + 0.01, 0.5)
+    tracks = rng.standard_normal((place.size, u.size))
     tracks = np.fft.irfft(np.fft.rfft(tracks, axis=1) * amplitude, u.size, axis=1)
     tracks *= 0.006 / tracks.std()
-    place = np.arange(-2.0, 2.01, 0.5)
     weight = np.clip(1 - np.abs(v[:, None] - place) / 0.5, 0, 1)
     curvature = bend * np.sin(2 * np.pi * u / 300)
     elevation = (weight @ tracks).T + slope * (u[:, None] + 30 * np.sin(2 * np.pi * u / 400)[:, None])
@@ -40,7 +40,7 @@ def road(length=800.0, seed=1, bend=0.004, slope=0.02):
             "elevation": (("u", "v"), elevation),
             "curvature": ("u", curvature),
             "bank": ("u", 0 * u),
-            "slope": ("u", np.gradient(elevation[:, 20] - (weight @ tracks)[20], u)),
+            "slope": ("u", np.gradient(elevation[:, 20] - (weight @ tracks)[v.size // 2], u)),
         },
         {"u": u, "v": v},
     )

@@ -3,6 +3,7 @@
 import shutil
 
 import pytest
+import xarray as xr
 import yaml
 
 from ridecomfort import config, schema, stepsettings
@@ -262,6 +263,17 @@ def test_mistake_on_the_command_line(project, change, said):
 
 SENSOR = {"behind_front_axle": 1.4, "above_wheel_centres": 0.2}
 DRIVE = {"file": "drive.csv", "sensor": SENSOR}
+HEADER = "time,v_x,a_x,a_y,a_z,roll_rate,pitch_rate,yaw_rate\n"
+
+
+def columns(*left_out, **named):
+    """Columns of a drive in SI units, headed by the names of their quantities or as ``named``."""
+    units = {"time": "s", "v_x": "m/s", **dict.fromkeys(("a_x", "a_y", "a_z"), "m/s2")}
+    return {
+        name: {"column": named.get(name, name), "unit": units.get(name, "rad/s")}
+        for name in HEADER.strip().split(",") if name not in left_out
+    }  # fmt: skip
+
 
 SITE_MISTAKES = [
     ({"road": {"file": "gone.crg"}}, "road: file: no such file 'gone.crg'"),
@@ -320,14 +332,49 @@ def test_mistake_in_a_site(project, content, said):
 
 
 def test_a_column_that_a_drive_does_not_have_is_missed_before_anything_runs(project):
-    (project / "drive.csv").write_text("time [s], acc\n0, 1\n", encoding="utf-8-sig")
-    columns = {"time": {"column": "time [s]", "unit": "s"}, "a_z": {"column": "acc_z", "unit": "m/s2"}}
-    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": columns}]})
-    with pytest.raises(InputError, match=r"drive.csv: no column 'acc_z' for a_z \(found time \[s\], acc\)"):
+    (project / "drive.csv").write_text(HEADER.replace("a_z", "acc"), encoding="utf-8-sig")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": columns(a_z="acc_z")}]})
+    with pytest.raises(InputError, match=r"own.yaml: drives: entry 1: .*drive.csv: no column 'acc_z' for a_z \(found time, .*acc, "):
         config.load({"sites": ["own"]}, project)
-    columns["a_z"]["column"] = "acc"
-    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": columns}]})
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": columns(a_z="acc")}]})
     config.load({"sites": ["own"]}, project)
+
+
+@pytest.mark.parametrize(
+    ("left_out", "said"),
+    [
+        (("roll_rate", "pitch_rate", "yaw_rate"), "no roll_rate, pitch_rate, yaw_rate (expected time, a_x, "),
+        (("time",), "no time (expected time, a_x, "),
+        (("v_x",), "no v_x or s (expected time, a_x, "),
+    ],
+)
+def test_a_quantity_that_a_drive_needs_is_missed_before_anything_runs(project, left_out, said):
+    kept = columns(*left_out)
+    (project / "drive.csv").write_text(",".join(kept) + "\n")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": kept}]})
+    assert_said(project, {"sites": ["own"]}, f"drives: entry 1: columns: {said}", config.SITES / "own.yaml")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [DRIVE]})
+    assert_said(project, {"sites": ["own"]}, f"drive.csv: line 1: {said}", config.SITES / "own.yaml")
+    empty = lambda names: xr.Dataset({name: ("time", [0.0, 1.0]) for name in names})
+    empty(kept).to_netcdf(project / "drive.nc")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "drive.nc"}]})
+    assert_said(project, {"sites": ["own"]}, f"drive.nc: variables: {said}", config.SITES / "own.yaml")
+    empty(columns()).to_netcdf(project / "drive.nc")
+    config.load({"sites": ["own"]}, project)
+
+
+def test_a_variable_that_a_netcdf_drive_does_not_have_is_missed_before_anything_runs(project):
+    xr.Dataset({name: ("time", [0.0, 1.0]) for name in columns()}).to_netcdf(project / "drive.nc")
+    drive = {**DRIVE, "file": "drive.nc", "columns": {"a_z": {"column": "heave", "unit": "g"}}}
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [drive]})
+    assert_said(project, {"sites": ["own"]}, "drive.nc: has no variable 'heave' for a_z", config.SITES / "own.yaml")
+
+
+def test_a_drive_of_a_format_that_nothing_reads_is_missed_before_anything_runs(project):
+    (project / "drive.txt").touch()
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "drive.txt"}]})
+    said = "drives: entry 1: file: drive.txt: no reader for '.txt' (expected .csv, .nc, .nc4)"
+    assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
 
 
 def test_a_site_may_not_be_named_like_a_target(project):
@@ -360,7 +407,7 @@ def assert_said(project, settings, said, file):
 
 def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
     drive = {**DRIVE, "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
-    (project / "drive.csv").touch()
+    (project / "drive.csv").write_text(HEADER)
     write(project, "own", {"road": {"file": "road.crg"}, "drives": [drive]})
     study = config.load({**read(project), "sites": ["own"]}, project)
     density = stepsettings.of_step(study, "compare", "own", "base")["noise_density"]["drive"]
@@ -389,7 +436,7 @@ def test_the_study_goes_forward_only_where_drives_are_diagnosed_and_is_scored_on
     assert paper.forward and paper.scored
     bare = config.load({**read(project), "sites": ["own"]}, project)
     assert not bare.forward and not bare.scored
-    (project / "drive.csv").touch()
+    (project / "drive.csv").write_text(HEADER)
     write(project, "own", {"road": {"file": "road.crg"}, "drives": [DRIVE]})
     own = config.load({**read(project), "sites": ["own"]}, project)
     assert own.forward and not own.scored

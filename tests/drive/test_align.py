@@ -93,6 +93,68 @@ def test_a_path_that_was_recorded_far_from_where_it_was_is_found(drive, road, no
     assert found.attrs["lateral_position"] == pytest.approx(LATERAL, abs=0.02)
 
 
+@pytest.fixture(scope="module")
+def lanes(truth):
+    """A road of two lanes without a bend, and a drive in the middle of its left one."""
+    road = quarter_cars.road(length=560.0, bend=0.0, width=8.0)
+    u = road["u"].values
+    speed = xr.DataArray(20 + 2 * np.sin(2 * np.pi * u / 250), {"u": u}, "u")
+    run = quarter_cars.run(road, truth, speed=speed, lateral=1.8, end=550.0)
+    run = run.isel(time=(run["s"] > 60).values)
+    return road, run.assign_coords(time=run["time"] - run["time"][0])
+
+
+def test_the_path_is_found_in_either_lane_of_a_road_with_two(lanes, nominal):
+    road, drive = lanes
+    found = aligned(quarter_cars.recorded(drive, clock=0.0307, noise=1.0), road, nominal)
+    assert found.attrs["lateral_position"] == pytest.approx(1.8, abs=0.02)
+    assert found.attrs["clock_offset"] == pytest.approx(0.0307, abs=1e-3)
+
+
+@pytest.mark.parametrize("clock", [0.7, -2.0])
+@pytest.mark.parametrize("told", [{}, {"lateral_position": 1.8}], ids=["unknown path", "known path"])
+def test_a_clock_beyond_the_search_is_refused_with_what_it_is(lanes, nominal, clock, told):
+    road, drive = lanes
+    with pytest.raises(InputError, match=r"drive own: the inertial signals lag (\S+) s behind s \(expected within 0.5 s") as refused:
+        aligned(quarter_cars.recorded(drive, clock=clock, noise=1.0, name="own", **told), road, nominal)
+    assert float(str(refused.value).split(" lag ")[1].split()[0]) == pytest.approx(clock, abs=0.02)
+    assert "\n" not in str(refused.value) and "alignment: search" in str(refused.value)
+
+
+def test_a_clock_that_a_wider_search_was_asked_for_is_found(lanes, nominal):
+    road, drive = lanes
+    recorded = quarter_cars.recorded(drive, clock=0.7, noise=1.0)
+    found = align.align(recorded, road, nominal, simulate=quarter_cars.run, search=1.0)
+    assert found.attrs["clock_offset"] == pytest.approx(0.7, abs=1e-3)
+
+
+def test_a_path_farther_from_what_is_told_than_is_searched_is_refused(lanes, nominal):
+    road, drive = lanes
+    words = r"drive own: its path fits the road best \+1.80 m to the left of what is recorded or told.*lateral_position"
+    with pytest.raises(InputError, match=words):
+        aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=0.0, name="own"), road, nominal)
+
+
+def test_a_path_at_the_edge_of_the_grid_is_refused(lanes, nominal):
+    """A grid on which the path may lie up to 1.7 m to the left."""
+    road, drive = lanes
+    narrow = road.sel(v=slice(-2.65, 2.65))
+    with pytest.raises(InputError, match=r"drive own: its path fits the road best .* at an end of what is searched or beyond"):
+        aligned(quarter_cars.recorded(drive, noise=1.0, name="own"), narrow, nominal)
+
+
+def test_a_drive_on_another_road_is_refused(drive, nominal):
+    with pytest.raises(InputError, match=r"drive own: model and record agree nowhere .* \(expected 0.3 or more.*lateral_position"):
+        aligned(quarter_cars.recorded(drive, noise=1.0, name="own"), quarter_cars.road(length=560.0, seed=8), nominal)
+
+
+def test_a_road_that_is_even_across_does_not_tell_the_path(road, truth, nominal):
+    even = road.assign(elevation=road["elevation"].isel(v=[20] * road.sizes["v"]).assign_coords(v=road["v"]))
+    found = aligned(quarter_cars.recorded(driven(even, truth), clock=0.0307, noise=1.0), even, nominal)
+    assert found.attrs["clock_offset"] == pytest.approx(0.0307, abs=1e-3)
+    assert abs(found.attrs["lateral_correction"]) < 0.3
+
+
 def test_a_wandering_path_and_place_are_followed(road, truth, nominal):
     drive = driven(road, truth, aside=0.08, along=0.05)
     found = aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL), road, nominal)
@@ -159,11 +221,18 @@ def test_the_end_of_a_record_is_continued_by_its_trend_and_not_by_its_noise(driv
     assert np.abs(moved["v_x"].values[-5:] - 20.0).max() < 0.02
 
 
+def test_a_drive_against_the_reference_line_is_called_that(drive, road, nominal):
+    recorded = quarter_cars.recorded(drive, name="back")
+    with pytest.raises(InputError, match="^drive back: s falls from .* driven against the reference line"):
+        aligned(recorded.assign(s=600 - recorded["s"]), road, nominal)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
         (lambda d: d.assign(v_x=d["v_x"].where(d["time"] < 10, 0.2)), "expected above 1 m/s"),
         (lambda d: d.assign(s=d["s"] + 300), "within the road"),
+        (lambda d: d.assign(s=600 - d["s"]), "s falls from 5.* to .* m: driven against the reference line, which is not supported"),
     ],
 )
 def test_a_drive_that_cannot_be_driven_again_is_refused(drive, road, change, words):

@@ -36,9 +36,9 @@ def table():
             "ax [g]": 0.1 * np.sin(time),
             "ay right [m/s2]": np.cos(time),
             "az [g]": 1 + 0.1 * np.sin(time),
-            "p [deg/s]": 0 * time,
+            "p [deg/s]": np.cos(3 * time),
             "q [deg/s]": 10 * np.sin(time),
-            "r [deg/s]": 0 * time,
+            "r [deg/s]": np.sin(0.3 * time),
         }
     )
 
@@ -117,6 +117,54 @@ def test_a_netcdf_file_whose_units_are_others_than_those_of_the_columns_is_refus
         readers.read(path, columns)
 
 
+@pytest.mark.parametrize(
+    ("unit", "factor"),
+    [("seconds", 1.0), ("milliseconds", 1e-3), ("seconds since 2020-01-01", 1.0), ("milliseconds since 2020-01-01 06:00:00", 1e-3)],
+)
+def test_the_clock_of_a_netcdf_file_may_be_spelled_out_or_hold_dates(tmp_path, unit, factor):
+    path, wave = netcdf(tmp_path / "drive.nc")
+    dataset = xr.open_dataset(path).load()
+    dataset.assign_coords(t=("t", (dataset["t"].values + 5.0) / factor, {"units": unit})).to_netcdf(tmp_path / "stamped.nc")
+    drive = readers.read(tmp_path / "stamped.nc", {"time": {"column": "t"}})
+    assert float(drive["time"][-1]) == pytest.approx(9.99)
+    np.testing.assert_allclose(drive["a_z"], wave, atol=1e-6)
+
+
+def test_dates_of_another_calendar_and_of_no_calendar_are_refused_in_one_line(tmp_path):
+    for name, unit, calendar in (("noleap", "seconds since 2020-01-01", "noleap"), ("none", "fortnights since yesterday", "standard")):
+        path, _ = netcdf(tmp_path / "drive.nc")
+        dataset = xr.open_dataset(path).load()
+        dataset = dataset.assign_coords(t=("t", dataset["t"].values, {"units": unit, "calendar": calendar}))
+        dataset.to_netcdf(tmp_path / f"{name}.nc")
+        with pytest.raises(InputError) as problem:
+            readers.read(tmp_path / f"{name}.nc", {"time": {"column": "t"}})
+        assert "\n" not in str(problem.value) and f"{name}.nc" in str(problem.value)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit", "written"),
+    [
+        ("time", "s", ("seconds", "second", "sec")),
+        ("a_x", "m/s2", ("m s-2", "m/s^2", "m/s²", "m/s**2", "m s^-2", "m s**-2", "m*s-2", "m.s-2", "m s⁻²", "meters per second^2")),
+        ("v_x", "m/s", ("m/s", "m s-1", "m s^-1", "m s**-1", "metres per second", "meter second-1")),
+        ("v_x", "km/h", ("km h-1", "kph", "kilometers/hour")),
+        ("s", "m", ("m", "metre", "meter", "metres", "meters")),
+        ("yaw_rate", "rad/s", ("rad s-1", "radian s-1", "radians/second")),
+        ("yaw_rate", "deg/s", ("degree s-1", "degrees/s", "°/s", "deg s⁻¹")),
+    ],
+)
+def test_units_may_be_spelled_as_udunits_and_headers_do(quantity, unit, written):
+    for other in written:
+        assert units.spelled(other) == unit, other
+        assert units.factor(quantity, other) == units.factor(quantity, unit)
+
+
+@pytest.mark.parametrize("unit", ["s-1", "mph", "m s-3", "metre s-2 rad", "seconds since 2020-01-01", ""])
+def test_units_that_are_not_known_stay_what_they_are_to_the_reader(unit):
+    with pytest.raises(InputError, match=rf"unit '{unit}' does not fit v_x"):
+        units.factor("v_x", unit)
+
+
 def test_places_at_the_car_become_places_about_its_centre_of_gravity(tmp_path, car):
     entry = {
         "columns": COLUMNS,
@@ -162,6 +210,29 @@ def test_what_is_wrong_in_a_table_is_said_in_one_line(tmp_path, frame, columns, 
     assert "\n" not in message and message.startswith(str(path))
     for word in words:
         assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("dead", "said"),
+    [
+        (0.0, "roll_rate holds 0 rad/s throughout its 1000 samples"),
+        (np.r_[1.0, np.full(999, 0.0)], "roll_rate holds 0 and 0.0174533 rad/s"),
+    ],
+    ids=["filled", "filled behind its first sample"],
+)
+def test_a_dead_channel_is_refused_with_its_column_and_value(tmp_path, dead, said):
+    path = write(tmp_path, table().assign(**{"p [deg/s]": dead}))
+    with pytest.raises(InputError) as problem:
+        readers.read(path, COLUMNS)
+    message = str(problem.value)
+    assert message.startswith(f"{path}: column 'p [deg/s]': {said}") and "expected at least 3 different values" in message
+
+
+def test_a_coarse_channel_is_kept_and_so_is_a_simulated_vehicle_that_does_not_roll(tmp_path):
+    coarse = table().assign(**{"r [deg/s]": np.round(0.6 * np.sin(np.arange(1000)))})  # -1, 0 and 1: the last digit
+    assert set(np.round(np.degrees(readers.read(write(tmp_path, coarse), COLUMNS)["yaw_rate"].values), 9)) == {-1.0, 0.0, 1.0}
+    even = write(tmp_path, table().assign(**{"p [deg/s]": 0.0}))
+    assert not readers.read(even, COLUMNS, measured=False)["roll_rate"].any()
 
 
 def test_of_a_header_that_is_none_only_the_beginning_is_shown(tmp_path):

@@ -146,13 +146,20 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
 
 
 def _check_drive(drive: Mapping, file, place: str) -> None:
-    """Units and columns of a measured drive, each for one quantity."""
+    """Units and columns of a measured drive, each for one quantity, none missing, and the suffix of its file."""
     taken: dict[str, str] = {}
     for quantity, entry in drive.get("columns", {}).items():
         units.of_column(quantity, entry, file=file, place=f"{place}: columns: {quantity}")
         other = taken.setdefault(entry["column"], quantity)
         if other != quantity:
             raise InputError(f"column {entry['column']!r} stands for {other} already", file=file, place=f"{place}: columns: {quantity}")
+    try:
+        readers.reader_of(drive["file"])
+    except InputError as problem:
+        raise InputError(str(problem), file=file, place=f"{place}: file") from None
+    # A NetCDF file may name its variables as the study does; columns are for the others.
+    if "columns" in drive and Path(drive["file"]).suffix.lower() == ".csv" and readers.missing(drive["columns"]):
+        raise InputError(readers.missing(drive["columns"]), file=file, place=f"{place}: columns")
 
 
 def _files(site: Mapping) -> list[tuple[str, str]]:
@@ -230,10 +237,12 @@ def _check_handed_in(study: Study) -> None:
 
 
 def _check_columns(study: Study) -> None:
-    for site in study.sites.values():
-        for drive in () if site["standin"] else site["drives"]:
-            if (study.folder / drive["file"]).is_file():
+    for name, site in study.sites.items():
+        for number, drive in enumerate(() if site["standin"] else site["drives"], start=1):
+            try:
                 readers.check(study.folder / drive["file"], drive.get("columns"))
+            except InputError as problem:
+                raise InputError(str(problem), file=SITES / f"{name}.yaml", place=f"drives: entry {number}") from None
 
 
 def _check_calibrations(study: Study) -> None:

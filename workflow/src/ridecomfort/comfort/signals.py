@@ -8,14 +8,8 @@ import numpy as np
 import xarray as xr
 from numba import njit
 
+from ..drive import units
 from ..errors import InputError
-
-SPELLINGS = {
-    "m/s2": ("m/s2", "m s-2", "m/s^2", "m/s²", "m/s**2", "m s^-2", "m s**-2", "m*s-2", "m.s-2", "m s⁻²"),
-    "m/s": ("m/s", "m s-1", "m s^-1", "m s**-1"),
-    "m": ("m", "metre", "meter", "metres", "meters"),
-}
-"""How the units that the comfort functions work in are written in other people's files."""
 
 
 def check_units(signal, unit: str) -> None:
@@ -26,7 +20,7 @@ def check_units(signal, unit: str) -> None:
     if not isinstance(signal, xr.DataArray) or "units" not in signal.attrs:
         return
     found = str(signal.attrs["units"]).strip()
-    if found not in SPELLINGS.get(unit, (unit,)):
+    if units.spelled(found) != unit:
         raise InputError(f"is in {found!r}; expected {unit}", place=str(signal.name or "signal"))
 
 

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from ..errors import InputError
 from ..vocabulary import SIGNALS
 from . import mounting, path, place, turning
 from .record import acceleration
@@ -21,6 +22,13 @@ from .replay import Replay, Simulated, replay
 
 PASSES = 3
 """Rounds of vehicle, mounting, clock and path; three more change the clock by 0.2 ms on the stand-in drives."""
+
+LOWEST = 0.3
+"""Correlation (rms over ``place.SHAKEN``) below which a record is none of a drive on this road: with a nominal vehicle a drive has
+0.75 to 0.98, one at a wrong place or path up to 0.3."""
+
+CLOSE = 0.02
+"""s by which two ways to find the clock may differ."""
 
 
 def align(
@@ -43,9 +51,10 @@ def align(
     New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
     lateral_correction (m), distance_wander and lateral_wander (m, rms of what was found of both
     along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, yaw_rate_gain (against the bends of
-    the road; nan where it hardly bends), roll/pitch/yaw_rate_bias (rad/s). New variables ``roll`` and ``pitch`` (rad): the simulated attitude that gravity was
-    taken out with; zero where the record held none. Raises InputError when the model cannot
-    drive where the record says it went.
+    the road; nan where it hardly bends), roll/pitch/yaw_rate_bias (rad/s). New variables ``roll`` and ``pitch`` (rad): the
+    simulated attitude that gravity was taken out with; zero where the record held none. Raises InputError when the model cannot
+    drive where the record says it went, when clock or path lie at an end of what is searched or beyond, and
+    when model and record do not agree anywhere.
     """
     options = options or {}
     work = mounting.level(drive)
@@ -55,12 +64,8 @@ def align(
     else:
         scale, offset = place.odometer(work, road, vehicle, simulate, options)
         work = place.moved(work, scale=scale, offset=offset)
-    clock, error, lateral, fitted = 0.0, np.nan, 0.0, mounting.Mounting()
-    again = replay(work, road, simulate, options=options)
-    if drive.attrs["place_measured"]:
-        clock = place.coarse_clock(again, again(vehicle), search)
-        work = place.moved(work, clock=clock)
-    lateral = path.find_offset(work, road, vehicle, simulate, options)
+    error, fitted = np.nan, mounting.Mounting()
+    work, clock, lateral = _found(work, road, vehicle, simulate, search, options)
     work = _on_path(work, lateral)
     expected = path.EXPECTED_ASIDE_MEASURED if path.has_offset(drive) else path.EXPECTED_ASIDE
     moved_along, moved_aside = np.zeros(work.sizes["time"]), np.zeros(work.sizes["time"])
@@ -98,6 +103,54 @@ def align(
         **fitted.attributes(),
     )
     return aligned
+
+
+def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Mapping) -> tuple[xr.Dataset, float, float]:
+    """The drive moved by its clock to a sample, this clock (s), and its path, m to the left of the recorded one.
+
+    A path that is known is looked for at the clock that fits it. One that is not, or does not agree, is looked for all across the
+    road together with the clock. Raises InputError where either lies at an end of what is searched or beyond, and where nothing agrees.
+    """
+    measured, known, clock, lateral = bool(work.attrs["place_measured"]), path.is_known(work), 0.0, 0.0
+    if measured:
+        again = replay(work, road, simulate, options=options)
+        clock = place.coarse_clock(again, again(vehicle), search)
+        work = place.moved(work, clock=clock)
+    reach = search - 0.5 * float(work["time"][1] - work["time"][0])  # a clock at the last lag of the search may lie beyond it
+    look = dict(clock=clock, reach=reach)
+    if known:
+        lateral = path.find_offset(work, road, vehicle, simulate, options)
+        _, lag, agreement = path.search(work, road, vehicle, simulate, options, tried=[lateral], **look)
+        if agreement >= LOWEST**2 and abs(lag) <= CLOSE and abs(clock) <= reach and not path.is_at_an_end(work, road, lateral):
+            return work, clock, lateral
+    around, lag, agreement = path.search(work, road, vehicle, simulate, options, **look)
+    label = f"drive {work.attrs['name']}"
+    if agreement < LOWEST**2:
+        raise InputError(
+            f"model and record agree nowhere near this place: {', '.join(place.SHAKEN)} correlate by "
+            f"{np.sqrt(max(agreement, 0)):.2f} at best "
+            f"(expected {LOWEST:g} or more; is it the road of this drive, are s and the axes right? Where the path is known, "
+            "lateral_position says so)",
+            place=label,
+        )
+    if measured and abs(lag) > CLOSE:
+        clock, work = clock + lag, place.moved(work, clock=lag)
+    if abs(clock) > reach:
+        raise InputError(
+            f"the inertial signals lag {clock:.2f} s behind s (expected within {search:g} s, `alignment: search` of the study: "
+            "cut the record or shift its time or s by as much)",
+            place=label,
+        )
+    lateral = path.find_offset(work, road, vehicle, simulate, options, around=around)
+    if path.is_at_an_end(work, road, lateral):
+        right, left = path.ends(work, road)
+        raise InputError(
+            f"its path fits the road best {lateral:+.2f} m to the left of {'what is recorded or told' if known else 'the reference line'}, "
+            f"at an end of what is searched or beyond (expected between {right:+.2f} and {left:+.2f} m; is lateral_position or e right, "
+            "is the road as wide as the drive?)",
+            place=label,
+        )
+    return work, clock, lateral
 
 
 def _better(vehicle, values: Mapping[str, float], again: Replay):

@@ -15,8 +15,23 @@ from .replay import Replay, Simulated, replay
 STEP = 0.1
 """m; the roughness under a tyre is another one a tenth of a metre aside."""
 
-KNOWN, UNKNOWN = 0.4, 1.2
-"""m searched to both sides of the recorded path, and of the reference line where none is recorded or the path is none of those."""
+KNOWN, WRONG = 0.4, 1.2
+"""m searched to both sides of a path that is recorded or told, and where it is none of those."""
+
+COARSE = 0.2
+"""m between the paths that are tried where none is known: half of it aside, nine tenths of the agreement are left."""
+
+TIE = 1e-6
+"""m by which a path on the edge of what the road allows is still on it."""
+
+END = 0.01
+"""m from an end of what is searched at which a path lies at it."""
+
+ELSEWHERE = 1.5
+"""Times by which a record has to agree better at a clock beyond the search than within: a body in bounce comes back to it in 0.7 s."""
+
+NO_BETTER = 1e-3
+"""Difference in agreement or misfit by which no path is better than another: a road that is even across does not tell."""
 
 SEARCHED = 45.0
 """s of a drive that its path is looked for with."""
@@ -39,35 +54,91 @@ def has_offset(drive: xr.Dataset) -> bool:
     return bool(np.isfinite(drive["e"].values).all())
 
 
-def find_offset(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> float:
+def is_known(drive: xr.Dataset) -> bool:
+    """Whether the drive's path was recorded or told."""
+    return bool(np.isfinite(drive.attrs["lateral_position"])) or has_offset(drive)
+
+
+def free(drive: xr.Dataset, road) -> tuple[float, float]:
+    """m to the right (negative) and to the left that the drive's path may be moved by on this road: half the vehicle stays on it."""
+    surface = getattr(road, "road", road)
+    if has_offset(drive):
+        lowest, highest = float(drive["e"].min()), float(drive["e"].max())
+    else:
+        lowest = highest = float(np.nan_to_num(drive.attrs["lateral_position"]))
+    return float(surface["v"][0]) + HALF_VEHICLE - lowest, float(surface["v"][-1]) - HALF_VEHICLE - highest
+
+
+def ends(drive: xr.Dataset, road) -> tuple[float, float]:
+    """m to the right (negative) and to the left of the drive's path between which its true one is looked for."""
+    right, left = free(drive, road)
+    if is_known(drive):
+        right, left = max(right, -WRONG), min(left, WRONG)
+    return STEP * np.ceil((right - TIE) / STEP), STEP * np.floor((left + TIE) / STEP)
+
+
+def is_at_an_end(drive: xr.Dataset, road, lateral: float) -> bool:
+    """Whether a path that was found (m to the left of the drive's) lies where the search for it ends, or beyond."""
+    right, left = ends(drive, road)
+    return left - right > 2 * STEP - TIE and not right + END < lateral < left - END
+
+
+def part(drive: xr.Dataset) -> xr.Dataset:
+    """The SEARCHED seconds in the middle of the drive that its path is looked for with."""
+    length = int(SEARCHED / float(drive["time"][1] - drive["time"][0]))
+    middle = max(0, (drive.sizes["time"] - length) // 2)
+    return drive.isel(time=slice(middle, middle + length))
+
+
+def search(
+    work: xr.Dataset, road, vehicle, simulate, options: Mapping, *, clock: float, reach: float, tried=None
+) -> tuple[float, float, float]:
+    """Path and clock together, coarsely: m to the left of the recorded path, s that the inertial signals lag behind, agreement there.
+
+    All paths that the road allows are tried, or those ``tried`` (m). A wrong clock hides the path and a wrong path the clock,
+    but one simulation tells all clocks. ``work`` has been moved by ``clock`` (s) already; lags that leave the clock within
+    ``reach`` (s) go before those beyond, up to ``place.FARTHEST``. Agreement: ``place.shaken``.
+    """
+    if tried is None:
+        right, left = free(work, road)
+        tried = COARSE * np.arange(np.ceil((right - TIE) / COARSE), np.floor((left + TIE) / COARSE) + 1)
+    short, found = part(work), (0.0, 0.0, -np.inf)
+    farthest = place.FARTHEST if work.attrs["place_measured"] else reach
+    for lateral in sorted(map(float, tried), key=abs) or [0.0]:
+        again = replay(short, road, simulate, lateral_correction=lateral, options=options)
+        lags, agreement = place.shaken(again, again(vehicle), farthest)
+        weight = np.where(np.abs(clock + lags) <= reach, 1.0, 1.0 / ELSEWHERE)
+        best = int(np.argmax(weight * agreement))
+        if weight[best] * agreement[best] > found[2] + NO_BETTER:
+            found = lateral, float(lags[best]), float(weight[best] * agreement[best])
+    lateral, lag, agreement = found
+    return lateral, lag, agreement * (1.0 if abs(clock + lag) <= reach else ELSEWHERE)
+
+
+def find_offset(work: xr.Dataset, road, vehicle, simulate, options: Mapping, around: float | None = None) -> float:
     """m to the left of the recorded path at which model and measurement agree best.
 
-    From SEARCHED seconds in the middle of the drive: a search over both sides, then a bounded
-    minimum around the best. The road that the wheels meet aside is another road, so no
+    From SEARCHED seconds in the middle of the drive: a search over both sides of the recorded path, or of one that lies
+    ``around`` (m) to its left, then a bounded minimum around the best. The road that the wheels meet aside is another road, so no
     parameter of the vehicle can take its part.
     """
-    surface = getattr(road, "road", road)
-    length = int(SEARCHED / float(work["time"][1] - work["time"][0]))
-    middle = max(0, (work.sizes["time"] - length) // 2)
-    work = work.isel(time=slice(middle, middle + length))
-    known = np.isfinite(work.attrs["lateral_position"]) or has_offset(work)
-    if has_offset(work):
-        lowest, highest = float(work["e"].min()), float(work["e"].max())
-    else:
-        lowest = highest = float(np.nan_to_num(work.attrs["lateral_position"]))
-    left = float(surface["v"][-1]) - HALF_VEHICLE - highest
-    right = float(surface["v"][0]) + HALF_VEHICLE - lowest
+    right, left = free(work, road)
+    work = part(work)
 
     def misfit(lateral: float) -> float:
         again = replay(work, road, simulate, lateral_correction=float(lateral), options=options)
         return place.misfit(again, again(vehicle))
 
-    for reach in (KNOWN, UNKNOWN) if known else (UNKNOWN,):
-        trials = np.arange(-round(reach / STEP), round(reach / STEP) + 1) * STEP
-        trials = trials[(trials >= right) & (trials <= left)]
+    middle = 0 if around is None else round(around / STEP)
+    for reach in (KNOWN, WRONG) if around is None else (COARSE, KNOWN, WRONG):
+        trials = np.arange(middle - round(reach / STEP), middle + round(reach / STEP) + 1) * STEP
+        trials = trials[(trials >= right - TIE) & (trials <= left + TIE)]
         if trials.size < 3:
             return 0.0
-        best = trials[int(np.argmin([misfit(trial) for trial in trials]))]
+        misfits = [misfit(trial) for trial in trials]
+        if max(misfits) - min(misfits) < NO_BETTER:
+            return middle * STEP
+        best = trials[int(np.argmin(misfits))]
         if trials[0] < best < trials[-1]:
             break
     bounds = max(best - STEP, trials[0]), min(best + STEP, trials[-1])

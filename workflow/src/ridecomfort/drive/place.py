@@ -9,7 +9,7 @@ import xarray as xr
 from scipy.signal import butter, correlate, sosfiltfilt
 from scipy.stats import theilslopes
 
-from ..vocabulary import CALIBRATED
+from ..vocabulary import CALIBRATED, SIGNALS
 from .replay import Replay, Simulated, replay
 
 NUISANCE = (*CALIBRATED[:2], *CALIBRATED[3:], "damping_front", "damping_rear")
@@ -26,6 +26,12 @@ BLOCK = 1.0
 
 END = 0.5
 """s at an end of a record whose straight line continues it: from sample to sample its noise would be a trend."""
+
+SHAKEN, SHAKEN_BAND = ("a_z", "roll_rate", "pitch_rate"), (0.5, 20.0)
+"""Signals that the road makes, and Hz in which it does: by them one stretch of it, and one path, is told from another."""
+
+FARTHEST = 20.0
+"""s around the expected clock at which a record is looked for, beyond what is accepted: GPS runs 18 s ahead of UTC."""
 
 ODOMETER_WINDOW = 8.0
 """s of record that are looked for on the road at a time, where place was not measured."""
@@ -79,6 +85,23 @@ def coarse_clock(again: Replay, simulated: Simulated, search: float) -> float:
     reach = int(round(search / interval))
     measured, model = again.measured()[:, again.compared], simulated.signals[:, again.compared]
     return interval * (int(np.argmax(_agreement(measured, model, reach))) - reach)
+
+
+def shaken(again: Replay, simulated: Simulated, farthest: float) -> tuple[np.ndarray, np.ndarray]:
+    """How well model and record agree in what the road makes of them, at lags within ``farthest`` (s) and half the record.
+
+    Returns the lags (s) of the inertial signals behind the place, and the mean square of the correlations of SHAKEN at
+    each: 1 for a perfect model.
+    """
+    interval = again.time[1] - again.time[0]
+    lower, upper = SHAKEN_BAND
+    band = butter(2, (lower, min(upper, 0.4 / interval)), "bandpass", fs=1 / interval, output="sos")
+    rows = [SIGNALS.index(name) for name in SHAKEN]
+    measured, model = (
+        sosfiltfilt(band, signals[rows][:, again.compared], axis=1, padlen=0) for signals in (again.measured(), simulated.signals)
+    )
+    reach = min(int(round(farthest / interval)), measured.shape[1] // 2)
+    return interval * np.arange(-reach, reach + 1), _agreement(measured, model, reach) / len(rows)
 
 
 def _agreement(measured: np.ndarray, model: np.ndarray, reach: int) -> np.ndarray:

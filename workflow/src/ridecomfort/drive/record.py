@@ -29,6 +29,12 @@ REASONABLE = {
 }
 """SI; values outside are a wrong unit or a broken sensor, not a road vehicle."""
 
+FINEST = 1e-6
+"""m/s2 or rad/s; no instrument for vehicles tells values apart that lie closer together."""
+
+FEWEST = 3
+"""Values that a signal takes on at least: a coarse gyroscope on a straight road still reads nought and a step to either side."""
+
 ROLES = ("fit", "check")
 """A drive is fitted, or kept for checking and never fitted."""
 
@@ -172,6 +178,24 @@ def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> N
             f"(expected {lower:g} to {upper:g}; is its unit right?)",
             file=file,
             place=name,
+        )
+
+
+def check_alive(name: str, values: np.ndarray, *, file=None, place: str | None = None) -> None:
+    """InputError where a measured signal (SI units) is constant, or all but constant: a dead channel that was filled.
+
+    Errors are weighed by the size of their signal, so that one without any would outweigh all others.
+    """
+    found = np.asarray(values, dtype=float)
+    found = found[np.isfinite(found)]
+    found = found[np.unique(np.round(found / FINEST), return_index=True)[1]]
+    if 0 < found.size < FEWEST:
+        held = " and ".join(f"{value + 0.0:.6g}" for value in found)
+        raise InputError(
+            f"{name} holds {held} {VARIABLES[name].unit} throughout its {len(values)} samples "
+            f"(expected at least {FEWEST} different values; was the sensor dead, or the column filled?)",
+            file=file,
+            place=place or name,
         )
 
 

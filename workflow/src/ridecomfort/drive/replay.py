@@ -209,6 +209,13 @@ def replay(
     label = f"drive {drive.attrs['name']}"
     if len(time) < 3 * rate:
         raise InputError(f"lasts {len(time) / rate:.2f} s (expected at least 3 s)", place=label)
+    first_s, last_s = (float(drive["s"][i]) for i in (0, -1))
+    if last_s < first_s:
+        raise InputError(
+            f"s falls from {first_s:.1f} to {last_s:.1f} m: driven against the reference line, which is not supported "
+            "(expected s that rises)",
+            place=label,
+        )
     slow = np.flatnonzero((speed < SLOWEST) | (np.gradient(place, time) < 0.3 * SLOWEST))
     if slow.size:
         i = slow[0]

@@ -13,7 +13,7 @@ FACTORS = {
     "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9},
     "m": {"m": 1.0, "km": 1e3, "cm": 1e-2, "mm": 1e-3},
     "m/s": {"m/s": 1.0, "km/h": 1 / 3.6},
-    "m/s2": {"m/s2": 1.0, "m/s^2": 1.0, "mm/s2": 1e-3, "g": STANDARD_GRAVITY},
+    "m/s2": {"m/s2": 1.0, "mm/s2": 1e-3, "g": STANDARD_GRAVITY},
     "rad/s": {"rad/s": 1.0, "deg/s": math.pi / 180, "mrad/s": 1e-3},
     "rad": {"rad": 1.0, "deg": math.pi / 180},
 }
@@ -26,15 +26,36 @@ def factor(quantity: str, unit: str, *, file=None, place: str | None = None) -> 
     Raises InputError for a unit that does not measure the quantity.
     """
     accepted = FACTORS[VARIABLES[quantity].unit]
-    if unit not in accepted:
+    if spelled(unit) not in accepted:
         raise InputError(
             f"unit {unit!r} does not fit {quantity} (expected one of {', '.join(accepted)})", file=file, place=place
         )
-    return accepted[unit]
+    return accepted[spelled(unit)]
 
 
-SPELLINGS = {"²": "2", "^": "", "°": "deg", "µ": "u"}
-"""What headers write and ``FACTORS`` spells otherwise."""
+SIGNS = {"²": "2", "⁻": "-", "¹": "1", "^": "", "**": "", "°": "deg", "µ": "u", "μ": "u", " per ": "/", "/s/s": "/s2"}
+"""What others write and ``FACTORS`` writes otherwise."""
+
+_PREFIXES = {"": "", "kilo": "k", "centi": "c", "milli": "m", "micro": "u", "nano": "n"}
+
+WORDS = {
+    **{f"{prefix}{name}": f"{short}m" for prefix, short in _PREFIXES.items() for name in ("metre", "meter")},
+    **{f"{prefix}second": f"{short}s" for prefix, short in _PREFIXES.items()},
+    **{"sec": "s", "hour": "h", "degree": "deg", "radian": "rad", "kmh": "km/h", "kph": "km/h"},
+}
+"""Names of units, in the singular, and how ``FACTORS`` writes them."""
+
+_WORD = re.compile("|".join(rf"\b{word}s?\b" for word in WORDS))
+_POWER = re.compile(r"(\w+)[ .*·]+(\w+?)-(\d)")
+
+
+def spelled(unit: str) -> str:
+    """A unit as ``FACTORS`` writes it: "m/s2" of "m s-2" (UDUNITS), "m/s²" or "metres per second^2"; what is not known as it is."""
+    text = _WORD.sub(lambda word: WORDS.get(word[0], WORDS.get(word[0].removesuffix("s"))), str(unit).strip())
+    for written, meant in SIGNS.items():
+        text = text.replace(written, meant)
+    return _POWER.sub(lambda part: f"{part[1]}/{part[2]}{part[3].removeprefix('1')}", text)
+
 
 _BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
 
@@ -46,9 +67,7 @@ def of_header(column: str) -> str | None:
     """
     known = {unit for accepted in FACTORS.values() for unit in accepted}
     for match in _BRACKETS.finditer(str(column)):
-        unit = (match[1] or match[2] or "").strip()
-        for written, meant in SPELLINGS.items():
-            unit = unit.replace(written, meant)
+        unit = spelled(match[1] or match[2] or "")
         if unit in known:
             return unit
     return None

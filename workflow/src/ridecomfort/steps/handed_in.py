@@ -11,7 +11,7 @@ from ridecomfort.vocabulary import DRIVE, describe
 
 def main(files, runs, config, output):
     first, last = (int(number) for number in runs.split("-"))
-    drives = [readers.read(path, rate=config["rate"], gravity=False)[list(DRIVE)] for path in files[first : last + 1]]
+    drives = [readers.read(path, rate=config["rate"], gravity=False, measured=False)[list(DRIVE)] for path in files[first : last + 1]]
     numbered = xr.concat(drives, xr.DataArray(np.arange(first, last + 1), dims="run", name="run"), join="outer")
     store.write(
         describe(numbered.astype(np.float32)),

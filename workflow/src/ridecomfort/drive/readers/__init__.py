@@ -13,11 +13,12 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import InputError
+from ...vocabulary import SIGNALS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,28 +33,44 @@ def suffixes() -> dict[str, str]:
     return found
 
 
+def reader_of(path):
+    """The module that reads a file of this name; InputError where there is none."""
+    readers, suffix = suffixes(), Path(path).suffix.lower()
+    if suffix not in readers:
+        raise InputError(f"no reader for {Path(path).suffix!r} (expected {', '.join(sorted(readers))})", file=path)
+    return importlib.import_module(readers[suffix])
+
+
+def missing(found: Collection[str]) -> str:
+    """What a drive lacks whose quantities these are, with what is expected; "" for nothing."""
+    lacks = [name for name in ("time", *SIGNALS) if name not in found]
+    if not lacks and not {"v_x", "s"} & {*found}:
+        lacks = ["v_x or s"]
+    return f"no {', '.join(lacks)} (expected time, {', '.join(SIGNALS)}, and v_x or s)" if lacks else ""
+
+
 def check(path, columns: Mapping[str, Mapping] | None = None) -> None:
-    """Raise InputError where a file cannot hold what ``columns`` asks for, as far as that is seen at a glance."""
-    reader = suffixes().get(Path(path).suffix.lower())
-    look = getattr(importlib.import_module(reader), "check", None) if reader else None
+    """Raise InputError where a file cannot hold what ``columns`` asks for and a drive needs, as far as that is seen at a glance."""
+    look = getattr(reader_of(path), "check", None)
     if look:
         look(path, columns)
 
 
-def read(path, columns: Mapping[str, Mapping] | None = None, **attributes) -> xr.Dataset:
-    """A measured drive from a file, by the reader of its suffix; see ``record.from_arrays``.
+def read(path, columns: Mapping[str, Mapping] | None = None, *, measured: bool = True, **attributes) -> xr.Dataset:
+    """A drive from a file, by the reader of its suffix; see ``record.from_arrays``.
 
     ``columns`` maps quantities to ``{"column": ..., "unit": ..., "factor": 1}``.
-    Attributes given here (name, role, gravity, sensor, ...) win over what the file says.
+    Attributes given here (name, role, gravity, sensor, ...) win over what the file says. A signal that is constant is
+    refused where it was ``measured``; a simulated vehicle need not roll or yaw on an even, straight road.
     """
     from .. import record
 
     path = Path(path)
     if not path.exists():
         raise InputError("no such file", file=path)
-    readers = suffixes()
-    if path.suffix.lower() not in readers:
-        raise InputError(f"no reader for {path.suffix!r} (expected {', '.join(sorted(readers))})", file=path)
-    reader = importlib.import_module(readers[path.suffix.lower()])
-    quantities, own = reader.read(path, columns)
+    quantities, own = reader_of(path).read(path, columns)
+    for signal in SIGNALS if measured else ():
+        if signal in quantities:
+            column = (columns or {}).get(signal, {}).get("column", signal)
+            record.check_alive(signal, quantities[signal][1], file=path, place=f"column {column!r}")
     return record.from_arrays(quantities, **{"name": path.stem, **own, **attributes}, file=path)

@@ -12,6 +12,7 @@ import numpy as np
 from ...errors import InputError
 from ...vocabulary import DRIVE
 from .. import units
+from . import missing
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -31,7 +32,7 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     """
     table = _table(path)
     if columns is None:
-        columns = {name: {"column": name} for name in ("time", *DRIVE) if name in table.columns}
+        columns = _named(table.columns)
     _check_names(list(map(str, table.columns)), columns, path)
     values = {}
     for quantity, entry in columns.items():
@@ -45,15 +46,20 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
 
 
 def check(path, columns: Mapping[str, Mapping] | None) -> None:
-    """Raise InputError where the first line of the file does not name what ``columns`` asks for."""
-    if columns is None:
-        return
+    """Raise InputError where the first line of the file does not name what ``columns`` asks for, or a drive needs without them."""
     try:
         with open(path, encoding="utf-8-sig", newline="") as file:
             found = next(csv.reader(file, skipinitialspace=True), [])
     except UnicodeDecodeError:
         return  # reading it says why
-    _check_names(found, columns, path)
+    if columns is None and missing(found):
+        raise InputError(f"{missing(found)}; `columns` says what columns of other names hold", file=path, place="line 1")
+    _check_names(found, _named(found) if columns is None else columns, path)
+
+
+def _named(found: Sequence[str]) -> dict[str, dict[str, str]]:
+    """The columns of a file that are named as in the vocabulary."""
+    return {name: {"column": name} for name in ("time", *DRIVE) if name in found}
 
 
 def _check_names(found: Sequence[str], columns: Mapping[str, Mapping], path) -> None:

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ...errors import InputError
 from ...vocabulary import DRIVE
 from .. import units
+from . import missing
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,8 +22,9 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     """Quantities of a drive in SI units, and the attributes that the file holds.
 
     The file has one dimension, time. ``columns`` may map quantities (and ``time``) to variables of other names, with the unit of
-    those that have no ``units`` of their own and, for axes that point the other way, ``factor: -1``. ``e`` that is
-    all NaN counts as not measured. A file without the attribute ``gravity`` holds accelerations, as simulators give them.
+    those that have no ``units`` of their own and, for axes that point the other way, ``factor: -1``. Dates ("seconds since
+    ...", CF) count from the first sample. ``e`` that is all NaN counts as not measured. A file without the attribute
+    ``gravity`` holds accelerations, as simulators give them.
     Raises InputError naming the variable.
     """
     from ... import store
@@ -30,7 +34,7 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     clock = named.get("time", {}).get("column", "time")
     if clock not in dataset.variables:
         raise InputError(f"has no variable {clock!r} for time", file=path)
-    time = _scale("time", dataset[clock], named.get("time", {}), path) * dataset[clock].values
+    time = _clock(dataset[clock], named.get("time", {}), path)
     quantities = {}
     for quantity in DRIVE:
         entry = named.get(quantity, {})
@@ -52,6 +56,37 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     if "sensor_x" in dataset.attrs:
         attributes["sensor"] = tuple(float(dataset.attrs[f"sensor_{axis}"]) for axis in "xyz")
     return quantities, attributes
+
+
+def check(path, columns: Mapping[str, Mapping] | None) -> None:
+    """Raise InputError where the file has no variables for what ``columns`` asks for, or for what a drive needs."""
+    import netCDF4
+
+    try:
+        with netCDF4.Dataset(path) as file:
+            variables = set(file.variables)
+    except (OSError, RuntimeError):
+        return  # reading it says why
+    named = {name: (columns or {}).get(name, {}).get("column", name) for name in ("time", *DRIVE)}
+    for quantity in columns or {}:
+        if named.get(quantity, quantity) not in variables:
+            raise InputError(f"has no variable {named.get(quantity, quantity)!r} for {quantity}", file=path)
+    lacks = missing([quantity for quantity, variable in named.items() if variable in variables])
+    if lacks:
+        raise InputError(f"{lacks}; `columns` says what variables of other names hold", file=path, place="variables")
+
+
+def _clock(series: xr.DataArray, entry: Mapping, path) -> np.ndarray:
+    """Time in s; reading has turned dates, and durations that are spelled out ("seconds"), into those of numpy already."""
+    values = series.values
+    if values.dtype.kind in "Mm":
+        since = values - values[:1] if values.dtype.kind == "M" else values
+        return np.where(np.isnat(since), np.nan, since / np.timedelta64(1, "s"))
+    if values.dtype.kind not in "fiu":
+        raise InputError(
+            f"holds {values.ravel()[:1]} for time (expected numbers, or dates of the standard calendar)", file=path, place=str(series.name)
+        )
+    return _scale("time", series, entry, path) * values
 
 
 def _scale(quantity: str, series: xr.DataArray, entry: Mapping, path) -> float:
