@@ -26,6 +26,7 @@ def put_between_1400_and_1600_m() -> xr.Dataset:
             "simulated": (dims, (measured + error)[None]),
             "v_x": (("drive", "time"), series[0]),
             "s": (("drive", "time"), series[1]),
+            "e": (("drive", "time"), np.zeros_like(series[1])),
         },
         {"state": ["calibrated"], "drive": ["one", "two"], "signal": list(SIGNALS), "time": time},
     )

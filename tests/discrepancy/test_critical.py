@@ -28,6 +28,7 @@ def found():
             "residual": (("state", "drive", "signal", "time"), residual[None]),
             "s": over,
             "v_x": (("drive", "time"), np.full((2, time.size), 10.0)),
+            "e": (("drive", "time"), np.zeros((2, time.size))),
             "role": ("drive", ["fit", "fit"]),
         },
         {"state": ["calibrated"], "drive": ["one", "two"], "signal": list(SIGNALS), "time": time},

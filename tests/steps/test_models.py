@@ -9,7 +9,11 @@ from ridecomfort import config
 from ridecomfort.schema import read_yaml
 from ridecomfort.steps import models
 
-NAMED = {"verdict": "named", "effects": [{"name": "suspension_friction", "like": []}, {"name": "damper_asymmetry", "like": []}]}
+NAMED = {
+    "sites": ["ts1"],
+    "verdict": "named",
+    "effects": [{"name": "suspension_friction", "like": []}, {"name": "damper_asymmetry", "like": []}],
+}
 
 
 @pytest.fixture
@@ -56,6 +60,8 @@ def test_the_verdict_on_disk_is_followed_unless_the_study_does_not_go_forward(st
     file.write_text(json.dumps(NAMED))
     assert len(models.known(study()).models) == 3
     assert models.known(study(diagnosis={"forward": False})).models == ("base",)
+    file.write_text(json.dumps({**NAMED, "sites": ["another_car"]}))
+    assert models.known(study()).models == ("base",)
 
 
 def test_files_are_those_of_the_measured_sites_model_by_model(study):

@@ -34,7 +34,7 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     name = next(name for name in _names() if name not in known)
     told = {"among": config["among"], "noise_density": config["noise_density"], "signatures": True, "name": name}
     table, found, proposal = discrepancy.diagnose(drives, car, **told, **settings)
-    content = found.json()
+    content = {"sites": config["sites"], **found.json()}
     for old in Path(verdict).parent.glob(f"{DISCOVERED}*.py"):  # of drives or of a model before
         old.unlink()
     if proposal is not None:

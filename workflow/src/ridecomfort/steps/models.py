@@ -46,9 +46,13 @@ def chain(study: Study, verdict: Mapping | None = None) -> Chain:
 
 
 def known(study: Study) -> Chain:
-    """The chain as far as it is known now: with the verdict on the study's model where there is one and it is to be followed."""
+    """The chain as far as it is known now: with the verdict on the study's model where there is one and it is to be followed.
+
+    A verdict that was fitted on another site, whose car may be another, is not.
+    """
     file = Path(verdict_file(study))
-    return chain(study, json.loads(file.read_text()) if study.forward and file.is_file() else None)
+    verdict = json.loads(file.read_text()) if study.forward and file.is_file() else None
+    return chain(study, verdict if verdict and verdict["sites"][:1] == study.diagnosed[:1] else None)
 
 
 def verdict_file(study: Study) -> str:
