@@ -52,7 +52,7 @@ def known(study: Study) -> Chain:
     """
     file = Path(verdict_file(study))
     verdict = json.loads(file.read_text()) if study.forward and file.is_file() else None
-    return chain(study, verdict if verdict and verdict["sites"][:1] == study.diagnosed[:1] else None)
+    return chain(study, verdict if verdict and verdict.get("sites", ())[:1] == study.diagnosed[:1] else None)
 
 
 def verdict_file(study: Study) -> str:
