@@ -64,10 +64,10 @@ class Course:
 def prepare(road: xr.Dataset, interpolation: str | None = None) -> Course:
     """The road made ready for `run`, worth it when driving on it more than once.
 
-    ``interpolation``: "cubic" or "linear"; by default what the road says.
+    ``interpolation``: "cubic" or "linear"; by default what the road says (`surface.INTERPOLATION` where it does not).
     """
     elevation, u0, du, v0, dv = surface.grid(road)
-    smooth = (interpolation or road.attrs.get("interpolation", "cubic")) == "cubic"
+    smooth = (interpolation or road.attrs.get("interpolation", surface.INTERPOLATION)) == "cubic"
     return Course(
         Surface(u0, 1.0 / du, v0, 1.0 / dv, smooth),
         elevation,

@@ -64,7 +64,7 @@ def read(path, **options: str) -> xr.Dataset:
         none.
     interpolation
         ``linear``, as OpenCRG defines the surface, or ``cubic`` (sec:road_surf), which
-        the study uses unless the site says otherwise (`prepare.INTERPOLATION`).
+        the study uses unless the site says otherwise (`surface.INTERPOLATION`).
     holes
         cells without a height inside the road: ``refuse``, or ``keep`` them for
         `clean.fill`.
