@@ -34,6 +34,34 @@ def test_comfort_table_and_plot(recording, capsys):
     assert recording.with_name("my_iso2631.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize(
+    ("rate", "duration", "said"),
+    [
+        (10.0, 60.0, "time: 10 samples per second hold nothing above 5 Hz (expected 20 or more"),
+        (100.0, 0.5, "time: lasts 0.5 s (expected 4 s or more"),
+        (100.0, 0.02, "time: lasts 0.02 s (expected 4 s or more"),
+    ],
+)
+def test_a_recording_that_cannot_hold_what_the_standard_weighs_is_refused(tmp_path, rate, duration, said):
+    """Its band is 0.5 to 80 Hz. Shares of time outside of an acceleration can be told all the same."""
+    time = np.arange(round(rate * duration)) / rate
+    file = write(tmp_path / "my.csv", time=time, a_z=np.sin(2 * np.pi * 2 * time))
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iso2631", str(file)])
+    assert str(end.value).startswith(f"error: {file}: {said}") and "\n" not in str(end.value)
+    assert [each.name for each in tmp_path.iterdir()] == ["my.csv"]
+    alone.styles(alone.recording(file))
+
+
+@pytest.mark.parametrize(("rate", "highest"), [(20.0, "10"), (100.0, "50"), (160.0, None)])
+def test_the_highest_frequency_heard_is_told_where_it_lies_below_that_of_the_weightings(tmp_path, rate, highest):
+    time = np.arange(round(10 * rate)) / rate
+    file = write(tmp_path / "my.csv", time=time, a_z=np.sin(2 * np.pi * 2 * time))
+    remarks = " ".join(alone.ride(alone.recording(file)).remarks)
+    assert ("is not heard" in remarks) == bool(highest)
+    assert highest is None or f"span 0.5 to 80 Hz: at {rate:g} Hz vibration above {highest} Hz is not heard" in remarks
+
+
 def test_a_floor_recording_goes_through_a_seat(recording, tmp_path):
     """At 4 Hz through a seat of 2 Hz and damping 0.3: transmissibility sqrt((1 + 1.44) / (9 + 1.44))."""
     common = ["comfort", "--iso2631", str(recording), "--column", "a_z=up", "--unit", "g", "--output"]
