@@ -244,6 +244,41 @@ def test_profiles_that_cannot_be_meant_are_refused(tmp_path, columns, message):
     assert message in str(end.value) and str(file) in str(end.value)
 
 
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--local", "nan"], "--local: nan, expected an IRI above 0 m/km"),
+        (["--local", "-1"], "--local: -1.0, expected"),
+        (["--segment", "0.1"], "--segment: 0.1 m, expected 0.5 m or more, what the profile resolves"),
+        (["--segment", "nan"], "segment: nan is not a length"),
+    ],
+)
+def test_what_means_nothing_for_a_profile_is_refused(tmp_path, arguments, message):
+    """Samples 0.5 m apart: within less than that nothing is known."""
+    file = write(tmp_path / "my.csv", s=S[::5], elevation=PROFILE[::5])
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iri", str(file), *arguments])
+    assert message in str(end.value) and [each.name for each in tmp_path.iterdir()] == ["my.csv"]
+    main(["comfort", "--iri", str(file), "--local", "3", "--segment", "0.5"])
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("way,left\n0,0\n0.2,0\n\n0.1,0\n0.3,0\n", "line 5, column 'way': 0.1 m after 0.2 m (expected positions that ascend)"),
+        ("way,left\n0,0\n0.2,0\n0.2,0\n", "line 4, column 'way': 0.2 m after 0.2 m"),
+        ("way,left\n0,0\n,0\n0.2,0\n", "line 3, column 'way': no number"),
+        ("way,left\n,0\n0.1,0\n0.2,0\n", "line 2, column 'way': no number"),
+    ],
+)
+def test_positions_that_do_not_ascend_are_told_by_line_and_column(tmp_path, content, said):
+    file = tmp_path / "my.csv"
+    file.write_text(content)
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iri", str(file), "--column", "s=way"])
+    assert str(end.value).startswith(f"error: {file}: {said}")
+
+
 def test_help_says_which_columns_are_needed(capsys):
     with pytest.raises(SystemExit):
         main(["comfort", "--help"])

@@ -15,6 +15,7 @@ from ..drive.readers import csv
 from ..errors import InputError
 from ..vocabulary import STANDARD_GRAVITY, VARIABLES, describe
 from . import bands, exposure, iri, iso2631, jerk, quantities, seat, thresholds, total
+from .quartercar import MOVING_AVERAGE
 
 AXES = ("a_x", "a_y", "a_z")
 
@@ -304,7 +305,11 @@ def roughness(
 
     Columns are in m, or in the unit that stands in brackets behind the name: ``elevation [mm]``; ``columns`` gives other names
     (quantity to {"column": name}). ``local``: m/km; the stretches whose continuous IRI lies above are named (``iri.local_roughness``).
+    Raises InputError for a profile with gaps or out of order, a ``local`` that is no roughness, and a ``segment`` shorter than what
+    the profile resolves: its samples, or the moving average.
     """
+    if local is not None and not (np.isfinite(local) and local > 0.0):
+        raise InputError(f"{local!r}, expected an IRI above 0 m/km", place="--local")
     table = _table(file)
     columns = {**_headed(table.columns, ("s", *HEIGHTS)), **(columns or {})}
     names = [name for name in HEIGHTS if name in columns]
@@ -313,6 +318,10 @@ def roughness(
         raise InputError(f"expected columns s and any of {', '.join(HEIGHTS)} (found {found})", file=file)
     profiles = {name: _metres(table, columns[name], file) for name in ("s", *names)}
     s = profiles.pop("s")
+    _check_ascending(s, columns["s"]["column"], file)
+    resolved = max(MOVING_AVERAGE, float(np.diff(s).max(initial=0.0)))
+    if segment < resolved:
+        raise InputError(f"{segment:g} m, expected {resolved:.4g} m or more, what the profile resolves", file=file, place="--segment")
     settings = {"moving_average": None} if smoothed else {}
     try:
         start, stop = iri.segments(s[0], s[-1], segment)
@@ -355,6 +364,18 @@ def _metres(table: pd.DataFrame, entry: Mapping, file) -> np.ndarray:
         raise InputError(f"column {column!r} holds something else than numbers", file=file)
     scale = units.of_column("elevation", {"unit": units.of_header(column) or "m", **entry}, file=file, place=f"column {column!r}")
     return scale * table[column].to_numpy(float)
+
+
+def _check_ascending(s: np.ndarray, column, file) -> None:
+    """Raise InputError that names the line where positions (m) do not ascend."""
+    back = np.flatnonzero(~(np.diff(s) > 0.0))
+    if not back.size:
+        return
+    i = back[0] + int(np.isfinite(s[back[0]]))
+    with open(file, encoding="utf-8-sig") as lines:
+        written = [number for number, line in enumerate(lines, start=1) if line.strip()]
+    found = f"{s[i]:.6g} m after {s[i - 1]:.6g} m" if i and np.isfinite(s[i]) else "no number"
+    raise InputError(f"{found} (expected positions that ascend)", file=file, place=f"line {written[i + 1]}, column {column!r}")
 
 
 def _table(file, rows: int | None = None) -> pd.DataFrame:
