@@ -203,6 +203,8 @@ def test_a_number_on_the_command_line_may_stand_in_a_block(project):
     assert study.settings["space"]["spacing"] == 0.5
 
 
+SPEEDS = [120, 100, 80, 70, 60, 50, 40, 30, 20, 10]
+
 STUDY_MISTAKES = [
     ({"runs": 0}, "runs: 0, expected at least 1"),
     ({"runs": 2.5}, "runs: 2.5, expected a whole number"),
@@ -226,7 +228,14 @@ STUDY_MISTAKES = [
     ({"diagnosis": {"uncertain": {"tyre_friction": 0.1}}}, "diagnosis: uncertain: 'tyre_friction' is calibrated"),
     ({"diagnosis": {"uncertain": {"roll_inertia": 0}}}, "diagnosis: uncertain: roll_inertia: 0, expected"),
     ({"calibration": {"signals": ["a_w"]}}, "'a_w', expected one of a_x"),
-    ({"comfort": {"iri": {"speed_km_h": [50, 60]}}}, "one for each of the 2 speeds"),
+    ({"comfort": {"iri": {"speed_km_h": [50, 60]}}}, "comfort: iri: thresholds: VG: 10 values, expected one for each of the 2 speeds"),
+    ({"comfort": {"iri": {"speed_km_h": SPEEDS[::-1]}}}, "VG: 11.44 m/km at 120 km/h and 5.72 m/km at 100 km/h, expected edges that fall"),
+    ({"comfort": {"iri": {"speed_km_h": [*SPEEDS[:-1], 20]}}}, "comfort: iri: speed_km_h: 20 stands twice, expected different speeds"),
+    (
+        {"calibration": {"bounds": {"spring_stiffness_front": [2000000, 10000000]}}},
+        "bounds: spring_stiffness_front: 2e+06 to 1e+07 N/m, expected an interval within 5000 to 300000 N/m",
+    ),
+    ({"calibration": {"bounds": {"tyre_friction": [1, 1]}}}, "tyre_friction: 1 to 1, expected an interval within 0.1 to 2"),
     ({"comfort": {"sections": "gliding"}}, "comfort: sections: 'gliding', expected one of sequential, sliding"),
     ({"comfort": {"jerk": {"seated": [2.9, -2.9]}}}, "jerk: seated: [2.9, -2.9], expected the lower value first"),
     ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2"),

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort import store
-from ridecomfort.comfort import bands, iriclass, jerk, thresholds
+from ridecomfort.comfort import bands, iriedges, jerk, thresholds
 from ridecomfort.errors import InputError
 from ridecomfort.steps import agreement, iri, iso2631, maps
 from ridecomfort.steps import thresholds as thresholds_step
@@ -27,8 +27,8 @@ CONFIG = {
         "segment": 50,
         "wheel_tracks": [-0.75, 0.75],
         "moving_average": 0.25,
-        "speed_km_h": list(iriclass.SPEED_KM_H),
-        "thresholds": {name: list(edge) for name, edge in iriclass.EDGES.items()},
+        "speed_km_h": list(iriedges.SPEED_KM_H),
+        "thresholds": {name: list(edge) for name, edge in iriedges.EDGES.items()},
     },
 }
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import yaml
 
 from .comfort import bands
+from .comfort.iriedges import Edges
 from .drive import readers, units
 from .effects import library
 from .errors import InputError
@@ -94,23 +95,12 @@ def _study(settings: Mapping, given: list[str]) -> dict:
             file=_source("simulation", given),
             place="simulation: rate",
         )
+    iri = settings["comfort"]["iri"]
     try:
         bands.edges(settings["comfort"]["iso2631"]["bands"])
+        Edges(iri["speed_km_h"], iri["thresholds"])
     except InputError as problem:
         raise InputError(str(problem), file=_source("comfort", given), place="comfort") from None
-    iri = settings["comfort"]["iri"]
-    below = [0.0] * len(iri["speed_km_h"])
-    for quality, edges in iri["thresholds"].items():
-        place = f"comfort: iri: thresholds: {quality}"
-        if len(edges) != len(below):
-            raise InputError(
-                f"{len(edges)} values, expected one for each of the {len(below)} speeds",
-                file=_source("comfort", given),
-                place=place,
-            )
-        if any(edge <= lower for edge, lower in zip(edges, below)):
-            raise InputError("expected values above those of the class before", file=_source("comfort", given), place=place)
-        below = edges
     return settings
 
 
@@ -184,6 +174,12 @@ def _check_parameters(calibration: Mapping, source) -> None:
             if name not in known:
                 what = "is not calibrated; expected of" if key == "bounds" else "is no parameter of a vehicle; known are"
                 raise InputError(f"{name!r} {what} {', '.join(known)}", file=source, place=f"calibration: {key}")
+    for name, (lower, upper) in calibration["bounds"].items():
+        span = parameters.PARAMETERS[name]
+        if not span.lower <= lower < upper <= span.upper:
+            unit = "" if span.unit == "1" else f" {span.unit}"
+            what = f"{lower:g} to {upper:g}{unit}, expected an interval within {span.lower:g} to {span.upper:g}{unit}"
+            raise InputError(what, file=source, place=f"calibration: bounds: {name}")
     for name in calibration["profiles"]:
         if "." not in name and name not in chosen:
             what = f"{name!r} is not calibrated; expected of {', '.join(chosen)}, or a size of an effect as effect.parameter"
