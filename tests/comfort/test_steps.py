@@ -90,6 +90,13 @@ def test_a_truncated_shard_is_named_and_nothing_written(files):
     assert not (folder / "out.nc").exists()
 
 
+def test_a_wheel_track_beside_the_road_names_the_road_and_the_setting(files):
+    folder, shards = files
+    config = {**CONFIG, "iri": {**CONFIG["iri"], "wheel_tracks": [-7, 7]}}
+    with pytest.raises(InputError, match=r"road.nc: wheel track at -7 m .*, -1 to 1 m \(comfort: iri: wheel_tracks in config/study.yaml\)"):
+        iri.main(shards=shards, road=folder / "road.nc", config=config, output=folder / "out.nc")
+
+
 def test_sliding_sections_begin_at_every_place(files):
     folder, shards = files
     iso2631.main(shards=shards, config={**CONFIG, "sections": "sliding"}, output=folder / "out.nc")
