@@ -328,6 +328,43 @@ def test_mistake_in_a_site(project, content, said):
     assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
 
 
+def wide(project, width):
+    """A road's header, as wide as that."""
+    sections = f"LONG_SECTION_V_RIGHT = {-width / 2}\nLONG_SECTION_V_LEFT = {width / 2}\nLONG_SECTION_V_INCREMENT = 0.1"
+    head = f"$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 0.1\n{sections}\n$\n$KD_DEFINITION\n#:LRFI\nD:long section 1,m\n$\n$$$$\n"
+    (project / "road.crg").write_text(head)
+
+
+@pytest.mark.parametrize(
+    ("width", "runs", "lateral", "said"),
+    [
+        (4.0, 4000, {"uniform": [-3, 3]}, "4000 runs from -3 to 3 m, with wheels 0.75 m to either side, expected on the road of own"),
+        (4.0, 4000, {"normal": [0, 0.5]}, "4000 runs from -1.831 to 1.831 m, with wheels"),
+        (4.0, 4000, {"normal": [0, 0.2]}, None),
+        (4.0, 4000, {"uniform": [-1.25, 1.25]}, None),
+        (1.8, 4000, {"normal": [0, 0.2]}, "expected on the road of own, -0.9 to 0.9 m"),
+        (None, 4000, {"uniform": [-3, 3]}, None),
+    ],
+)
+def test_runs_that_would_leave_the_road_are_missed_before_anything_runs(project, width, runs, lateral, said):
+    """Of what the header of the road says; one that says nothing is seen to when it is read."""
+    if width is not None:
+        wide(project, width)
+    write(project, "own", {"road": {"file": "road.crg"}, "sampling": {"lateral_position": lateral}})
+    settings = {"sites": ["own"], "runs": runs}
+    if said is None:
+        config.load(settings, project)
+    else:
+        assert_said(project, settings, f"sampling: lateral_position: {said}" if said[0].isdigit() else said, config.SITES / "own.yaml")
+
+
+def test_wheel_tracks_beside_a_road_are_missed_before_anything_runs(project):
+    wide(project, 4.0)
+    settings = {"sites": ["own"], "comfort": {"iri": {"wheel_tracks": [-7, 7]}}}
+    assert_said(project, settings, "comfort: iri: wheel_tracks: -7 m, expected a place on the road of own, -2 to 2 m", config.STUDY)
+    assert_said(project, {**settings, "sites": ["ts1"]}, "expected a place on the road of ts1, -2 to 2 m", config.STUDY)
+
+
 def test_a_column_that_a_drive_does_not_have_is_missed_before_anything_runs(project):
     (project / "drive.csv").write_text("time [s], acc\n0, 1\n", encoding="utf-8-sig")
     columns = {"time": {"column": "time [s]", "unit": "s"}, "a_z": {"column": "acc_z", "unit": "m/s2"}}

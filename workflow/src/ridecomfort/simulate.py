@@ -179,6 +179,25 @@ def runs(
     )
 
 
+def check_on_road(road: xr.Dataset, vehicle: Vehicle, lateral, u=None, *, beyond: float = 0.0, file=None, place: str = "") -> None:
+    """Raise InputError where a wheel leaves the grid of the road: heights are only held there, and the drive comes out too smooth.
+
+    ``lateral``: positions of the vehicle in m to the left of the reference line, a number or (n,), each at its ``u`` in m where it
+    is known. ``beyond``: m by which a wheel may. ``file`` and ``place`` are what the message names first.
+    """
+    lateral, half = np.atleast_1d(lateral), max(vehicle["track_front"], vehicle["track_rear"]) / 2
+    right, left = float(road.v[0]), float(road.v[-1])
+    over = np.maximum(lateral + half - left, right - (lateral - half))
+    worst = int(np.argmax(over))
+    if over[worst] > beyond + 1e-6:
+        where = "" if u is None else f" at u = {np.atleast_1d(u)[worst]:.1f} m"
+        raise InputError(
+            f"{lateral[worst]:.2f} m{where}, with wheels {half:.3g} m to either side, expected on the road, {right:g} to {left:g} m",
+            file=file,
+            place=": ".join(part for part in (place, "lateral position") if part),
+        )
+
+
 def _on_body(sensor, before: Vehicle, after: Vehicle) -> tuple[float, float, float]:
     """Place relative to the centre of gravity of a vehicle whose centre of gravity lay elsewhere ``before``."""
     x, y, z = sensor
