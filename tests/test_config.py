@@ -204,6 +204,8 @@ def test_a_number_on_the_command_line_may_stand_in_a_block(project):
     assert study.settings["space"]["spacing"] == 0.5
 
 
+SPEEDS = [120, 100, 80, 70, 60, 50, 40, 30, 20, 10]
+
 STUDY_MISTAKES = [
     ({"runs": 0}, "runs: 0, expected at least 1"),
     ({"runs": 2.5}, "runs: 2.5, expected a whole number"),
@@ -227,7 +229,14 @@ STUDY_MISTAKES = [
     ({"diagnosis": {"uncertain": {"tyre_friction": 0.1}}}, "diagnosis: uncertain: 'tyre_friction' is calibrated"),
     ({"diagnosis": {"uncertain": {"roll_inertia": 0}}}, "diagnosis: uncertain: roll_inertia: 0, expected"),
     ({"calibration": {"signals": ["a_w"]}}, "'a_w', expected one of a_x"),
-    ({"comfort": {"iri": {"speed_km_h": [50, 60]}}}, "one for each of the 2 speeds"),
+    ({"comfort": {"iri": {"speed_km_h": [50, 60]}}}, "comfort: iri: thresholds: VG: 10 values, expected one for each of the 2 speeds"),
+    ({"comfort": {"iri": {"speed_km_h": SPEEDS[::-1]}}}, "VG: 11.44 m/km at 120 km/h and 5.72 m/km at 100 km/h, expected edges that fall"),
+    ({"comfort": {"iri": {"speed_km_h": [*SPEEDS[:-1], 20]}}}, "comfort: iri: speed_km_h: 20 stands twice, expected different speeds"),
+    (
+        {"calibration": {"bounds": {"spring_stiffness_front": [2000000, 10000000]}}},
+        "bounds: spring_stiffness_front: 2e+06 to 1e+07 N/m, expected an interval within 5000 to 300000 N/m",
+    ),
+    ({"calibration": {"bounds": {"tyre_friction": [1, 1]}}}, "tyre_friction: 1 to 1, expected an interval within 0.1 to 2"),
     ({"comfort": {"sections": "gliding"}}, "comfort: sections: 'gliding', expected one of sequential, sliding"),
     ({"comfort": {"jerk": {"seated": [2.9, -2.9]}}}, "jerk: seated: [2.9, -2.9], expected the lower value first"),
     ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2"),
@@ -329,6 +338,43 @@ SITE_MISTAKES = [
 def test_mistake_in_a_site(project, content, said):
     write(project, "own", content)
     assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
+
+
+def wide(project, width):
+    """A road's header, as wide as that."""
+    sections = f"LONG_SECTION_V_RIGHT = {-width / 2}\nLONG_SECTION_V_LEFT = {width / 2}\nLONG_SECTION_V_INCREMENT = 0.1"
+    head = f"$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 0.1\n{sections}\n$\n$KD_DEFINITION\n#:LRFI\nD:long section 1,m\n$\n$$$$\n"
+    (project / "road.crg").write_text(head)
+
+
+@pytest.mark.parametrize(
+    ("width", "runs", "lateral", "said"),
+    [
+        (4.0, 4000, {"uniform": [-3, 3]}, "4000 runs from -3 to 3 m, with wheels 0.75 m to either side, expected on the road of own"),
+        (4.0, 4000, {"normal": [0, 0.5]}, "4000 runs from -1.831 to 1.831 m, with wheels"),
+        (4.0, 4000, {"normal": [0, 0.2]}, None),
+        (4.0, 4000, {"uniform": [-1.25, 1.25]}, None),
+        (1.8, 4000, {"normal": [0, 0.2]}, "expected on the road of own, -0.9 to 0.9 m"),
+        (None, 4000, {"uniform": [-3, 3]}, None),
+    ],
+)
+def test_runs_that_would_leave_the_road_are_missed_before_anything_runs(project, width, runs, lateral, said):
+    """Of what the header of the road says; one that says nothing is seen to when it is read."""
+    if width is not None:
+        wide(project, width)
+    write(project, "own", {"road": {"file": "road.crg"}, "sampling": {"lateral_position": lateral}})
+    settings = {"sites": ["own"], "runs": runs}
+    if said is None:
+        config.load(settings, project)
+    else:
+        assert_said(project, settings, f"sampling: lateral_position: {said}" if said[0].isdigit() else said, config.SITES / "own.yaml")
+
+
+def test_wheel_tracks_beside_a_road_are_missed_before_anything_runs(project):
+    wide(project, 4.0)
+    settings = {"sites": ["own"], "comfort": {"iri": {"wheel_tracks": [-7, 7]}}}
+    assert_said(project, settings, "comfort: iri: wheel_tracks: -7 m, expected a place on the road of own, -2 to 2 m", config.STUDY)
+    assert_said(project, {**settings, "sites": ["ts1"]}, "expected a place on the road of ts1, -2 to 2 m", config.STUDY)
 
 
 def test_a_column_that_a_drive_does_not_have_is_missed_before_anything_runs(project):

@@ -98,6 +98,25 @@ def test_records_are_the_drive_low_passed_in_every_band(car, name):
 
 
 @pytest.mark.parametrize(
+    ("lateral", "u", "beyond", "said"),
+    [
+        (1.25, None, 0.0, None),
+        (1.3, None, 0.0, "1.30 m, with wheels 0.75 m to either side, expected on the road, -2 to 2 m"),
+        ([0.0, -1.28, -1.31], [50.0, 60.0, 70.0], 0.1, None),
+        ([0.0, -1.36, -1.31], [50.0, 60.0, 70.0], 0.1, "-1.36 m at u = 60.0 m, with wheels 0.75 m"),
+    ],
+)
+def test_wheels_stay_on_the_road(course, car, lateral, u, beyond, said):
+    """Track 1.5 m on 4 m of road: 1.25 m to either side, or a cell more where that is granted."""
+    if said is None:
+        simulate.check_on_road(course.road, car, lateral, u, beyond=beyond)
+        return
+    with pytest.raises(InputError) as problem:
+        simulate.check_on_road(course.road, car, lateral, u, beyond=beyond, file="road.nc", place="run 7")
+    assert str(problem.value).startswith(f"road.nc: run 7: lateral position: {said}")
+
+
+@pytest.mark.parametrize(
     ("given", "named"),
     [
         (dict(speed=-3.0), "speed"),

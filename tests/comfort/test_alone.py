@@ -34,6 +34,34 @@ def test_comfort_table_and_plot(recording, capsys):
     assert recording.with_name("my_iso2631.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize(
+    ("rate", "duration", "said"),
+    [
+        (10.0, 60.0, "time: 10 samples per second hold nothing above 5 Hz (expected 20 or more"),
+        (100.0, 0.5, "time: lasts 0.5 s (expected 4 s or more"),
+        (100.0, 0.02, "time: lasts 0.02 s (expected 4 s or more"),
+    ],
+)
+def test_a_recording_that_cannot_hold_what_the_standard_weighs_is_refused(tmp_path, rate, duration, said):
+    """Its band is 0.5 to 80 Hz. Shares of time outside of an acceleration can be told all the same."""
+    time = np.arange(round(rate * duration)) / rate
+    file = write(tmp_path / "my.csv", time=time, a_z=np.sin(2 * np.pi * 2 * time))
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iso2631", str(file)])
+    assert str(end.value).startswith(f"error: {file}: {said}") and "\n" not in str(end.value)
+    assert [each.name for each in tmp_path.iterdir()] == ["my.csv"]
+    alone.styles(alone.recording(file))
+
+
+@pytest.mark.parametrize(("rate", "highest"), [(20.0, "10"), (100.0, "50"), (160.0, None)])
+def test_the_highest_frequency_heard_is_told_where_it_lies_below_that_of_the_weightings(tmp_path, rate, highest):
+    time = np.arange(round(10 * rate)) / rate
+    file = write(tmp_path / "my.csv", time=time, a_z=np.sin(2 * np.pi * 2 * time))
+    remarks = " ".join(alone.ride(alone.recording(file)).remarks)
+    assert ("is not heard" in remarks) == bool(highest)
+    assert highest is None or f"span 0.5 to 80 Hz: at {rate:g} Hz vibration above {highest} Hz is not heard" in remarks
+
+
 def test_a_floor_recording_goes_through_a_seat(recording, tmp_path):
     """At 4 Hz through a seat of 2 Hz and damping 0.3: transmissibility sqrt((1 + 1.44) / (9 + 1.44))."""
     common = ["comfort", "--iso2631", str(recording), "--column", "a_z=up", "--unit", "g", "--output"]
@@ -214,6 +242,41 @@ def test_profiles_that_cannot_be_meant_are_refused(tmp_path, columns, message):
     with pytest.raises(SystemExit) as end:
         main(["comfort", "--iri", str(file)])
     assert message in str(end.value) and str(file) in str(end.value)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--local", "nan"], "--local: nan, expected an IRI above 0 m/km"),
+        (["--local", "-1"], "--local: -1.0, expected"),
+        (["--segment", "0.1"], "--segment: 0.1 m, expected 0.5 m or more, what the profile resolves"),
+        (["--segment", "nan"], "segment: nan is not a length"),
+    ],
+)
+def test_what_means_nothing_for_a_profile_is_refused(tmp_path, arguments, message):
+    """Samples 0.5 m apart: within less than that nothing is known."""
+    file = write(tmp_path / "my.csv", s=S[::5], elevation=PROFILE[::5])
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iri", str(file), *arguments])
+    assert message in str(end.value) and [each.name for each in tmp_path.iterdir()] == ["my.csv"]
+    main(["comfort", "--iri", str(file), "--local", "3", "--segment", "0.5"])
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("way,left\n0,0\n0.2,0\n\n0.1,0\n0.3,0\n", "line 5, column 'way': 0.1 m after 0.2 m (expected positions that ascend)"),
+        ("way,left\n0,0\n0.2,0\n0.2,0\n", "line 4, column 'way': 0.2 m after 0.2 m"),
+        ("way,left\n0,0\n,0\n0.2,0\n", "line 3, column 'way': no number"),
+        ("way,left\n,0\n0.1,0\n0.2,0\n", "line 2, column 'way': no number"),
+    ],
+)
+def test_positions_that_do_not_ascend_are_told_by_line_and_column(tmp_path, content, said):
+    file = tmp_path / "my.csv"
+    file.write_text(content)
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iri", str(file), "--column", "s=way"])
+    assert str(end.value).startswith(f"error: {file}: {said}")
 
 
 def test_help_says_which_columns_are_needed(capsys):

@@ -10,29 +10,6 @@ from ridecomfort.comfort import iri, iriclass
 from ridecomfort.errors import InputError
 
 
-def test_edges_at_the_printed_speeds_are_the_printed_ones():
-    """tab:IRI_thresholds at 80 and 50 km/h."""
-    edges = iriclass.Edges()
-    assert edges.at(80 / 3.6) == pytest.approx([1.43, 2.24, 2.84, 4.05])
-    assert edges.at(50 / 3.6) == pytest.approx([2.28, 3.59, 4.54, 6.25])
-
-
-def test_edges_follow_one_over_v_between_and_beyond():
-    """VG is 114 / v(km/h) but for rounding; linear interpolation in v errs by up to 13 %."""
-    edges = iriclass.Edges()
-    speed_km_h = np.array([8.0, 15.0, 25.0, 45.0, 90.0, 110.0, 130.0])
-    assert edges.at(speed_km_h / 3.6)[0] == pytest.approx(114.4 / speed_km_h, rel=5e-3)
-    linear = np.interp(15.0, [10.0, 20.0], [11.44, 5.72])
-    assert linear / edges.at(15.0 / 3.6)[0] == pytest.approx(1.125, rel=1e-3)
-
-
-def test_speed_at_which_a_class_is_lost_is_the_inverse():
-    edges = iriclass.Edges()
-    rough = np.array([0.5, 1.0, 2.5, 6.0, 40.0])
-    for quality, speed in enumerate(edges.speed(rough)):
-        assert [edges.at(v)[quality] for v in speed] == pytest.approx(rough)
-
-
 def test_tracks_interpolate_across_the_road_and_name_holes():
     u, v = np.arange(0, 50, 0.5), np.array([-1.0, 0.0, 1.0])
     heights = 0.01 * u[:, None] + 0.1 * v
@@ -85,13 +62,6 @@ def test_shards_do_not_matter():
     whole = iriclass.evaluate([shard], road)
     parts = iriclass.evaluate([shard.isel(run=slice(a, a + 7)) for a in range(0, 40, 7)], road)
     xr.testing.assert_identical(whole, parts)
-
-
-def test_edges_out_of_order_are_refused():
-    with pytest.raises(InputError, match="rise from class to class"):
-        iriclass.Edges((80, 60), {"VG": (1.0, 2.0), "G": (0.9, 3.0), "F": (3.0, 4.0), "M": (4.0, 5.0)})
-    with pytest.raises(InputError, match="expected 2 edges"):
-        iriclass.Edges((80, 60), {"VG": (1.0,), "G": (2.0,), "F": (3.0,), "M": (4.0,)})
 
 
 def test_the_survey_hides_what_the_continuous_iri_shows():

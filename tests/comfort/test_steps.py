@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort import store
-from ridecomfort.comfort import bands, iriclass, jerk, thresholds
+from ridecomfort.comfort import bands, iriedges, jerk, thresholds
 from ridecomfort.errors import InputError
 from ridecomfort.steps import agreement, iri, iso2631, maps
 from ridecomfort.steps import thresholds as thresholds_step
@@ -27,8 +27,8 @@ CONFIG = {
         "segment": 50,
         "wheel_tracks": [-0.75, 0.75],
         "moving_average": 0.25,
-        "speed_km_h": list(iriclass.SPEED_KM_H),
-        "thresholds": {name: list(edge) for name, edge in iriclass.EDGES.items()},
+        "speed_km_h": list(iriedges.SPEED_KM_H),
+        "thresholds": {name: list(edge) for name, edge in iriedges.EDGES.items()},
     },
 }
 
@@ -88,6 +88,13 @@ def test_a_truncated_shard_is_named_and_nothing_written(files):
     with pytest.raises(InputError, match="5.nc"):
         iso2631.main(shards=shards, config=CONFIG, output=folder / "out.nc")
     assert not (folder / "out.nc").exists()
+
+
+def test_a_wheel_track_beside_the_road_names_the_road_and_the_setting(files):
+    folder, shards = files
+    config = {**CONFIG, "iri": {**CONFIG["iri"], "wheel_tracks": [-7, 7]}}
+    with pytest.raises(InputError, match=r"road.nc: wheel track at -7 m .*, -1 to 1 m \(comfort: iri: wheel_tracks in config/study.yaml\)"):
+        iri.main(shards=shards, road=folder / "road.nc", config=config, output=folder / "out.nc")
 
 
 def test_sliding_sections_begin_at_every_place(files):

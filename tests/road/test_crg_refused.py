@@ -34,7 +34,7 @@ REFUSALS = {
         "handmade_sloped", lambda text: text.replace("v = -1.250,m", "v =  0.100,m"), "follows v = 0.1 m",
     ),
     "a hole in the road": (
-        "handmade_vtest", lambda text: " *missing*".join(text.rsplit(" 3.3333333", 1)), "holes: keep",
+        "handmade_vtest", lambda text: " *missing*".join(text.rsplit(" 3.3333333", 1)), "holes: fill",
     ),
     "a position that is none": (
         "handmade_sloped", lambda text: text.replace("v = -1.250,m", "v = -1.2.5,m"), "expected a position",

@@ -7,7 +7,9 @@ import pytest
 import xarray as xr
 from scipy.interpolate import CubicHermiteSpline
 
+from ridecomfort import simulate
 from ridecomfort.road import edges, surface
+from ridecomfort.vehicle import ground
 
 
 def road_of(elevation, u=None, v=None, bank=0.0, **attrs):
@@ -30,7 +32,7 @@ def test_the_surface_passes_through_the_grid(interpolation):
 
 def test_linear_is_exact_for_a_twisted_plane():
     u, v = np.arange(8) * 0.5, np.arange(6) * 0.25
-    road = road_of(1 + 0.3 * u[:, None] - 0.2 * v + 0.1 * u[:, None] * v)
+    road = road_of(1 + 0.3 * u[:, None] - 0.2 * v + 0.1 * u[:, None] * v, interpolation="linear")
     at_u, at_v = np.random.default_rng(2).uniform(0, 1, (2, 100)) * [[3.5], [1.25]]
     expected = 1 + 0.3 * at_u - 0.2 * at_v + 0.1 * at_u * at_v
     np.testing.assert_allclose(surface.height(road, at_u, at_v), expected, atol=1e-14)
@@ -47,6 +49,21 @@ def test_cubic_is_the_catmull_rom_spline_along_each_direction():
     across = np.linspace(v[1], v[-2], 200)
     spline = CubicHermiteSpline(v, heights[5], np.gradient(heights[5], v))
     np.testing.assert_allclose(surface.height(road, u[5], across), spline(across), atol=1e-13)
+
+
+def test_a_road_that_does_not_say_how_is_cubic_to_whoever_asks():
+    """Heights, reference line and the wheels of the simulator alike; one that says linear is linear to all."""
+    rng = np.random.default_rng(5)
+    heights, at = rng.normal(size=(12, 9)), rng.uniform(0.5, 1.5, (2, 50)) * [[2.0], [1.0]]
+    for said, expected in (({}, "cubic"), ({"interpolation": "linear"}, "linear")):
+        road = road_of(heights, **said)
+        found = surface.height(road, *at)
+        np.testing.assert_array_equal(found, surface.height(road, *at, interpolation=expected))
+        bent = road.assign(bank=("u", heights[:, 0]))
+        line = surface.reference_line(bent, at[0]).bank
+        np.testing.assert_array_equal(line, surface.reference_line(bent, at[0], interpolation=expected).bank)
+        course = simulate.prepare(road)
+        np.testing.assert_allclose([ground.height(course.surface, course.elevation, *each) for each in at.T], found, atol=1e-12)
 
 
 def test_cubic_has_no_kinks_where_linear_has():

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from statistics import NormalDist
 
 import yaml
 
 from .comfort import bands
+from .comfort.iriedges import Edges
 from .drive import readers, units
 from .effects import library
 from .errors import InputError
+from .road import checks
 from .schema import read_yaml, validate
 from .study import DATA, NO_CALIBRATION, VEHICLES, Study, has_fit
 from .vehicle import parameters
@@ -59,6 +62,7 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
     _check_parameters(settings["calibration"], _source("calibration", given))
     _check_uncertain(settings["diagnosis"]["uncertain"], settings["calibration"]["parameters"], _source("diagnosis", given))
     _check_vehicles(study, given)
+    _check_width(study, given)
     _check_calibrations(study)
     _check_handed_in(study)
     _check_columns(study)
@@ -94,23 +98,12 @@ def _study(settings: Mapping, given: list[str]) -> dict:
             file=_source("simulation", given),
             place="simulation: rate",
         )
+    iri = settings["comfort"]["iri"]
     try:
         bands.edges(settings["comfort"]["iso2631"]["bands"])
+        Edges(iri["speed_km_h"], iri["thresholds"])
     except InputError as problem:
         raise InputError(str(problem), file=_source("comfort", given), place="comfort") from None
-    iri = settings["comfort"]["iri"]
-    below = [0.0] * len(iri["speed_km_h"])
-    for quality, edges in iri["thresholds"].items():
-        place = f"comfort: iri: thresholds: {quality}"
-        if len(edges) != len(below):
-            raise InputError(
-                f"{len(edges)} values, expected one for each of the {len(below)} speeds",
-                file=_source("comfort", given),
-                place=place,
-            )
-        if any(edge <= lower for edge, lower in zip(edges, below)):
-            raise InputError("expected values above those of the class before", file=_source("comfort", given), place=place)
-        below = edges
     return settings
 
 
@@ -191,6 +184,12 @@ def _check_parameters(calibration: Mapping, source) -> None:
             if name not in known:
                 what = "is not calibrated; expected of" if key == "bounds" else "is no parameter of a vehicle; known are"
                 raise InputError(f"{name!r} {what} {', '.join(known)}", file=source, place=f"calibration: {key}")
+    for name, (lower, upper) in calibration["bounds"].items():
+        span = parameters.PARAMETERS[name]
+        if not span.lower <= lower < upper <= span.upper:
+            unit = "" if span.unit == "1" else f" {span.unit}"
+            what = f"{lower:g} to {upper:g}{unit}, expected an interval within {span.lower:g} to {span.upper:g}{unit}"
+            raise InputError(what, file=source, place=f"calibration: bounds: {name}")
     for name in calibration["profiles"]:
         if "." not in name and name not in chosen:
             what = f"{name!r} is not calibrated; expected of {', '.join(chosen)}, or a size of an effect as effect.parameter"
@@ -222,6 +221,46 @@ def _check_vehicles(study: Study, given: list[str]) -> None:
             source = SITES / f"{name}.yaml" if "vehicle" in site else _source("vehicle", given)
             raise InputError(f"unknown vehicle {file.stem!r}; known vehicles: {known}", file=source, place="vehicle")
         parameters.read(file)
+
+
+def _check_width(study: Study, given: list[str]) -> None:
+    """Wheel tracks of the IRI and of the simulated drives lie on every road whose width is known before it is read."""
+    for name, site in study.sites.items():
+        known = _lateral_range(study, name)
+        if known is None:
+            continue
+        right, left = known
+        road = f"the road of {name}, {right:g} to {left:g} m"
+        for track in study.settings["comfort"]["iri"]["wheel_tracks"]:
+            if not right <= track <= left:
+                problem = f"{track:g} m, expected a place on {road}"
+                raise InputError(problem, file=_source("comfort", given), place="comfort: iri: wheel_tracks")
+        vehicle = parameters.read(study.folder / study.vehicle(name))
+        half = max(vehicle["track_front"], vehicle["track_rear"]) / 2
+        drawn = _extremes(site["sampling"]["lateral_position"], study.settings["runs"])
+        if "simulated" not in site and not right <= drawn[0] - half <= drawn[1] + half <= left:
+            raise InputError(
+                f"{study.settings['runs']} runs from {drawn[0]:.4g} to {drawn[1]:.4g} m, with wheels {half:.4g} m to either side, "
+                f"expected on {road}",
+                file=SITES / f"{name}.yaml",
+                place="sampling: lateral_position",
+            )
+
+
+def _lateral_range(study: Study, name: str) -> tuple[float, float] | None:
+    """Right and left end of a site's road in m as far as they are known before it is read or made, else None."""
+    scan = study.scan(name)
+    if scan is None and not study.sites[name]["standin"]:
+        return checks.lateral_range(study.folder / study.road(name))
+    width = study.standin["grid"]["width"] if scan is None else scan["width"]
+    return -width / 2, width / 2
+
+
+def _extremes(distribution: Mapping, runs: int) -> tuple[float, float]:
+    """Between which all of so many draws lie: the ends, of a normal distribution the middles of its outermost parts."""
+    ((kind, (first, second)),) = distribution.items()
+    reach = second * NormalDist().inv_cdf(1.0 - 0.5 / runs)
+    return (first - reach, first + reach) if kind == "normal" else (first, second)
 
 
 def _check_handed_in(study: Study) -> None:

@@ -64,10 +64,10 @@ class Course:
 def prepare(road: xr.Dataset, interpolation: str | None = None) -> Course:
     """The road made ready for `run`, worth it when driving on it more than once.
 
-    ``interpolation``: "cubic" or "linear"; by default what the road says.
+    ``interpolation``: "cubic" or "linear"; by default what the road says (`surface.INTERPOLATION` where it does not).
     """
     elevation, u0, du, v0, dv = surface.grid(road)
-    smooth = (interpolation or road.attrs.get("interpolation", "cubic")) == "cubic"
+    smooth = (interpolation or road.attrs.get("interpolation", surface.INTERPOLATION)) == "cubic"
     return Course(
         Surface(u0, 1.0 / du, v0, 1.0 / dv, smooth),
         elevation,
@@ -177,6 +177,25 @@ def runs(
             coords={"run": np.arange(len(records)), "time": np.arange(longest) / rate},
         )
     )
+
+
+def check_on_road(road: xr.Dataset, vehicle: Vehicle, lateral, u=None, *, beyond: float = 0.0, file=None, place: str = "") -> None:
+    """Raise InputError where a wheel leaves the grid of the road: heights are only held there, and the drive comes out too smooth.
+
+    ``lateral``: positions of the vehicle in m to the left of the reference line, a number or (n,), each at its ``u`` in m where it
+    is known. ``beyond``: m by which a wheel may. ``file`` and ``place`` are what the message names first.
+    """
+    lateral, half = np.atleast_1d(lateral), max(vehicle["track_front"], vehicle["track_rear"]) / 2
+    right, left = float(road.v[0]), float(road.v[-1])
+    over = np.maximum(lateral + half - left, right - (lateral - half))
+    worst = int(np.argmax(over))
+    if over[worst] > beyond + 1e-6:
+        where = "" if u is None else f" at u = {np.atleast_1d(u)[worst]:.1f} m"
+        raise InputError(
+            f"{lateral[worst]:.2f} m{where}, with wheels {half:.3g} m to either side, expected on the road, {right:g} to {left:g} m",
+            file=file,
+            place=": ".join(part for part in (place, "lateral position") if part),
+        )
 
 
 def _on_body(sensor, before: Vehicle, after: Vehicle) -> tuple[float, float, float]:

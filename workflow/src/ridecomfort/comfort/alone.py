@@ -15,6 +15,7 @@ from ..drive.readers import csv
 from ..errors import InputError
 from ..vocabulary import STANDARD_GRAVITY, VARIABLES, describe
 from . import bands, exposure, iri, iso2631, jerk, quantities, seat, thresholds, total
+from .quartercar import MOVING_AVERAGE
 
 AXES = ("a_x", "a_y", "a_z")
 
@@ -28,6 +29,15 @@ LARGEST_MEAN, LARGEST_RMS = 20.0, 30.0
 
 SLOWEST_RATE = 2.0
 """Hz; accelerations that are recorded more slowly hold nothing of ride comfort: the time is in another unit."""
+
+SLOWEST_WEIGHTED, FASTEST_WEIGHTED = 0.5, 80.0
+"""Hz; the vibration that comfort and health are told of (ISO 2631-1:1997, 6.4.1)."""
+
+LEAST_RATE = 20.0
+"""Hz; slower recordings do not hold all of 4 to 8 Hz, where Wk weighs most."""
+
+SHORTEST = 4.0
+"""s; two periods of the slowest vibration. A duration shall be typical and statistically sufficient (ISO 2631-1:1997, 5.5)."""
 
 LARGEST_IRI = 100.0
 """m/km; unpaved roads, eroded and slow, reach 20 (Sayers, Gillespie and Paterson 1986, WBTP 46, figure 2)."""
@@ -146,9 +156,10 @@ def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.
 
     Offsets, gravity among them, do not matter: no weighting passes them. Health and
     sickness are stated for ``exposure_time`` s of nothing but this recording, or
-    for the recording alone.
+    for the recording alone. Raises InputError below LEAST_RATE or SHORTEST.
     """
     rate = recording.attrs["rate"]
+    _check_band(recording)
     rows, remarks, rms, squares = [], [], {}, 0.0
     duration = recording.sizes["time"] / rate
     trip, dose = duration if exposure_time is None else exposure_time, 0.0
@@ -204,11 +215,36 @@ def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.
     )
     if "a_z" in names:
         verdicts.append(_sickness(recording["a_z"], rate, duration, trip))
+    if rate < 2 * FASTEST_WEIGHTED:
+        verdicts.append(
+            f"the weightings span {SLOWEST_WEIGHTED:g} to {FASTEST_WEIGHTED:g} Hz: "
+            f"at {rate:g} Hz vibration above {rate / 2:g} Hz is not heard"
+        )
     if len(names) < len(AXES):
         verdicts.append(f"only {', '.join(names)}: a_v lacks the other axes")
     verdicts += [recording.attrs["unused"]] if recording.attrs.get("unused") else []
     title = f"ISO 2631-1 comfort on the seat, {duration:.1f} s at {rate:g} Hz"
     return Result("iso2631", title, pd.DataFrame(rows), verdicts + remarks, describe(running), "m/s2", bands.BANDS)
+
+
+def _check_band(recording: xr.Dataset) -> None:
+    """Raise InputError where a recording cannot hold the vibration that ISO 2631-1 weighs."""
+    rate, file = recording.attrs["rate"], recording.attrs.get("file")
+    if round(rate) < LEAST_RATE:
+        raise InputError(
+            f"{rate:.3g} samples per second hold nothing above {rate / 2:.3g} Hz (expected {LEAST_RATE:g} or more: the weightings "
+            f"span {SLOWEST_WEIGHTED:g} to {FASTEST_WEIGHTED:g} Hz)",
+            file=file,
+            place="time",
+        )
+    duration = recording.sizes["time"] / rate
+    if duration < SHORTEST:
+        raise InputError(
+            f"lasts {duration:.3g} s (expected {SHORTEST:g} s or more: "
+            f"two periods of {SLOWEST_WEIGHTED:g} Hz, the slowest vibration told of)",
+            file=file,
+            place="time",
+        )
 
 
 def _sickness(a_z: xr.DataArray, rate: float, duration: float, trip: float) -> str:
@@ -269,7 +305,11 @@ def roughness(
 
     Columns are in m, or in the unit that stands in brackets behind the name: ``elevation [mm]``; ``columns`` gives other names
     (quantity to {"column": name}). ``local``: m/km; the stretches whose continuous IRI lies above are named (``iri.local_roughness``).
+    Raises InputError for a profile with gaps or out of order, a ``local`` that is no roughness, and a ``segment`` shorter than what
+    the profile resolves: its samples, or the moving average.
     """
+    if local is not None and not (np.isfinite(local) and local > 0.0):
+        raise InputError(f"{local!r}, expected an IRI above 0 m/km", place="--local")
     table = _table(file)
     columns = {**_headed(table.columns, ("s", *HEIGHTS)), **(columns or {})}
     names = [name for name in HEIGHTS if name in columns]
@@ -278,6 +318,10 @@ def roughness(
         raise InputError(f"expected columns s and any of {', '.join(HEIGHTS)} (found {found})", file=file)
     profiles = {name: _metres(table, columns[name], file) for name in ("s", *names)}
     s = profiles.pop("s")
+    _check_ascending(s, columns["s"]["column"], file)
+    resolved = max(MOVING_AVERAGE, float(np.diff(s).max(initial=0.0)))
+    if segment < resolved:
+        raise InputError(f"{segment:g} m, expected {resolved:.4g} m or more, what the profile resolves", file=file, place="--segment")
     settings = {"moving_average": None} if smoothed else {}
     try:
         start, stop = iri.segments(s[0], s[-1], segment)
@@ -320,6 +364,18 @@ def _metres(table: pd.DataFrame, entry: Mapping, file) -> np.ndarray:
         raise InputError(f"column {column!r} holds something else than numbers", file=file)
     scale = units.of_column("elevation", {"unit": units.of_header(column) or "m", **entry}, file=file, place=f"column {column!r}")
     return scale * table[column].to_numpy(float)
+
+
+def _check_ascending(s: np.ndarray, column, file) -> None:
+    """Raise InputError that names the line where positions (m) do not ascend."""
+    back = np.flatnonzero(~(np.diff(s) > 0.0))
+    if not back.size:
+        return
+    i = back[0] + int(np.isfinite(s[back[0]]))
+    with open(file, encoding="utf-8-sig") as lines:
+        written = [number for number, line in enumerate(lines, start=1) if line.strip()]
+    found = f"{s[i]:.6g} m after {s[i - 1]:.6g} m" if i and np.isfinite(s[i]) else "no number"
+    raise InputError(f"{found} (expected positions that ascend)", file=file, place=f"line {written[i + 1]}, column {column!r}")
 
 
 def _table(file, rows: int | None = None) -> pd.DataFrame:

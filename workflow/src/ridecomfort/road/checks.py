@@ -310,6 +310,18 @@ def positions(head: pycrg.CrgHeader) -> list[float]:
     return at
 
 
+def lateral_range(path: Path) -> tuple[float, float] | None:
+    """Right and left end in m of the long sections of a file by its headers; None where these do not tell, or are wrong."""
+    try:
+        found = headers(path)
+        numbers(found)
+        at = positions(found[-1]) or [found[-1].road.get(f"long_section_v_{side}") for side in ("right", "left")]
+    except InputError:
+        return None  # reading it says why
+    scaled = any("scale_width" in (head.modifiers or {}) for head in found)
+    return None if scaled or None in at else (min(at), max(at))
+
+
 def strange(head: pycrg.CrgHeader) -> list[str]:
     """Names of data channels that are neither of the reference line nor a long section: the library leaves them out."""
     names = [channel.name for channel in head.channels if channel.kind == "D"]

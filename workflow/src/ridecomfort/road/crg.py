@@ -64,7 +64,7 @@ def read(path, **options: str) -> xr.Dataset:
         none.
     interpolation
         ``linear``, as OpenCRG defines the surface, or ``cubic`` (sec:road_surf), which
-        the study uses unless the site says otherwise (`prepare.INTERPOLATION`).
+        the study uses unless the site says otherwise (`surface.INTERPOLATION`).
     holes
         cells without a height inside the road: ``refuse``, or ``keep`` them for
         `clean.fill`.
@@ -322,7 +322,7 @@ def _edges(path, grid, measured, wild, choice, attributes, treatment) -> np.ndar
         i, j = np.argwhere(hole | empty[:, None])[0]
         raise InputError(
             f"no height inside the road ({hole.sum()} such cells, {empty.sum()} empty cross sections;"
-            " or holes: keep, and fill them)",
+            " or holes: fill, which closes those up to 1 m long)",
             file=path,
             place=f"u = {grid.u[i]:g} m, v = {grid.v[j]:g} m",
         )

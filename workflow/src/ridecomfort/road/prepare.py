@@ -8,12 +8,10 @@ import xarray as xr
 
 from ..errors import InputError
 from . import clean, crg, smoothing
+from .surface import INTERPOLATION
 
 SMOOTHING = ("none", "cross-validation")
 """The choices of the option ``smoothing``; the first is the default."""
-
-INTERPOLATION = "cubic"
-"""Default of the option ``interpolation`` here: the paper's (sec:road_surf), not OpenCRG's."""
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,9 @@ BORDER_MODES = ("none", "zero", "keep", "repeat", "reflect")
 
 _NONE, _ZERO, _KEEP, _REPEAT, _REFLECT = range(5)
 
+INTERPOLATION = "cubic"
+"""Between the points of a road that does not say itself: the paper's (sec:road_surf). A road from `crg.read` does: OpenCRG's."""
+
 LINE = ("x", "y", "heading", "curvature", "slope", "bank")
 """What the reference line is made of, in the order in which compiled code takes and gives it."""
 
@@ -264,7 +267,7 @@ def height(road: xr.Dataset, u, v, *, interpolation: str | None = None) -> np.nd
     """Heights in m at positions u and v in m, broadcast against each other.
 
     Interpolates as the road's attribute ``interpolation`` says, ``linear`` or
-    ``cubic``, unless named here. Beyond the borders of the grid the attributes
+    ``cubic`` (`INTERPOLATION` without it), unless named here. Beyond the borders of the grid the attributes
     ``border_mode_u`` and ``border_mode_v`` rule (none: NaN, zero, keep, repeat,
     reflect) with their offsets, smoothing zones and closed tracks, as in OpenCRG
     1.2 (crgEvaluv2z); with ``border_bank`` ``held``, heights that repeat or reflect
@@ -272,7 +275,7 @@ def height(road: xr.Dataset, u, v, *, interpolation: str | None = None) -> np.nd
     the road ``edges`` rules: ``keep`` the nearest height across, or ``none``: NaN.
     Positions that are not finite give NaN.
     """
-    interpolation = interpolation or road.attrs.get("interpolation", "linear")
+    interpolation = interpolation or road.attrs.get("interpolation", INTERPOLATION)
     elevation, bank = road.elevation.values, road.bank.values
     if road.attrs.get("edges", "keep") == "keep":
         elevation = edges.extend(elevation, road.v.values, bank)
@@ -298,7 +301,7 @@ def reference_line(road: xr.Dataset, u, *, interpolation: str | None = None) -> 
     of the place that is repeated). Smoothing zones are left aside. Positions that
     are not finite give NaN.
     """
-    interpolation = interpolation or road.attrs.get("interpolation", "linear")
+    interpolation = interpolation or road.attrs.get("interpolation", INTERPOLATION)
     line = np.stack([road[name].values for name in LINE], axis=1).astype(np.float64, copy=False)
     u = np.asarray(u, dtype=np.float64)
     found = np.empty((len(LINE), u.size))

@@ -2,14 +2,19 @@
 
 from ridecomfort import store
 from ridecomfort.comfort import iriclass
+from ridecomfort.errors import InputError
 from ridecomfort.steps.command import Command
 
 
 def main(shards, road, config, output):
-    settings = config["iri"]
+    settings, surface = config["iri"], store.read(road, ["elevation"])
+    try:
+        iriclass.tracks(surface, settings["wheel_tracks"])
+    except InputError as problem:
+        raise InputError(f"{problem} (comfort: iri: wheel_tracks in config/study.yaml)", file=road) from None
     found = iriclass.evaluate(
         (store.read(shard, ["v_x"]) for shard in shards),
-        store.read(road, ["elevation"]),
+        surface,
         edges=iriclass.Edges(settings["speed_km_h"], settings["thresholds"]),
         length=config["critical_length"],
         resolution=settings["segment"],
