@@ -464,7 +464,7 @@ def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
 
 def test_without_calibration_the_drives_of_one_vehicle_are_diagnosed_together(project):
     """Those that only hold drives out come behind one that has some to fit; of another vehicle nothing is diagnosed beside them."""
-    (project / "drive.csv").touch()
+    (project / "drive.csv").write_text(HEADER)
     site = {"road": {"file": "road.crg"}, "drives": [DRIVE], "calibrated_on": "none"}
     write(project, "checked", {**site, "drives": [{**DRIVE, "role": "check"}]})
     write(project, "fitted", site)
