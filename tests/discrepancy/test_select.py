@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import evidence, select, verdict
+from ridecomfort.discrepancy import evidence, select, tries, verdict
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.propose import CERTAIN
 from ridecomfort.discrepancy.rung import begin
@@ -113,6 +113,10 @@ def test_sizes_of_opposite_signs_are_found_though_each_alone_and_their_sum_show_
     assert sizes["front"] == pytest.approx(0.3, abs=0.1) and sizes["rear"] == pytest.approx(-0.3, abs=0.1)
 
 
+IN_BAND = (40.0 - 0.3) / 50.0 * 28.0 / 30.0
+"""Mean square of a white vector of ``Linear``: share of the band, and of the seconds that are not at an edge."""
+
+
 class Shaped(Linear):
     """The same where a setting shapes effect_2, which is tried at 0 only."""
 
@@ -136,6 +140,22 @@ def test_what_shapes_an_effect_is_fitted_where_that_is_worth_it():
     assert found.verdict == "named" and [e.name for e in found.effects] == ["effect_2"]
     sizes = {size["parameter"]: size["interval"] for size in found.effects[0].sizes}
     assert sizes["size"][0] < 1.0 < sizes["size"][1] and sizes["setting"][0] < 0.4 < sizes["setting"][1]
+
+
+def test_the_shape_of_a_large_effect_is_fitted_where_the_error_that_it_leaves_is_white(monkeypatch):
+    """In the frame of before, white by the large error itself, a fit may go where that error weighs least."""
+    fitted, powers = tries.refit.refit_sooner, []
+
+    def watched(experiment, sooner, frame, values, sizes, columns, *, residuals, **settings):
+        if any(size.shaping for size in sizes):
+            powers.append(float(np.mean(frame.flat(residuals) ** 2)) / IN_BAND)
+        return fitted(experiment, sooner, frame, values, sizes, columns, residuals=residuals, **settings)
+
+    monkeypatch.setattr(tries.refit, "refit_sooner", watched)
+    model = Shaped(6, 0.4)
+    model.truth["effect_2.size"] = 4.0
+    select.select(model, {"stiffness": 0.0}, most=1)
+    assert powers[0] == pytest.approx(1.0, abs=0.25)
 
 
 def test_what_shapes_an_effect_mostly_stays_as_is_typical_where_the_drives_say_nothing_else():

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from . import evidence, floor, probe, refit
 from . import experiment as exp
-from .experiment import Candidate, Experiment, Size
+from .experiment import Candidate, Experiment, Frame, Size
 from .probe import Job, Raw
 from .refit import Fit
 from .rung import Rung, roles
@@ -121,9 +121,7 @@ class Tries:
         beyond = refit.BEYOND if implausible(candidate, fit.values) else 0.0
         try:
             for _ in range(CYCLES):
-                cleaned = rung.frame.all_cleaned(fit.residuals)
-                frame = exp.frame(rung.experiment, fit.residuals, rung.frame.nuisances, cleaned)
-                anew = own if gained < HUGE * self._count() else every
+                frame, anew = self._own_frame(fit), own if gained < HUGE * self._count() else every
                 sooner, base = probe.coarsely(rung.experiment, fit.values, fit.residuals)
                 raw = {**rung.raw, **probe.secants(sooner, fit.values, base, anew, self.each)}
                 columns = probe.white(frame, raw)
@@ -143,19 +141,26 @@ class Tries:
         return trial
 
     def shaped(self, trial: Trial) -> Trial:
-        """The refit repeated with what shapes the effect fitted, too, where that is worth its parameters."""
+        """The refit repeated with what shapes the effect fitted, too, where that is worth its parameters.
+
+        One that gains much is fitted on in the frame of its own residuals: in that of the rung, whose error it is that made itself white,
+        an engine on its mounts went to half of its mass and another frequency, and was likelier by its own spectra where it had been.
+        """
         rung, candidate, fit = self.rung, self.candidates[trial.name], trial.fit
         sizes = [size for size in (*self.fitted, *candidate.sizes) if size.key in fit.keys]
         own = [size for size in candidate.sizes if size.key in fit.keys]
         try:
+            frame = self._own_frame(fit) if self.is_large(trial.gain) else rung.frame
             sooner, base = probe.coarsely(rung.experiment, fit.values, fit.residuals)
-            raw = probe.secants(sooner, fit.values, base, [*own, *candidate.shaping], self.each)
-            columns = probe.white(rung.frame, {**rung.raw, **raw})
+            anew = own if trial.gain < HUGE * self._count() else sizes
+            raw = probe.secants(sooner, fit.values, base, [*anew, *candidate.shaping], self.each)
+            columns = probe.white(frame, {**rung.raw, **raw})
+            sizes = [size for size in sizes if size.key in columns]
             apart = _apart(candidate.shaping, columns, own)
-            if not self._is_promising(fit, columns, sizes, apart):
+            if not self._is_promising(frame, fit, columns, sizes, apart):
                 return trial
             fitted = refit.refit_sooner(
-                rung.experiment, sooner, rung.frame, fit.values, [*sizes, *apart], columns,
+                rung.experiment, sooner, frame, fit.values, [*sizes, *apart], columns,
                 renewed=[size.key for size in (*own, *apart)], residuals=fit.residuals, beyond=0.0,
             )  # fmt: skip
             if all(abs(fitted.values[size.key] - fit.values[size.key]) < LEAST_MOVED * size.probe for size in apart):
@@ -169,13 +174,20 @@ class Tries:
         """Whether a gain is so large that the error changes its colour by it."""
         return gain > LARGE * self._count()
 
-    def _is_promising(self, fit: Fit, columns: Mapping[str, np.ndarray], fitted: Sequence[Size], more: Sequence[Size]) -> bool:
-        """Whether ``more`` than what is ``fitted`` would be worth its parameters, were all linear."""
+    def _own_frame(self, fit: Fit) -> Frame:
+        """The frame in which the residuals of a fit are white."""
+        frame = self.rung.frame
+        return exp.frame(self.rung.experiment, fit.residuals, frame.nuisances, frame.all_cleaned(fit.residuals))
+
+    def _is_promising(
+        self, frame: Frame, fit: Fit, columns: Mapping[str, np.ndarray], fitted: Sequence[Size], more: Sequence[Size]
+    ) -> bool:
+        """Whether ``more`` than what is ``fitted`` would be worth its parameters in a frame, were all linear."""
         if not more:
             return False
         free = evidence.basis(np.stack([columns[size.key] for size in fitted]))
         extra = evidence.basis(evidence.without(np.stack([columns[size.key] for size in more]), free))
-        return bool(np.sum((extra @ self.rung.frame.flat(fit.residuals)) ** 2) > len(more) * self._price())
+        return bool(np.sum((extra @ frame.flat(fit.residuals)) ** 2) > len(more) * self._price())
 
     def _trial(self, candidate: Candidate, shape: Mapping[str, float], fit: Fit, more: int = 0) -> Trial:
         """What a refit gains on the drives that it was fitted to, ``more`` parameters than sizes fitted; the others have not been asked."""
