@@ -33,7 +33,9 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "contact_damping", "inclined_inertia_axis", "rising_rate_linkage", "scanner_skew", "seat_rocking", "self_pumping_strut",
            "side_force_load_lag", "trailing_arm_arc",
            "antiroll_bar_bush_friction", "damper_cold_oil", "oncoming_lorries", "puddle_drag", "rear_axle_steering",
-           "toe_link_friction")  # fmt: skip
+           "toe_link_friction",
+           "balance_control_damper", "drag_link_steer", "gyroscopic_steer", "hydraulic_bump_stop", "lateral_runout", "latching_valve",
+           "lorry_wake", "soft_ground", "trailer_porpoising")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",

@@ -78,6 +78,14 @@ def test_a_signal_of_the_wrong_sign_is_told_before_all_that_is_found_of_it(compa
     assert findings.words(locate.locate(turned))[0] == "a_y runs against the model (correlation -1.00): is its sign right?"
 
 
+def test_a_signal_in_another_unit_is_told_first_too(comparison):
+    """Degrees per second that were read as radians."""
+    other = comparison.copy(deep=True)
+    other["measured"].loc[{"signal": "pitch_rate"}] *= 57.3
+    other["residual"].loc[{"signal": "pitch_rate"}] = (other["simulated"].isel(state=0) - other["measured"]).sel(signal="pitch_rate")
+    assert findings.words(locate.locate(other))[0] == "pitch_rate is 57.3 times what the model does: is its unit right?"
+
+
 def test_the_last_state_is_located_and_another_when_asked_for(comparison, located):
     worse = (comparison[["residual"]] * 2.0).assign_coords(state=["reference"])
     both = comparison.drop_vars("residual").isel(state=[0, 0]).assign_coords(state=["reference", "calibrated"])

@@ -63,7 +63,7 @@ def test_a_proposed_form_is_shown():
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
 
 
-@pytest.mark.parametrize(("held_out", "first", "second"), [(0.72, "Go on from", "look at the form"), (0.78, "Look at", "go on from")])
+@pytest.mark.parametrize(("held_out", "first", "second"), [(0.72, "Go on from", "look at the form"), (0.7499, "Go on from", "look at the form"), (0.78, "Look at", "go on from")])
 def test_the_better_of_library_and_proposed_form_comes_first(held_out, first, second):
     proposal = {
         "name": "discovered", "form": "80 N tanh(velocity / 0.005)", "place": "strut", "port": "suspension", "share": 0.70,

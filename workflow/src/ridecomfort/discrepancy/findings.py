@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from .judged import AGAINST, LOWEST_OF_DRIVER, wrong_sign
+from .judged import LOWEST_OF_DRIVER, doubt
 
 NAMED = 0.01
 """Share of the signal's power below which a finding is not worth a sentence, unless there is no other."""
@@ -116,9 +116,9 @@ def are_small(found: Sequence[Finding]) -> bool:
 
 
 def doubts(located: xr.Dataset) -> list[str]:
-    """Signals whose sign is in doubt, in words: what else is found of them means nothing then."""
-    found = zip(located["signal"].values, located["correlation"].values)
-    return [wrong_sign(str(name), float(own)) for name, own in found if own < AGAINST]
+    """Signals whose sign or unit is in doubt, in words: what else is found of them means nothing then."""
+    found = zip(*(located[name].values for name in ("signal", "correlation", "ratio")))
+    return [said for name, correlation, ratio in found if (said := doubt(str(name), float(correlation), float(ratio)))]
 
 
 def words(located: xr.Dataset, count: int = 5) -> list[str]:

@@ -31,6 +31,9 @@ def judged(series: np.ndarray, rate: float, signals: Sequence[str]) -> np.ndarra
 AGAINST = -0.3
 """Correlation with the model below which a signal is taken for one of the wrong sign."""
 
+TIMES, ALIKE = 5.0, 0.5
+"""Times by which the rms of a signal may differ from that of a model which it goes with (correlation above ALIKE): degrees are 57 radians."""
+
 
 def correlation(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Correlation (signal,) about nil of two series (signal, sample), nil where one of them is."""
@@ -38,9 +41,20 @@ def correlation(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.sum(one * other, axis=-1) / np.where(power > 0, power, 1.0)
 
 
-def wrong_sign(name: str, found: float) -> str:
-    """What is said of a signal whose correlation with the model is that."""
-    return f"{name} runs against the model (correlation {found:.2f}): is its sign right?"
+def ratio(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """rms (signal,) of a series (signal, sample) over that of another; 1 where one of them is nil."""
+    powers = np.sum(one**2, axis=-1), np.sum(other**2, axis=-1)
+    are_there = (powers[0] > 0) & (powers[1] > 0)
+    return np.sqrt(np.where(are_there, powers[0], 1.0) / np.where(are_there, powers[1], 1.0))
+
+
+def doubt(name: str, found: float, times: float) -> str:
+    """What is said of a signal with this correlation with the model and so many times its rms; empty where nothing is."""
+    if found < AGAINST:
+        return f"{name} runs against the model (correlation {found:.2f}): is its sign right?"
+    if found > ALIKE and not 1.0 / TIMES < times < TIMES:
+        return f"{name} is {times:.3g} times what the model does: is its unit right?"
+    return ""
 
 
 def band(series: np.ndarray, rate: float, edges: tuple[float, float]) -> np.ndarray:

@@ -64,7 +64,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; by classes of equal duration
     of a ``condition`` (SI units; edges in ``condition_edge``, means in ``condition_level``) ``condition_error`` and
     ``condition_measured(condition, class, signal, band)``, the floor of which is
-    ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated; and what ``response.responses`` says of transfer functions.
+    ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated and the ``ratio(signal)`` of their rms; and what ``response.responses`` says of transfer functions.
     Attribute ``located_state`` names the state, ``floor`` where the floor is known from.
     """
     name = str(comparison["state"].values[-1] if state is None else state)
@@ -108,6 +108,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
                 for key, values in zip(("error", "measured"), by_condition)
             },
             "correlation": ("signal", judged.correlation(signal, signal + error), {"units": "1"}),
+            "ratio": ("signal", judged.ratio(signal, signal + error), {"units": "1"}),
             "stretch_start": ("stretch", edges[:-1], {"units": "m"}),
             "stretch_end": ("stretch", edges[1:], {"units": "m"}),
             "band_lower": ("band", [band[0] for band in bands], {"units": "Hz"}),

@@ -14,7 +14,7 @@ from .car import Car
 from .experiment import Frame
 from .ranking import dataset
 from .rung import Rung, begin
-from .select import search
+from .select import EFFECTS, search
 from .selection import Selection
 from .signature import signature
 from .shared import is_material
@@ -32,7 +32,7 @@ def rank(
     bounds: Mapping[str, Sequence[float]] | None = None,
     uncertain: Mapping[str, float] | None = None,
     among: Sequence[str] | None = None,
-    most: int = 3,
+    most: int = EFFECTS,
     seed: int = 0,
     signatures: bool = False,
     noise_density: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
@@ -68,7 +68,7 @@ def rank(
 
 
 def ranked(
-    experiment: Car, rung: Rung, *, most: int = 3, seed: int = 0, signatures: bool = False, effects_folder=None, each=map,
+    experiment: Car, rung: Rung, *, most: int = EFFECTS, seed: int = 0, signatures: bool = False, effects_folder=None, each=map,
     say: Callable[[str], None] = lambda words: None,
 ) -> tuple[xr.Dataset, Verdict, Selection]:  # fmt: skip
     """``rank`` from an ``experiment`` as its drives came and the ``rung`` of its calibrated model, with the selection behind it."""
@@ -138,7 +138,7 @@ def suspicions(experiment: Car, selection: Selection, is_explained: bool, is_lef
     explain most of the error, ``is_left``: whether repeats share one still."""
     reasons = suspect.of_drives(experiment)
     first, last = selection.states[0], selection.states[-1]
-    reasons += suspect.of_signs(experiment, first.fit.residuals)
+    reasons += suspect.of_signals(experiment, first.fit.residuals)
     reasons += suspect.of_clocks(experiment, selection.frame)
     if selection.has_repeats and not is_explained and not is_left:
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)

@@ -26,6 +26,10 @@ from .selection import Round, Selection, State, Trial
 from .shared import Shared, shared_error
 from .tries import LEAST_MOVED, Tries, implausible, own_sizes
 
+EFFECTS = 5
+"""Effects that are looked for, one after another. Cars of other programs differ from the model in three or four things at once, beside which
+one more may be missing; a search that ends before them leaves more than half of the error, and what it found has no name."""
+
 LEAST_SHARE = 0.02
 """Share of the explainable error below which an effect is not worth naming..."""
 
@@ -76,7 +80,7 @@ def select(
 def search(
     rung: Rung,
     *,
-    most: int = 3,
+    most: int = EFFECTS,
     seed: int = 0,
     each: Callable = map,
     together: Callable[[Candidate, Candidate], bool] = lambda first, other: True,

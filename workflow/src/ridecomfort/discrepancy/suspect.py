@@ -13,7 +13,7 @@ from . import experiment as exp
 from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
-from .judged import AGAINST, correlation, judged, wrong_sign
+from .judged import correlation, doubt, judged, ratio
 
 ROAD_BAND = (0.1, 0.8)
 """Cycles per metre in which the spectrum of a road follows a power law (ISO 8608 holds to 2.83)."""
@@ -183,14 +183,14 @@ def of_road(experiment: Car, frame: Frame, place: float) -> list[str]:
     return [f"the drives fit the road better with {other} interpolation between its points (road: options: interpolation: {other}){why}"]
 
 
-def of_signs(experiment: Car, residuals) -> list[str]:
-    """Reasons in words to doubt a signal that runs against what the model does, in the band that is judged."""
+def of_signals(experiment: Car, residuals) -> list[str]:
+    """Reasons in words to doubt the sign or the unit of a signal, by what the model does in the band that is judged."""
     reasons = []
     for index, residual in residuals.items():
         record, again = experiment.records[index], experiment.replays[index]
         measured = again.measured()[:, again.compared]
         pair = judged(np.stack([measured, measured + residual]), record.rate, experiment.channels)
-        for name, found in zip(experiment.channels, correlation(*pair)):
-            if found < AGAINST:
-                reasons.append(f"{record.name}: {wrong_sign(name, found)}")
+        for name, *found in zip(experiment.channels, correlation(*pair), ratio(*pair)):
+            if said := doubt(name, *found):
+                reasons.append(f"{record.name}: {said}")
     return reasons

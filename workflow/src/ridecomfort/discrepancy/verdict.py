@@ -249,10 +249,16 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
         else:
             kept.append(effect)
             reasons += _set(selection, by_name[effect.name])
-            reasons += [_beyond(effect, size) for size in effect.sizes if not size["is_plausible"]]
+            reasons += [_beyond(effect, size) for size in effect.sizes if not _may_be_plausible(size)]
             if effect.name in unmet:
                 reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
     return kept, reasons
+
+
+def _may_be_plausible(size: Mapping) -> bool:
+    """Whether the interval of a size reaches into what is plausible."""
+    (lower, upper), (least, most) = size["interval"], size["plausible"]
+    return upper >= least and lower <= most
 
 
 def _beyond(effect: Named, size: Mapping) -> str:

@@ -50,6 +50,9 @@ STAND_IN = " The model holds a form of its own, which may not be exact: take out
 """What is added to names beside a proposed form, for the rest of which they may stand in."""
 
 
+AS_GOOD = 0.005
+"""Share of the explainable error of held-out drives up to which a form that does better may be the library's effect by another name."""
+
 WORTHWHILE = 0.1
 """Share of the explainable error from which on effects that help are worth going on from where no form is."""
 
@@ -119,6 +122,6 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"]]))
     if not library_helps(said):
         return try_form
-    library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form
+    library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form - AS_GOOD
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)
     return f"{first} The second choice: {second[:1].lower()}{second[1:]}"
