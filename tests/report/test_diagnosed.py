@@ -93,6 +93,18 @@ def test_where_little_is_found_it_is_said_whether_what_is_left_matters(left, sai
     assert said in rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
 
 
+def test_where_no_form_is_found_either_it_is_said_whether_what_is_left_matters():
+    for left, end in ((0.004, "the loop may end here"), (0.08, "is worth a look at where it lies")):
+        found = {**made_up.nothing(), "verdict": "outside", "remainder": {"a_z": 0.002, "a_x": left}}
+        said = rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
+        assert said.startswith("No form was found") and end in said
+
+
+def test_where_nothing_more_is_found_the_table_says_beside_what():
+    found = replace(made_up.diagnosis(made_up.nothing()), model="damper_knee+suspension_friction")
+    assert rows(diagnosed.tables(found)["missing_effects"])[0]["effect"] == "none beside damper knee, suspension friction"
+
+
 def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_from():
     said = words(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside"}))["verdict"])
     assert "suspension friction takes 80 % on the fitted drives, 75 % on drives held out" in said

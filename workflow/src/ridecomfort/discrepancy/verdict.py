@@ -192,7 +192,7 @@ def _removed(balance: Balance) -> list[str]:
 def _vain(found: Sequence[Named]) -> str:
     """What is said of effects that each helped beside what the one before left, and in all do not."""
     names = ", ".join(effect.name for effect in found)
-    return f"{names} helped when added, and with the vehicle's parameters fitted anew nothing of the explainable error is removed"
+    return f"{names} helped when added, but nothing of the explainable error is removed once the vehicle's parameters are fitted anew beside it"
 
 
 def _unfound(selection: Selection, count: int) -> list[str]:

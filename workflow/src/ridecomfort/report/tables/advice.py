@@ -29,7 +29,7 @@ GO_ON = (
     "better. Take out again what does not lower the error ladder on drives held out."
 )
 
-NO_FORM = "No form was found that would take the error away; see where it lies (compare)."
+NO_FORM = "No form was found that would take the error away. "
 
 LITTLE_FOUND = "Nothing that was found explains much. "
 
@@ -113,7 +113,7 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
         return NEXT["nothing"]
     go_on = GO_ON.format(keys=named)
     if not proposal.get("form"):
-        return go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM
+        return go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM + _left(said)
     held = lambda one: one["share"] if one["held_out_share"] is None else one["held_out_share"]
     (fitted, held_out), (fitted_of_form, held_out_of_form) = ((one["share"], held(one)) for one in (said, proposal))
     if max(fitted_of_form, held_out_of_form) < LITTLE:

@@ -13,6 +13,7 @@ from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.verdict import first_sentence, sentence
 from ...effects.contract import PORTS
+from ...study import BASE, JOIN
 from .. import catalogue
 from ..notation import unit, words
 from ..study import Diagnosis
@@ -107,7 +108,8 @@ def missing_effects(found: Diagnosis) -> Table:
                  plausible, *(of_all if number == 0 else (*(None,) * 4, "")))
             )  # fmt: skip
     if not rows:
-        rows.append(("none", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
+        beside = "" if found.model == BASE else f" beside {found.model.replace(JOIN, ', ').replace('_', ' ')}"
+        rows.append((f"none{beside}", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
     sources = (Source("all", found.files.get("verdict", ""), "effects", "as in the file, shares in percent"),)
     notes = (
         "Shares are of the explainable error of the calibrated model before any effect was added. Removed is what goes when an effect "
