@@ -21,7 +21,7 @@ from .rank import ranked
 from .ranking import with_forms
 from .rung import Rung, begin
 from .selection import Selection
-from .verdict import Verdict, with_parameters
+from .verdict import Named, Verdict, with_parameters
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
@@ -199,7 +199,7 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     """What the library explains at least half of is named, though repeats share an error still, where no force of any form does better: of
     many small things that a model lacks none explains the rest (but where an error of the measurement does some of that).
 
-    An effect that removes LITTLE of the rest may be a part of it, and is not named.
+    An effect that removes LITTLE of the rest, on fitted drives or on those held out, may be a part of it, and is not named.
     """
     shares = [share for share in (verdict.share, verdict.held_out_share) if np.isfinite(share)]
     if verdict.verdict != "outside" or not verdict.effects or not min(shares, default=0.0) >= ENOUGH or verdict.is_like_error:
@@ -207,7 +207,7 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     theirs = [share for share in (proposal.share, proposal.held_out_share) if np.isfinite(share)] if is_sure(proposal) else []
     if any(share > own + EQUAL for share, own in zip(theirs, shares)):
         return verdict
-    kept = tuple(effect for effect in verdict.effects if effect.share >= LITTLE * (1.0 - verdict.share)) or verdict.effects[:1]
+    kept = tuple(effect for effect in verdict.effects if _is_much(effect, verdict)) or verdict.effects[:1]
     reasons = [*verdict.reasons, "no force of any form explains more: what is left may be many small things"]
     others = [effect.name for effect in verdict.effects if effect not in kept]
     if others:
@@ -215,6 +215,12 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
     kind = "cluster" if any(effect.like for effect in kept) else "named"
     return replace(verdict, verdict=kind, effects=kept, reasons=tuple(reasons), share=share, held_out_share=held_out)
+
+
+def _is_much(effect: Named, verdict: Verdict) -> bool:
+    """Whether an effect removes no LITTLE against what all leave, on fitted drives and on those held out, if any."""
+    pairs = (effect.share, verdict.share), (effect.held_out_share, verdict.held_out_share)
+    return all(share >= LITTLE * (1.0 - whole) for share, whole in pairs if np.isfinite(share))
 
 
 def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
