@@ -134,7 +134,7 @@ def test_what_explains_most_is_named_though_a_rest_is_shared_that_no_force_expla
     small = replace(FOUND, name="cornering_degression", share=0.03)
     left = replace(OUTSIDE, effects=(replace(FOUND, share=0.57, held_out_share=0.55), small))
     elsewhere = replace(small, share=0.18, held_out_share=0.04)
-    assert named_all_the_same(replace(left, effects=(*left.effects[:1], elsewhere)), replace(SURE, share=0.5)).effects == left.effects[:1]
+    assert named_all_the_same(replace(left, effects=(*left.effects[:1], elsewhere)), replace(SURE, share=0.5, held_out_share=0.5)).effects == left.effects[:1]
     found = named_all_the_same(left, replace(SURE, share=0.57, held_out_share=0.56))
     assert found.verdict == "named" and [effect.name for effect in found.effects] == [FOUND.name]
     assert (found.share, found.held_out_share) == (0.57, 0.55)
