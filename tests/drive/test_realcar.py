@@ -119,9 +119,9 @@ def test_with_its_roll_calibrated_the_other_drive_has_the_strength_that_was_meas
 @pytest.mark.slow
 def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_file_of_the_vehicle_is_wrong(drives, road, car, calibration):
     _, verdict, _ = diagnose({"realcar": (road, drives)}, car, calibration=calibration, bounds=BOUNDS)
-    assert verdict.verdict == "outside" and verdict.held_out_share > 0.25
+    assert verdict.verdict == "outside" and verdict.held_out_share > 0.4
     assert verdict.effects[0].name == "damper_asymmetry"
-    assert {effect.name for effect in verdict.effects[1:]} == {"damper_knee", "wheel_recession"}
+    assert {effect.name for effect in verdict.effects[1:3]} == {"damper_knee", "wheel_recession"}
     beyond = {one.parameter: one.value for one in verdict.beyond_bounds.parameters}
     assert beyond["roll_inertia"] < 0.8 * car["roll_inertia"] and beyond["anti_roll_stiffness_rear"] > 2 * car["anti_roll_stiffness_rear"]
     assert verdict.beyond_bounds.held_out_share > 0.1

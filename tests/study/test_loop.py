@@ -9,7 +9,7 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
-NAMED = {"verdict": "named", "effects": [{"name": "suspension_friction", "like": []}], "reasons": []}
+NAMED = {"sites": ["ts1"], "verdict": "named", "effects": [{"name": "suspension_friction", "like": []}], "reasons": []}
 
 
 @pytest.fixture(scope="module")
