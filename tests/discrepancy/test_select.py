@@ -82,6 +82,16 @@ def test_an_error_of_the_measurement_is_suspect_by_name_unless_drives_held_out_r
     assert found.verdict == "outside" and not found.effects and found.is_like_error
 
 
+@pytest.mark.parametrize(("size", "is_like_error"), [(0.5, False), (0.9, True)])
+def test_an_error_of_the_measurement_stands_in_for_something_else_only_where_it_removes_much(size, is_like_error):
+    """Beside an effect, and with something missing that the library does not have; else it may be a part of what is left."""
+    model = Linear(2, {"effect_1.size": 1.2, "effect_4.size": size, "effect_5.size": 1.0})
+    model.candidates = tuple(replace(one, instrument=one.name == "effect_4") for one in model.candidates[:5])
+    selection, found = judged(model)
+    assert selection.accepted == ("effect_1", "effect_4") and [effect.name for effect in found.effects] == ["effect_1"]
+    assert found.is_like_error is is_like_error
+
+
 def test_effects_that_remove_nothing_in_all_are_not_told():
     """Each helps beside what the one before left, while parameters that are fitted anew may give all of it back."""
     model = Linear(1, {"effect_2.size": 1.0})

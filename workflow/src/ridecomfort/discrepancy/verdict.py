@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
 
-from .balance import CONFIRMED, ENOUGH, SHARED_Z, Balance, answered, balanced, something_left
+from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced, something_left
 from .beyond import BeyondBounds
 from .cluster import SAME_PORT
 from .experiment import Candidate, Size
@@ -130,7 +130,9 @@ def judge(
         # An error of the measurement that leaves much, or that drives held out refute, is what something else, not in the library, looks like.
         is_little = is_little or balance.held_out <= 0 or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
         if is_little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
-            effects, wrong, is_like_error = vehicle, [], True
+            # Beside what explains most, one that removes little may be a part of what is left, as any effect may.
+            is_like_error = sum(effect.share for effect in wrong) >= LITTLE * (1.0 - balance.share)
+            effects, wrong = vehicle, []
             reasons.append(f"{names} would help, an error of the measurement that may stand in for something else")
         else:
             reasons.append(f"{names} is an error of the measurement, not of the vehicle")
