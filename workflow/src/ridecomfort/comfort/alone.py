@@ -372,10 +372,8 @@ def _check_ascending(s: np.ndarray, column, file) -> None:
     if not back.size:
         return
     i = back[0] + int(np.isfinite(s[back[0]]))
-    with open(file, encoding="utf-8-sig") as lines:
-        written = [number for number, line in enumerate(lines, start=1) if line.strip()]
     found = f"{s[i]:.6g} m after {s[i - 1]:.6g} m" if i and np.isfinite(s[i]) else "no number"
-    raise InputError(f"{found} (expected positions that ascend)", file=file, place=f"line {written[i + 1]}, column {column!r}")
+    raise InputError(f"{found} (expected positions that ascend)", file=file, place=f"line {csv.line_of(file, i)}, column {column!r}")
 
 
 def _table(file, rows: int | None = None) -> pd.DataFrame:

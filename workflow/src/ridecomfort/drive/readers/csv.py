@@ -92,7 +92,7 @@ def _numbers(series: pd.Series, path, column: str) -> np.ndarray:
         i = bad[0]
         value = "nothing, or nan" if pd.isna(series.iloc[i]) else repr(str(series.iloc[i]))
         raise InputError(
-            f"line {_line(path, i)}, column {column!r} holds {value} (expected a number)", file=path
+            f"line {line_of(path, i)}, column {column!r} holds {value} (expected a number)", file=path
         )
     return numbers
 
@@ -103,13 +103,13 @@ def _check_clock(time: np.ndarray, path, column: str) -> None:
     if back.size:
         i = back[0]
         raise InputError(
-            f"line {_line(path, i + 1)}, column {column!r}: the clock does not advance, {time[i + 1]:.6g} s after {time[i]:.6g} s "
+            f"line {line_of(path, i + 1)}, column {column!r}: the clock does not advance, {time[i + 1]:.6g} s after {time[i]:.6g} s "
             "(expected strictly increasing time)",
             file=path,
         )
 
 
-def _line(path, row: int) -> int:
+def line_of(path, row: int) -> int:
     """The line of a file that a row of its table (from 0) stands in; blank ones are no rows."""
     with open(path, encoding="utf-8-sig") as file:
         written = [number for number, line in enumerate(file, start=1) if line.strip()]
