@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import shutil
 from pathlib import Path
 
 import pytest
 
 from ridecomfort.steps import modules
+from tests.projects import EFFECT, write
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 
@@ -19,7 +21,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 def pytest_collection_modifyitems(items):
     """The workflow's files first: a long one that is begun last would keep one worker busy and leave the other idle."""
-    items.sort(key=lambda item: item.get_closest_marker("study") is None)
+    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
 
 
 @pytest.fixture(scope="session")
@@ -35,3 +37,20 @@ def shared() -> Path:
     if not (folder / "references").is_dir():
         pytest.skip("the reference material ../shared is not beside this checkout")
     return folder
+
+
+@pytest.fixture
+def project(repository, tmp_path):
+    """A project folder with a copy of the configuration and a user's site without drives."""
+    shutil.copytree(repository / "config", tmp_path / "config")
+    (tmp_path / "road.crg").touch()
+    write(tmp_path, "own", {"road": {"file": "road.crg"}})
+    return tmp_path
+
+
+@pytest.fixture
+def own_effects(project):
+    (project / "mine").mkdir()
+    for name in ("pull", "headwind"):
+        (project / "mine" / f"{name}.py").write_text(EFFECT.format(name=name))
+    return {"sites": ["own"], "effects_folder": "mine"}

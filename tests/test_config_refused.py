@@ -1,0 +1,260 @@
+"""Each mistake in the configuration is answered by name in one line, before anything runs."""
+
+import pytest
+import xarray as xr
+import yaml
+
+from ridecomfort import config, schema
+from ridecomfort.errors import InputError
+from tests.projects import DRIVE, HEADER, assert_said, columns, write
+
+
+@pytest.mark.parametrize(
+    ("effects", "said"),
+    [
+        (["magic"], "unknown effect 'magic'"),
+        (["suspension friction"], "unknown effect 'suspension friction'; did you mean 'suspension_friction'?"),
+        ([{"pull": {"sise": 1.0}}], "effect 'pull' has no parameter 'sise'"),
+        ([{"pull": {"size": -3.0}}], "pull: size: -3 N, expected 0 to 10 N (how much)"),
+    ],
+)
+def test_mistake_in_an_effect(project, own_effects, effects, said):
+    assert_said(project, {**own_effects, "effects": effects}, f"effects: {said}", config.STUDY)
+
+
+def test_a_file_that_is_no_effect_is_missed_before_anything_runs(project, own_effects):
+    (project / "mine" / "bad.py").write_text("effect = (")
+    with pytest.raises(InputError, match="bad.py: cannot be loaded: SyntaxError"):
+        config.load(own_effects, project)
+
+
+def test_a_key_that_stands_twice_is_refused(project):
+    (project / config.SITES / "own.yaml").write_text("road:\n  file: road.crg\ntitle: one\ntitle: two\n")
+    assert_said(project, {"sites": ["own"]}, "line 4: is not valid YAML (key 'title' stands in line 3 already)", project / config.SITES / "own.yaml")
+
+
+SPEEDS = [120, 100, 80, 70, 60, 50, 40, 30, 20, 10]
+
+
+STUDY_MISTAKES = [
+    ({"runs": 0}, "runs: 0, expected at least 1"),
+    ({"runs": 2.5}, "runs: 2.5, expected a whole number"),
+    ({"runs": "many"}, "runs: 'many', expected a whole number"),
+    ({"runs": True}, "runs: True, expected a whole number"),
+    ({"run": 3}, "unknown key 'run'; did you mean 'runs'"),
+    ({"simulation": {"stepp": 1}}, "simulation: unknown key 'stepp'; did you mean 'step'"),
+    ({"simulation": {"step": "1e-3"}}, "write 0.001"),
+    ({"simulation": {"rate": 333}}, "expected a rate that a step of 0.001 s divides"),
+    ({"space": {"spacing": -0.25}}, "space: spacing: -0.25, expected at least 0.1"),
+    ({"space": {"run_in": float("nan")}}, "space: run_in: nan, expected a finite number"),
+    ({"comfort": {"critical_length": -5}}, "comfort: critical_length: -5, expected at least 1"),
+    ({"calibration": {"parameters": ["dampers"]}}, "calibration: parameters: 'dampers' is no parameter of a vehicle"),
+    ({"calibration": {"bounds": {"damping_front": [0, 9000]}}}, "calibration: bounds: 'damping_front' is not calibrated"),
+    ({"calibration": {"bounds": {"tyre_friction": [1.4, 0.7]}}}, "tyre_friction: [1.4, 0.7], expected the lower value first"),
+    ({"calibration": {"profiles": ["damping_front"]}}, "calibration: profiles: 'damping_front' is not calibrated"),
+    ({"calibration": {"start": [{"damping_front": 1500}]}}, "calibration: start: 'damping_front' is not calibrated"),
+    ({"calibration": {"start": [{"tyre_friction": 2}]}}, "start: tyre_friction: 2, expected within the bounds 0.7 to 1.4"),
+    ({"calibration": {"start": {"tyre_friction": 1}}}, "calibration: start: {'tyre_friction': 1}, expected a list"),
+    ({"diagnosis": {"uncertain": {"roll_inertai": 0.1}}}, "diagnosis: uncertain: 'roll_inertai' is no parameter of a vehicle"),
+    ({"diagnosis": {"uncertain": {"tyre_friction": 0.1}}}, "diagnosis: uncertain: 'tyre_friction' is calibrated"),
+    ({"diagnosis": {"uncertain": {"roll_inertia": 0}}}, "diagnosis: uncertain: roll_inertia: 0, expected"),
+    ({"calibration": {"signals": ["a_w"]}}, "'a_w', expected one of a_x"),
+    ({"comfort": {"iri": {"speed_km_h": [50, 60]}}}, "comfort: iri: thresholds: VG: 10 values, expected one for each of the 2 speeds"),
+    ({"comfort": {"iri": {"speed_km_h": SPEEDS[::-1]}}}, "VG: 11.44 m/km at 120 km/h and 5.72 m/km at 100 km/h, expected edges that fall"),
+    ({"comfort": {"iri": {"speed_km_h": [*SPEEDS[:-1], 20]}}}, "comfort: iri: speed_km_h: 20 stands twice, expected different speeds"),
+    (
+        {"calibration": {"bounds": {"spring_stiffness_front": [2000000, 10000000]}}},
+        "bounds: spring_stiffness_front: 2e+06 to 1e+07 N/m, expected an interval within 5000 to 300000 N/m",
+    ),
+    ({"calibration": {"bounds": {"tyre_friction": [1, 1]}}}, "tyre_friction: 1 to 1, expected an interval within 0.1 to 2"),
+    ({"comfort": {"sections": "gliding"}}, "comfort: sections: 'gliding', expected one of sequential, sliding"),
+    ({"comfort": {"jerk": {"seated": [2.9, -2.9]}}}, "jerk: seated: [2.9, -2.9], expected the lower value first"),
+    ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2"),
+    ({"comfort": {"thresholds": {"a_x": {"PT": [-1, 1, 2], "ND": [-2, 2], "AG": [-5, 3]}}}}, "2, expected text"),
+    ({"comfort": {"iri": {"wheel_tracks": [0.75, -0.75]}}}, "wheel_tracks: [0.75, -0.75], expected the lower value first"),
+    ({"comfort": {"iri": {"wheel_tracks": []}}}, "wheel_tracks: [], expected at least 1"),
+    ({"comfort": {"iri": {"moving_average": 0}}}, "moving_average: 0, expected more than 0"),
+    ({"comfort": {"iso2631": {"seat": {"natural_frequency": 4}}}}, "seat: key 'damping_ratio' is missing"),
+    ({"comfort": {"iso2631": {"seat": {"natural_frequency": -4, "damping_ratio": 0.3}}}}, "-4, expected at least 0.5"),
+    ({"comfort": {"iso2631": {"label": "worst"}}}, "label: 'worst', expected one of severe, mild, middle"),
+    ({"comfort": {"iso2631": {"bands": {"LU": [0.4, 0.63]}}}}, "nothing between NU and LU"),
+    ({"comfort": {"exposure": {"trip": 0}}}, "trip: 0, expected at least 1"),
+    ({"comfort": {"maps": {"probability": 1.5}}}, "probability: 1.5, expected at most 1"),
+    ({"sites": []}, "sites: [], expected at least 1"),
+    ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: "),
+    ({"vehicle": "tank"}, "vehicle: unknown vehicle 'tank'; known vehicles: "),
+    ({"effects": ["magic"]}, "effects: unknown effect 'magic'"),
+    ({"effects": [{"a": {"b": "c"}}]}, "is not of the expected form"),
+    ({"effects_folder": "missing"}, "effects_folder: no such folder"),
+]
+
+
+@pytest.mark.parametrize(("change", "said"), STUDY_MISTAKES, ids=[said for _, said in STUDY_MISTAKES])
+def test_mistake_in_the_study(project, change, said):
+    assert_said(project, {"sites": ["own"], **change}, said, config.STUDY)
+
+
+@pytest.mark.parametrize(("change", "said"), STUDY_MISTAKES[:1])
+def test_mistake_on_the_command_line(project, change, said):
+    with pytest.raises(InputError, match="--config: runs"):
+        config.load({"sites": ["own"], **change}, project, given=["runs"])
+
+
+SITE_MISTAKES = [
+    ({"road": {"file": "gone.crg"}}, "road: file: no such file 'gone.crg'"),
+    ({"rode": {"file": "road.crg"}}, "'rode'"),
+    ({"road": {"options": {}}}, "road: expected either a file or a scan"),
+    (
+        {"road": {"scan": {"profiles": "road.crg", "trajectory": "t.csv"}}},
+        "road: scan: trajectory: no such file 't.csv'",
+    ),
+    ({}, "key 'road' is missing"),
+    ({"road": {"file": "road.crg"}, "speed": {"limit_km_h": -50}}, "speed: limit_km_h: -50, expected at least 5"),
+    ({"road": {"file": "road.crg"}, "drives": [DRIVE]}, "drives: entry 1: file: no such file 'drive.csv'"),
+    ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "role": "fix"}]}, "role: 'fix', expected one of fit, check"),
+    (
+        {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "road.crg", "columns": {"time": {"column": "t", "unit": "m"}}}]},
+        "drives: entry 1: columns: time: unit 'm' does not fit time (expected one of s, ms",
+    ),
+    (
+        {
+            "road": {"file": "road.crg"},
+            "drives": [{**DRIVE, "file": "road.crg", "columns": {"roll_rate": {"column": "gyro_x [rad/s]", "unit": "deg/s"}}}],
+        },
+        "drives: entry 1: columns: roll_rate: unit 'deg/s' for roll_rate, but its column is headed 'gyro_x [rad/s]'",
+    ),
+    (
+        {
+            "road": {"file": "road.crg"},
+            "drives": [{**DRIVE, "file": "road.crg", "columns": {n: {"column": "rate", "unit": "deg/s"} for n in ("roll_rate", "pitch_rate")}}],
+        },
+        "drives: entry 1: columns: pitch_rate: column 'rate' stands for roll_rate already",
+    ),
+    (
+        {"road": {"file": "road.crg"}, "drives": [{"file": "road.crg", "sensor": {"above_wheel_centres": 1.0}}]},
+        "drives: entry 1: sensor: key 'behind_front_axle' is missing",
+    ),
+    ({"road": {"file": "road.crg"}, "drives": [{"file": "road.crg"}]}, "drives: entry 1: key 'sensor' is missing"),
+    (
+        {"road": {"file": "road.crg"}, "sampling": {"road_friction": {"uniform": [-0.1, 1]}}},
+        "-0.1, expected more than 0",
+    ),
+    (
+        {"road": {"file": "road.crg"}, "sampling": {"lateral_position": {"normal": [0, -1]}}},
+        "-1, expected at least 0",
+    ),
+    ({"road": {"file": "road.crg"}, "sampling": {"lateral_position": {"cauchy": [0, 1]}}}, "unknown key 'cauchy'"),
+    ({"road": {"file": "road.crg"}, "calibrated_on": "own"}, "calibrated_on: site 'own' has no measured drives"),
+    ({"road": {"file": "road.crg"}, "standin": True}, "makes no data for 'own'; remove `standin`"),
+    ({"road": {"file": "road.crg"}, "vehicle": "tank"}, "vehicle: unknown vehicle 'tank'"),
+]
+
+
+@pytest.mark.parametrize(("content", "said"), SITE_MISTAKES, ids=[said for _, said in SITE_MISTAKES])
+def test_mistake_in_a_site(project, content, said):
+    write(project, "own", content)
+    assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
+
+
+def wide(project, width):
+    """A road's header, as wide as that."""
+    sections = f"LONG_SECTION_V_RIGHT = {-width / 2}\nLONG_SECTION_V_LEFT = {width / 2}\nLONG_SECTION_V_INCREMENT = 0.1"
+    head = f"$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 0.1\n{sections}\n$\n$KD_DEFINITION\n#:LRFI\nD:long section 1,m\n$\n$$$$\n"
+    (project / "road.crg").write_text(head)
+
+
+@pytest.mark.parametrize(
+    ("width", "runs", "lateral", "said"),
+    [
+        (4.0, 4000, {"uniform": [-3, 3]}, "4000 runs from -3 to 3 m, with wheels 0.75 m to either side, expected on the road of own"),
+        (4.0, 4000, {"normal": [0, 0.5]}, "4000 runs from -1.831 to 1.831 m, with wheels"),
+        (4.0, 4000, {"normal": [0, 0.2]}, None),
+        (4.0, 4000, {"uniform": [-1.25, 1.25]}, None),
+        (1.8, 4000, {"normal": [0, 0.2]}, "expected on the road of own, -0.9 to 0.9 m"),
+        (None, 4000, {"uniform": [-3, 3]}, None),
+    ],
+)
+def test_runs_that_would_leave_the_road_are_missed_before_anything_runs(project, width, runs, lateral, said):
+    """Of what the header of the road says; one that says nothing is seen to when it is read."""
+    if width is not None:
+        wide(project, width)
+    write(project, "own", {"road": {"file": "road.crg"}, "sampling": {"lateral_position": lateral}})
+    settings = {"sites": ["own"], "runs": runs}
+    if said is None:
+        config.load(settings, project)
+    else:
+        assert_said(project, settings, f"sampling: lateral_position: {said}" if said[0].isdigit() else said, config.SITES / "own.yaml")
+
+
+def test_wheel_tracks_beside_a_road_are_missed_before_anything_runs(project):
+    wide(project, 4.0)
+    settings = {"sites": ["own"], "comfort": {"iri": {"wheel_tracks": [-7, 7]}}}
+    assert_said(project, settings, "comfort: iri: wheel_tracks: -7 m, expected a place on the road of own, -2 to 2 m", config.STUDY)
+    assert_said(project, {**settings, "sites": ["ts1"]}, "expected a place on the road of ts1, -2 to 2 m", config.STUDY)
+
+
+def test_a_column_that_a_drive_does_not_have_is_missed_before_anything_runs(project):
+    (project / "drive.csv").write_text(HEADER.replace("a_z", "acc"), encoding="utf-8-sig")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": columns(a_z="acc_z")}]})
+    with pytest.raises(InputError, match=r"own.yaml: drives: entry 1: .*drive.csv: no column 'acc_z' for a_z \(found time, .*acc, "):
+        config.load({"sites": ["own"]}, project)
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": columns(a_z="acc")}]})
+    config.load({"sites": ["own"]}, project)
+
+
+@pytest.mark.parametrize(
+    ("left_out", "said"),
+    [
+        (("roll_rate", "pitch_rate", "yaw_rate"), "no roll_rate, pitch_rate, yaw_rate (expected time, a_x, "),
+        (("time",), "no time (expected time, a_x, "),
+        (("v_x",), "no v_x or s (expected time, a_x, "),
+    ],
+)
+def test_a_quantity_that_a_drive_needs_is_missed_before_anything_runs(project, left_out, said):
+    kept = columns(*left_out)
+    (project / "drive.csv").write_text(",".join(kept) + "\n")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "columns": kept}]})
+    assert_said(project, {"sites": ["own"]}, f"drives: entry 1: columns: {said}", config.SITES / "own.yaml")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [DRIVE]})
+    assert_said(project, {"sites": ["own"]}, f"drive.csv: line 1: {said}", config.SITES / "own.yaml")
+    empty = lambda names: xr.Dataset({name: ("time", [0.0, 1.0]) for name in names})
+    empty(kept).to_netcdf(project / "drive.nc")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "drive.nc"}]})
+    assert_said(project, {"sites": ["own"]}, f"drive.nc: variables: {said}", config.SITES / "own.yaml")
+    empty(columns()).to_netcdf(project / "drive.nc")
+    config.load({"sites": ["own"]}, project)
+
+
+def test_a_variable_that_a_netcdf_drive_does_not_have_is_missed_before_anything_runs(project):
+    xr.Dataset({name: ("time", [0.0, 1.0]) for name in columns()}).to_netcdf(project / "drive.nc")
+    drive = {**DRIVE, "file": "drive.nc", "columns": {"a_z": {"column": "heave", "unit": "g"}}}
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [drive]})
+    assert_said(project, {"sites": ["own"]}, "drive.nc: has no variable 'heave' for a_z", config.SITES / "own.yaml")
+
+
+def test_a_drive_of_a_format_that_nothing_reads_is_missed_before_anything_runs(project):
+    (project / "drive.txt").touch()
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "drive.txt"}]})
+    said = "drives: entry 1: file: drive.txt: no reader for '.txt' (expected .csv, .nc, .nc4)"
+    assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
+
+
+def test_a_site_may_not_be_named_like_a_target(project):
+    write(project, "tables", {"road": {"file": "road.crg"}})
+    assert_said(project, {"sites": ["tables"]}, "'tables' is the name of something else", config.STUDY)
+
+
+def test_a_stand_in_lies_in_its_folder(project):
+    content = schema.read_yaml(project / config.SITES / "ts1.yaml")
+    content["road"]["file"] = "elsewhere/road.crg"
+    write(project, "ts1", content)
+    assert_said(project, {"sites": ["ts1"]}, "expected a file in data/ts1/", config.SITES / "ts1.yaml")
+
+
+def test_mistake_in_a_vehicle(project):
+    file = project / config.VEHICLES / "midsize.yaml"
+    vehicle = yaml.safe_load(file.read_text())
+    vehicle["parameters"]["sprung_mass"]["unit"] = "t"
+    file.write_text(yaml.safe_dump(vehicle))
+    with pytest.raises(InputError, match="sprung_mass: unit 't', expected 'kg'"):
+        config.load({"sites": ["own"]}, project)

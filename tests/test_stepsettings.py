@@ -1,0 +1,62 @@
+"""What each step is told of the configuration, and so what makes it run again."""
+
+import pytest
+
+from ridecomfort import config, schema, stepsettings
+from tests.projects import DRIVE, HEADER, read, write
+
+
+def test_a_model_without_effects_of_ones_own_does_not_depend_on_their_folder(project, own_effects):
+    """So that its results stay when the first one is added. A diagnosis looks among them all."""
+    study = config.load({**own_effects, "effects": ["headwind"]}, project)
+    folder = lambda step, model: stepsettings.of_step(study, step, "own", model)["effects_folder"]
+    assert folder("compare", "base") is None and folder("simulate", "base") is None
+    assert folder("compare", "headwind") == "mine" and folder("diagnose", "base") == "mine"
+
+
+def test_a_diagnosis_is_told_the_bounds_of_what_is_calibrated_and_a_parameter_that_is_not_may_be_uncertain(project):
+    chosen = {"parameters": ["damping_front", "spring_stiffness_front"], "bounds": {"damping_front": [900, 4000]}}
+    study = config.load({"sites": ["own"], "calibration": chosen, "diagnosis": {"uncertain": {"tyre_friction": 0.1}}}, project)
+    settings = stepsettings.of_step(study, "diagnose", model="base")
+    assert settings["bounds"] == {"damping_front": [900, 4000], "spring_stiffness_front": [15000, 40000]}
+    assert settings["uncertain"]["tyre_friction"] == 0.1
+
+
+def test_thresholds_may_name_their_source(project):
+    stated = {"a_x": {"PT": [-1.0, 1.0, "our own"], "ND": [-2, 2], "AG": [-5, 3]}}
+    jerk = {"lying": [-0.3, 0.3, "a guess"]}
+    study = config.load({"sites": ["own"], "comfort": {"thresholds": stated, "jerk": jerk}}, project)
+    told = stepsettings.of_step(study, "thresholds", "own")
+    assert told["thresholds"]["a_x"]["PT"] == [-1.0, 1.0, "our own"] and told["jerk"] == jerk
+
+
+@pytest.mark.parametrize("step", ["simulate", "thresholds", "road", "sample"])
+def test_a_step_is_told_only_what_it_uses(project, step):
+    plain = config.load({"sites": ["own"]}, project)
+    sharded = config.load({"sites": ["own"], "simulation": {"runs_per_shard": 10, "keep_drives": True}}, project)
+    assert stepsettings.as_json(plain, step, "own", "base") == stepsettings.as_json(sharded, step, "own", "base")
+    assert "runs_per_shard" not in stepsettings.as_json(plain, step, "own", "base")
+
+
+def test_another_speed_in_the_study_leaves_the_measured_drives_as_they_are(project):
+    before = config.load({"sites": ["ts1"]}, project)
+    content = schema.read_yaml(project / config.SITES / "ts1.yaml")
+    write(project, "ts1", {**content, "speed": {"limit_km_h": 70}})
+    after = config.load({"sites": ["ts1"]}, project)
+    changed = {
+        step
+        for step in ("standin_road", "standin_drives", "road", "measured", "calibrate", "compare", "sample", "simulate")
+        if stepsettings.as_json(before, step, "ts1", "base") != stepsettings.as_json(after, step, "ts1", "base")
+    }
+    assert changed == {"simulate"}
+
+
+def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
+    drive = {**DRIVE, "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
+    (project / "drive.csv").write_text(HEADER)
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [drive]})
+    study = config.load({**read(project), "sites": ["own"]}, project)
+    density = stepsettings.of_step(study, "compare", "own", "base")["noise_density"]["drive"]
+    assert density == pytest.approx({"accelerometer": 100e-6 * 9.80665, "gyroscope": 0.01 * 3.141592653589793 / 180})
+    # Alignment does not depend on it.
+    assert "noise_density" not in stepsettings.as_json(study, "measured", "own")

@@ -1,0 +1,66 @@
+"""What a configured study has: sites, runs, models, and which drives are calibrated on and diagnosed."""
+
+from ridecomfort import config
+from tests.projects import DRIVE, HEADER, read, write
+
+
+def test_drives_handed_in_are_in_the_order_of_their_numbers(project):
+    (project / "elsewhere").mkdir()
+    for number in (10, 9, 1, 2, 11):
+        (project / "elsewhere" / f"run{number}.csv").touch()
+    write(project, "own", {"road": {"file": "road.crg"}, "simulated": "elsewhere"})
+    study = config.load({**read(project), "sites": ["own"], "runs": 5}, project)
+    assert study.handed_in("own") == [f"elsewhere/run{number}.csv" for number in (1, 2, 9, 10, 11)]
+
+
+def test_shards_name_every_run_once(project):
+    for runs, size in [(1, 250), (250, 250), (4000, 250), (4001, 250), (20000, 333)]:
+        study = config.load({"sites": ["own"], "runs": runs, "simulation": {"runs_per_shard": size}}, project)
+        named = [range(int(first), int(last) + 1) for first, last in (shard.split("-") for shard in study.shards)]
+        assert [run for shard in named for run in shard] == list(range(runs))
+
+
+def test_a_site_is_a_road_and_nothing_else(project):
+    study = config.load({"sites": ["own"]}, project)
+    assert study.calibrated_on("own") is None and study.measured == [] and study.made == []
+    assert study.model == "base" and study.vehicle("own") == "config/vehicles/midsize.yaml"
+
+
+def test_a_site_calibrated_elsewhere_brings_that_site_along(project):
+    study = config.load({"sites": ["ts2"]}, project)
+    assert study.names == ["ts2"] and set(study.sites) == {"ts2", "ts1"} and study.calibrations == ["ts1"]
+
+
+def test_effects_name_the_model_in_whatever_order(project, own_effects):
+    study = config.load({**own_effects, "effects": [{"pull": {"size": 2.0}}, "headwind"]}, project)
+    assert study.model == "headwind+pull"
+    assert study.effects("headwind+pull") == {"headwind": {}, "pull": {"size": 2.0}}
+    assert study.effects("base") == {}
+    assert study.effect_files("headwind+pull") == ["mine/headwind.py", "mine/pull.py"]
+
+
+def test_without_calibration_the_drives_of_one_vehicle_are_diagnosed_together(project):
+    """Those that only hold drives out come behind one that has some to fit; of another vehicle nothing is diagnosed beside them."""
+    (project / "drive.csv").write_text(HEADER)
+    site = {"road": {"file": "road.crg"}, "drives": [DRIVE], "calibrated_on": "none"}
+    write(project, "checked", {**site, "drives": [{**DRIVE, "role": "check"}]})
+    write(project, "fitted", site)
+    write(project, "of_a_van", {**site, "vehicle": "van"})
+    study = config.load({"sites": ["checked", "of_a_van", "fitted"]}, project)
+    assert study.diagnosed == ["of_a_van"]
+    study = config.load({"sites": ["checked", "fitted", "of_a_van"]}, project)
+    assert study.diagnosed == ["fitted", "checked"]
+    study = config.load({"sites": ["checked"]}, project)
+    assert study.diagnosed == [] and not study.forward
+
+
+def test_the_study_goes_forward_only_where_drives_are_diagnosed_and_is_scored_only_on_stand_ins(project):
+    paper = config.load({**read(project), "sites": ["ts1"]}, project)
+    assert paper.forward and paper.scored
+    bare = config.load({**read(project), "sites": ["own"]}, project)
+    assert not bare.forward and not bare.scored
+    (project / "drive.csv").write_text(HEADER)
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [DRIVE]})
+    own = config.load({**read(project), "sites": ["own"]}, project)
+    assert own.forward and not own.scored
+    assert not config.load({**read(project), "diagnosis": {"forward": False}}, project).forward
