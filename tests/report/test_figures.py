@@ -79,10 +79,12 @@ def words_of(figure):
 def test_figures_of_stand_in_sites_say_so_and_others_do_not(drawn, own_site):
     """A figure is shown without its caption sooner or later."""
     for name, each in drawn.items():
-        shows_data = name not in catalogue.METHOD_FIGURES
+        shows_data = name != "framework"
         assert ("Stand-in data: Ts" in words_of(each)) == shows_data, name
     assert "Stand-in data: Ts2" in words_of(drawn["views_ts2"]) and "Ts1" not in words_of(drawn["views_ts2"])
-    assert "Stand-in" not in words_of(figures.draw(own_site, "critical_shares"))
+    assert "Stand-in data: Ts1" in words_of(drawn["validation_iso"]) and "Ts2" not in words_of(drawn["validation_iso"])
+    for name in ("critical_shares", "validation_iso"):
+        assert "Stand-in" not in words_of(figures.draw(own_site, name))
 
 
 def test_drawing_leaves_the_settings_of_others_alone(own_site):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from matplotlib.figure import Figure
 
-from .. import catalogue, style
+from .. import style
 from ..study import Study
 from . import agreement, along, calibration, diagrams, overview, roads, roughness, surface, weighting
 
@@ -41,7 +41,13 @@ def draw(study: Study, name: str) -> Figure:
     """One figure by its name in ``catalogue.figures``, in the study's style."""
     with style.styled():
         if name in BUILDERS:
-            mark = None if name in catalogue.METHOD_FIGURES else study.standin_mark()
-            return style.marked(BUILDERS[name](study), mark)
+            return style.marked(BUILDERS[name](study), _mark(study, name))
         kind, _, site = name.partition("_")
         return style.marked(OF_SITE[kind](study, site), study.standin_mark(site))
+
+
+def _mark(study: Study, name: str) -> str | None:
+    """The words for the stand-in sites whose data a figure of the whole study shows; None where it shows none."""
+    if name == "framework":
+        return None
+    return study.standin_mark(weighting.sampled(study).name if name == "validation_iso" else None)

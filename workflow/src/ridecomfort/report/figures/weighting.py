@@ -85,18 +85,22 @@ def validation_iso(study: Study) -> Figure:
 EXACT, BILINEAR = style.OURS, style.PAPER
 
 
+def sampled(study: Study):
+    """The site that the sample signal comes from."""
+    return study.compared[0] if study.compared else study.sites[0]
+
+
 def sample_signal(study: Study) -> tuple[np.ndarray, str]:
     """16 s of vertical acceleration in m/s2 at 100 Hz, with 3 s before and after, and where they come from.
 
     The middle of the first measured drive; without drives, of the mean over the runs at its mean speed.
     """
+    site = sampled(study)
     if study.compared:
-        site = study.compared[0]
         comparison = site.comparison.isel(drive=0)
         values = comparison["measured"].sel(signal="a_z").values
         time, origin = comparison["time"].values, f"measured on {site.label}"
     else:
-        site = study.sites[0]
         values = site.thresholds["a_z"].values
         speed = np.interp(site.thresholds["s"], site.iri["s"], site.iri["v_x"])
         time = np.cumsum(np.gradient(site.thresholds["s"].values) / speed)
