@@ -13,6 +13,7 @@ import xarray as xr
 
 from ridecomfort import simulate, store
 from ridecomfort.steps import calibrate, compare, measured
+from ridecomfort.steps.command import NOTE
 from ridecomfort.vocabulary import CALIBRATED, SIGNALS, STANDARD_GRAVITY
 from tests import quarter_cars
 
@@ -50,7 +51,7 @@ def car_file(repository):
     return repository / "config" / "vehicles" / "midsize.yaml"
 
 
-def test_records_are_aligned_fitted_and_compared(files, car_file):
+def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     entries = [ENTRY | {"name": name, "role": name} for name in ("fit", "check")]
     common = {"road": files / "road.nc", "vehicle": car_file}
     config = {"site": "here", "drives": entries, "simulation": SIMULATION, "alignment": {"search": 0.5}}
@@ -80,6 +81,14 @@ def test_records_are_aligned_fitted_and_compared(files, car_file):
     friction = model | {"effects": {"suspension_friction": {}}}
     compare.main(**common, calibration=None, config=friction, output=files / "comparison.nc")
     assert list(store.read(files / "comparison.nc")["state"].values) == ["reference", "with_effects"]
+
+    # A wrong sign is for the person who waits, too.
+    assert NOTE not in capsys.readouterr().err
+    turned = drives.load()
+    turned["pitch_rate"] *= -1.0
+    store.write(turned, files / "turned.nc", title="Turned", configuration={})
+    compare.main(**common | {"measured": files / "turned.nc"}, calibration=None, config=model, output=files / "comparison.nc")
+    assert f"{NOTE}pitch_rate runs against the model" in capsys.readouterr().err
 
 
 def backwards(table):

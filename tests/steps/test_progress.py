@@ -4,11 +4,12 @@ import io
 import json
 import logging
 import re
+import sys
 
 import pytest
 
 from ridecomfort.report import catalogue
-from ridecomfort.steps import progress
+from ridecomfort.steps import command, progress
 
 
 class Clock:
@@ -37,8 +38,8 @@ def log(handler, event, **fields):
     handler.emit(logging.makeLogRecord({"event": event, "msg": None, **fields}))
 
 
-def start(handler, number, rule, **wildcards):
-    log(handler, "job_info", jobid=number, rule_name=rule, wildcards=wildcards, benchmark="b.tsv")
+def start(handler, number, rule, logs=(), **wildcards):
+    log(handler, "job_info", jobid=number, rule_name=rule, wildcards=wildcards, benchmark="b.tsv", log=[str(one) for one in logs])
 
 
 def test_time_left_is_that_of_the_jobs_to_come_shared_among_those_that_run(watched, clock):
@@ -57,6 +58,18 @@ def test_time_left_is_that_of_the_jobs_to_come_shared_among_those_that_run(watch
 def test_a_job_that_takes_minutes_says_where_to_look_how_far_it_is(watched):
     log(watched, "job_info", jobid=1, rule_name="diagnosis", wildcards={"model": "base"}, benchmark="b.tsv", log=["logs/base.log"])
     assert watched.said()[-1].endswith("diagnosis base ... (how far: logs/base.log)")
+
+
+def test_what_a_step_notes_is_shown_and_the_rest_of_its_log_is_not(watched, tmp_path, capsys):
+    path = tmp_path / "base.log"
+    print("round 1: suspension_friction", file=sys.stderr)
+    command.note("Missing: suspension_friction.")
+    path.write_text(capsys.readouterr().err)
+    log(watched, "run_info", stats={"diagnosis": 1, "diagnose": 1, "total": 2})
+    start(watched, 1, "diagnosis", [path], model="base")
+    log(watched, "job_finished", job_id=1)
+    done, found = watched.said()[1:]
+    assert "diagnosis base done" in done and found.strip() == "Missing: suspension_friction."
 
 
 def test_a_run_ends_with_100_percent_and_the_page(watched, clock):

@@ -12,6 +12,9 @@ from pathlib import Path
 
 from ..errors import InputError
 
+NOTE = "note: "
+"""Begins a line of a log that a person who waits is shown as well."""
+
 
 @dataclass(frozen=True)
 class Command:
@@ -59,6 +62,11 @@ class Command:
         except InputError as problem:
             sys.exit(f"error: {problem}")
         print(f"done in {time.perf_counter() - start:.1f} s", file=sys.stderr)
+
+
+def note(words: str) -> None:
+    """Say in the log what a person should see without opening it."""
+    print(f"{NOTE}{words}", file=sys.stderr, flush=True)
 
 
 def counted(function: Callable, what: str, every: int = 50) -> Callable:

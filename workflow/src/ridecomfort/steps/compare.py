@@ -4,7 +4,7 @@ import sys
 
 from ridecomfort import calibrated, simulate, store
 from ridecomfort.discrepancy import compare, findings, locate
-from ridecomfort.steps.command import Command
+from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
 
@@ -29,7 +29,9 @@ def main(road, measured, vehicle, calibration, config, output):
     store.write(
         result, output, title=f"Simulated against measured drives on {config['site']}", configuration=config
     )
-    print(*words, sep="\n", file=sys.stderr)
+    for doubt in findings.doubts(located):
+        note(doubt)
+    print(*(finding.words() for finding in findings.findings(located)), sep="\n", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ridecomfort import discrepancy, store
 from ridecomfort.effects import library
-from ridecomfort.steps.command import Command
+from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
 DISCOVERED = "discovered"
@@ -43,7 +43,7 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
             _write(Path(verdict).with_name(f"{name}.py"), proposal.source)
     store.write(table, ranking, title="Evidence for effects that the model lacks", configuration=config, seed=config["seed"])
     _write(verdict, json.dumps(content, indent=1) + "\n")
-    print(found.words(), file=sys.stderr)
+    note(found.words())
 
 
 def _names():

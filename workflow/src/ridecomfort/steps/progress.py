@@ -9,10 +9,12 @@ import re
 import sys
 import time
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
+
+from .command import NOTE
 
 SILENCED = ("job_info", "job_started", "job_finished", "job_error", "progress")
 """Events that Snakemake would print in several lines each."""
@@ -48,6 +50,7 @@ class Job:
     where: str
     start: float
     benchmark: str | None
+    logs: Sequence[Path] = ()
 
 
 class Progress(logging.Handler):
@@ -132,13 +135,13 @@ class Progress(logging.Handler):
             # A job that nobody knew of before a checkpoint: what a diagnosis names is computed next.
             self.counts[record.rule_name] += 1
             self.todo[record.rule_name] += 1
-        self.running[record.jobid] = Job(record.rule_name, where, time.monotonic(), record.benchmark)
+        logs = _logs(record)
+        self.running[record.jobid] = Job(record.rule_name, where, time.monotonic(), record.benchmark, logs)
         self.together = max(1, len(self.running))
         site = str(next(iter(wildcards.values()), ""))
         if record.benchmark and (record.rule_name, site) not in self.announced:
             self.announced.add((record.rule_name, site))
-            logs = getattr(record, "log", None) if record.rule_name in TOLD else None
-            told = f" (how far: {logs[0]})" if logs else ""
+            told = f" (how far: {logs[0]})" if logs and record.rule_name in TOLD else ""
             self._print(f"{_joined(record.rule_name, where)} ...{told}")
 
     def _finished(self, number: int) -> None:
@@ -162,6 +165,9 @@ class Progress(logging.Handler):
         of = f" ({self.counts[job.rule] - self.todo[job.rule]} of {self.counts[job.rule]} such jobs)"
         of = of if self.counts[job.rule] > 1 else ""
         self._print(f"{_joined(job.rule, job.where)} done in {_duration(took)}{of}{self._left()}")
+        for line in _lines(job.logs):
+            if line.startswith(NOTE):
+                self._write(f"        {line.removeprefix(NOTE)}")
 
     def _left(self) -> str:
         steps = sum((+self.todo).values())
@@ -172,8 +178,8 @@ class Progress(logging.Handler):
 
     def _failed(self, record: logging.LogRecord) -> None:
         job = self.running.pop(record.jobid, None)
-        logs = [Path(str(name).split(" ")[0]) for name in record.log]
-        lines = [line for log in logs if log.is_file() for line in log.read_text(errors="replace").splitlines()]
+        logs = _logs(record)
+        lines = _lines(logs)
         named = [line for line in lines if line.startswith("error: ")]
         reason = named[-1] if named else f"see {logs[0] if logs else record.msg}"
         self._print(f"{_joined(record.rule_name, job.where if job else '')} failed: {reason}")
@@ -210,6 +216,14 @@ def _missing(record: logging.LogRecord) -> str:
     """The name that was asked for where there is no rule for it; empty for any other record."""
     found = MISSING_RULE.search(str(record.msg)) if getattr(record, "exception", None) == "MissingRuleException" else None
     return found.group(1) if found else ""
+
+
+def _logs(record: logging.LogRecord) -> list[Path]:
+    return [Path(str(name).split(" ")[0]) for name in getattr(record, "log", None) or ()]
+
+
+def _lines(logs: Sequence[Path]) -> list[str]:
+    return [line for log in logs if log.is_file() for line in log.read_text(errors="replace").splitlines()]
 
 
 def _earlier(benchmarks: Path) -> dict[str, float]:
