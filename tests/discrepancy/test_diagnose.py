@@ -13,6 +13,8 @@ from ridecomfort.discrepancy.verdict import Named, Verdict, with_parameters, wit
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 
+SIZE = {"parameter": "compliance", "size": 2e-6, "unit": "rad/N", "interval": [1.9e-6, 2.1e-6], "plausible": [0.0, 4e-6], "is_plausible": True}
+
 SURE = Discovery("discovered", "tyre", "tyre_vertical", {"once_a_turn": {"front_left_sine": 60.0}}, {"once_a_turn": {}}, "force = ...", 0.9, 0.9, 0.0015, "", {}, None)
 
 
@@ -96,13 +98,22 @@ def test_a_doubtful_name_gives_way_to_a_force_that_fits_drives_better_beyond_cha
     assert reconsidered(nobody, replace(force, share=0.85, held_out_share=float("nan")), fits_better=True).verdict == "outside"
 
 
+def test_a_name_too_large_to_be_plausible_gives_way_as_a_doubtful_one_does():
+    large = SIZE | {"size": 4.9e-6, "interval": [4.8e-6, 5.0e-6], "is_plausible": False}
+    named = replace(NOTHING, verdict="named", effects=(replace(FOUND, sizes=(large,)),), share=0.9, held_out_share=0.89)
+    force = replace(SURE, share=0.99, held_out_share=0.99)
+    assert reconsidered(named, force, fits_better=True).verdict == "outside"
+    within = replace(FOUND, sizes=(large | {"interval": [3.9e-6, 5.0e-6]},))
+    assert reconsidered(replace(named, effects=(within,)), force, fits_better=True).verdict == "named"
+
+
 def test_an_error_of_the_measurement_alone_gives_way_to_a_force_that_explains_more_or_as_much_by_fewer_sizes():
-    tilted = replace(FOUND, name="road_bank", sizes=({}, {}), is_of_measurement=True)
+    tilted = replace(FOUND, name="road_bank", sizes=(SIZE, SIZE), is_of_measurement=True)
     error = replace(NOTHING, verdict="suspect", effects=(tilted,), share=0.6, held_out_share=0.5)
     assert reconsidered(error, SURE, is_error_alone=True).verdict == "outside"
     as_much = replace(SURE, share=0.59, held_out_share=0.49)
     assert "fewer sizes" in reconsidered(error, as_much, is_error_alone=True).reasons[-1]
-    one_size = replace(error, effects=(replace(tilted, sizes=({},)),))
+    one_size = replace(error, effects=(replace(tilted, sizes=(SIZE,)),))
     assert reconsidered(one_size, as_much, is_error_alone=True) is one_size
     assert reconsidered(error, replace(as_much, held_out_share=0.4), is_error_alone=True) is error
     fitted = replace(as_much, place="strut", terms={"slow_velocity": {"front": 900.0}}, settings={"slow_velocity": {"frequency": 7.0, "linear": 0.2}})
@@ -112,7 +123,7 @@ def test_an_error_of_the_measurement_alone_gives_way_to_a_force_that_explains_mo
 
 def test_an_error_of_the_measurement_that_gave_way_is_not_named_after_all():
     """Its share would be enough, were it an effect; those of the vehicle beside it stay."""
-    error = replace(FOUND, name="road_grade", sizes=({}, {}), share=0.5, held_out_share=0.5, is_of_measurement=True)
+    error = replace(FOUND, name="road_grade", sizes=(SIZE, SIZE), share=0.5, held_out_share=0.5, is_of_measurement=True)
     as_much = replace(SURE, share=0.57, held_out_share=0.52)
     suspect = replace(NOTHING, verdict="suspect", effects=(error,), share=0.5, held_out_share=0.5)
     found = named_all_the_same(reconsidered(suspect, as_much, is_error_alone=True), as_much)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.stats import binom, kstest
@@ -10,11 +12,14 @@ from ridecomfort.discrepancy import event
 
 CHANNELS, SAMPLES, EVENT = 3, 2000, slice(900, 940)
 
+DOZEN = tuple(range(60, 1980, 160))
 
-def a_column(rng):
-    """A response that is there at one place only, (channel, sample)."""
+
+def a_column(rng, places=(EVENT.start,)):
+    """A response that is there at one place, or some, only, (channel, sample)."""
     column = np.zeros((CHANNELS, SAMPLES))
-    column[:, EVENT] = rng.standard_normal((CHANNELS, 40))
+    for place in places:
+        column[:, place : place + 40] = rng.standard_normal((CHANNELS, 40))
     return column
 
 
@@ -82,9 +87,26 @@ def test_large_errors_at_the_place_are_no_evidence_unless_they_look_like_the_eff
     assert p_of([residual], [a_column(rng)[None]])[0] > 0.02
 
 
-def test_false_alarms_over_all_events_are_as_rare_as_promised():
+def test_what_acts_at_a_dozen_places_counts_where_a_force_of_any_form_is_looked_for():
+    rng = np.random.default_rng(6)
+    columns = np.stack([a_column(rng, DOZEN), rng.standard_normal((CHANNELS, SAMPLES))])
+    residual = rng.standard_normal((CHANNELS, SAMPLES)) - 0.4 * columns[0]
+    blocks = lambda finer=1.0: np.tile(np.arange(SAMPLES) * int(finer) // 50, CHANNELS)
+    frame = SimpleNamespace(
+        blocks=blocks, indices=[0], experiment=SimpleNamespace(records=[SimpleNamespace(rate=100.0)]),
+        parts=lambda rows: [rows.reshape(*rows.shape[:-1], CHANNELS, SAMPLES)],
+    )  # fmt: skip
+    asked = lambda few: event.p_values(frame, residual.ravel(), columns.reshape(2, -1), np.arange(2), np.zeros(2), few)
+    assert not asked(event.FEW)[1].any()
+    p_value, rare = asked(event.SEVERAL)
+    assert rare.tolist() == [True, False] and p_value[0] < 0.005 and p_value[1] == 1.0
+
+
+@pytest.mark.parametrize("places", [(EVENT.start,), DOZEN])
+def test_false_alarms_over_all_events_are_as_rare_as_promised(places):
     rng = np.random.default_rng(5)
-    found = [p_of([rng.standard_normal((CHANNELS, SAMPLES))], [np.stack([a_column(rng) for _ in range(3)])]).min() for _ in range(200)]
+    columns = lambda: np.stack([a_column(rng, places) for _ in range(3)])
+    found = [p_of([rng.standard_normal((CHANNELS, SAMPLES))], [columns()]).min() for _ in range(200)]
     lower, upper = binom.interval(0.998, 200, 0.05)
     assert lower <= np.sum(np.array(found) <= 0.05) <= upper
     assert kstest(found, "uniform").pvalue > 0.001

@@ -289,6 +289,21 @@ def test_a_fall_confirms_a_first_effect_and_a_later_one_only_where_the_held_out_
     assert set(objections(1, {"effect_1.size": 1.0, "effect_4.size": 0.5})) == {"not surely better on drives held out"}
 
 
+def a_trial(name, bic, held_out_gain, held_out_z, held_out_share, objection=""):
+    return Trial(name, {}, None, bic, bic, held_out_gain, held_out_z, 0.5, held_out_share, objection)
+
+
+def test_what_drives_held_out_confirm_goes_first_unless_another_explains_more_of_all_of_them():
+    sure = a_trial("sure", 850.0, 180.0, 3.4, 0.3)
+    much = a_trial("much", 3200.0, 610.0, 1.9, 0.7)
+    assert select._best([sure, much]) is much
+    for less in ({"bic": 800.0}, {"held_out_gain": 170.0}, {"held_out_share": 0.2}, {"objection": "not plausible"}):
+        assert select._best([sure, replace(much, **less)]) is sure
+    more = a_trial("more", 4000.0, 500.0, 1.8, 0.6)
+    assert select._best([more, sure, much]) is more
+    assert select._best([]) is None
+
+
 def test_a_size_beyond_which_nothing_drives_is_probed_the_other_way():
     model = Linear(1, {"effect_2.size": 0.95})
     plain = model.residual

@@ -103,9 +103,14 @@ def _with_vehicle_right(
 
 
 def _is_doubtful(verdict: Verdict) -> bool:
-    """Whether what is named explains so little that it may stand in for something else."""
+    """Whether what is named explains so little, or is so large, that it may stand in for something else."""
     most = 1.0 - WORTH / (1.0 - HALF) if verdict.is_shared else DOUBTFUL
-    return verdict.verdict in ("named", "cluster") and verdict.share < most
+    return verdict.verdict in ("named", "cluster") and (verdict.share < most or _is_too_large(verdict))
+
+
+def _is_too_large(verdict: Verdict) -> bool:
+    """Whether an effect has a size beyond what is plausible."""
+    return any(effect.beyond() for effect in verdict.effects)
 
 
 def _fits_better(proposal: Discovery, selection: Selection) -> bool:
@@ -171,8 +176,8 @@ def _road_or_force(verdict: Verdict, proposal: Discovery) -> Verdict:
 def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool:
     """Whether a force is sure and explains so much more than what was found that this stands in for it.
 
-    It explains BETTER as much of the fitted drives, and no less of those held out; or what was found is DOUBTFUL, and the force
-    ``fits_better`` and leaves MOST_LEFT of it at most. Where repeats surely share an error beside what was found, EQUAL more of the fitted
+    It explains BETTER as much of the fitted drives, and no less of those held out; or what was found is DOUBTFUL or too large, and the
+    force ``fits_better`` and leaves MOST_LEFT of it at most. Where repeats surely share an error beside what was found, EQUAL more of the fitted
     drives and not much less of the others will do, or, where little is left, leaving HALF of that.
     """
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
@@ -181,7 +186,8 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
     if verdict.is_left and verdict.share < DOUBTFUL:
         return proposal.share > verdict.share + EQUAL and not BETTER * proposal.held_out_share < held_out
     is_more = proposal.share > BETTER * verdict.share and not proposal.held_out_share < held_out
-    is_more = is_more or fits_better and verdict.share < DOUBTFUL and _left(proposal) <= MOST_LEFT * _left(verdict)
+    is_in_doubt = verdict.share < DOUBTFUL or _is_too_large(verdict)
+    is_more = is_more or fits_better and is_in_doubt and _left(proposal) <= MOST_LEFT * _left(verdict)
     return is_more or verdict.is_shared and _leaves_less(verdict, proposal)
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import xarray as xr
 
 from .. import pool
-from . import opening
+from . import event, opening
 from .balance import total_shares
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
@@ -101,7 +101,7 @@ def discovered(
         candidates = [candidate for place in PLACES for candidate in _terms(place)]
         rung = replace(rung, experiment=rung.experiment.looking_for(candidates, folder))
         together = lambda first, other: _place(first.name) == _place(other.name)
-        selection = search(rung, most=most, seed=seed, each=each, together=together, say=say)
+        selection = search(rung, most=most, seed=seed, each=each, together=together, say=say, few=event.SEVERAL)
     return replace(_discovery(selection, name), evidence=dataset(rung.experiment, selection))
 
 

@@ -17,6 +17,10 @@ from .experiment import Frame
 FEW = 8.0
 """Blocks below which the power of a column counts as that of events (participation number)."""
 
+SEVERAL = 20.0
+"""The same where a force of any form is looked for: of so many blocks, or fewer, the signs cannot be turned in enough ways for one of some
+hundred columns to stand out, and play in the steering, which turns back at a dozen places, was never sure."""
+
 HELD = 0.95
 """Share of a column's power that its window holds."""
 
@@ -37,15 +41,15 @@ def participation(columns: np.ndarray, numbers: np.ndarray) -> np.ndarray:
 
 
 def p_values(
-    frame: Frame, residual: np.ndarray, columns: np.ndarray, group: np.ndarray, sign: np.ndarray
+    frame: Frame, residual: np.ndarray, columns: np.ndarray, group: np.ndarray, sign: np.ndarray, few: float = FEW
 ) -> tuple[np.ndarray, np.ndarray]:
-    """By group: p-value over all groups whose columns act at few places (1 for the others), and whether it is one of them.
+    """By group: p-value over all groups whose columns act at ``few`` places (1 for the others), and whether it is one of them.
 
     ``residual`` (element,) and ``columns`` (column, element) are vectors of ``frame``; ``sign`` is 1 where only positive
     amounts of a column are physical, else 0.
     """
     found, rare = np.ones(group.max() + 1), np.zeros(group.max() + 1, dtype=bool)
-    own = np.flatnonzero(participation(columns, frame.blocks()) < FEW)
+    own = np.flatnonzero(participation(columns, frame.blocks()) < few)
     if not own.size:
         return found, rare
     groups, numbers = np.unique(group[own], return_inverse=True)

@@ -256,8 +256,8 @@ PLACES: Mapping[str, Place] = {
             "toe_of_deflection_on_sides": Term(f"deflection * {SIDE}", "rad/m", "toe"),
             "toe_of_deflection_square_on_sides": Term(f"deflection**2 * {SIDE}", "rad/m2", "toe", beside=f"deflection * {SIDE}"),
             "toe_late_on_sides": Term(
-                f"(deflection - slow) * {SIDE}", "rad/m", "toe",
-                states=(State("slow", f"{2 * pi:.4f} * frequency * (deflection - slow)", 0.004),),
+                f"{2 * pi:.4f} * frequency * (deflection - slow) * {SIDE}", "rad s/m", "toe",
+                states=(State("slow", f"{2 * pi:.4f} * frequency * (deflection - slow)", 0.0107),),
                 settings=(_setting("frequency", "Hz", 15.0, 3.0, 60.0, "frequency up to which it goes by the speed of travel"),),
                 beside=f"deflection * {SIDE}",
             ),

@@ -57,6 +57,10 @@ class Named:
     held: tuple[dict, ...] = ()
     """What shapes it and was not fitted, or came out as is typical: parameter, unit, value, and whether that is the typical one."""
 
+    def beyond(self) -> list[dict]:
+        """The sizes whose intervals do not reach into what is plausible."""
+        return [size for size in self.sizes if not _may_be_plausible(size)]
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -251,7 +255,7 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
         else:
             kept.append(effect)
             reasons += _set(selection, by_name[effect.name])
-            reasons += [_beyond(effect, size) for size in effect.sizes if not _may_be_plausible(size)]
+            reasons += [_beyond(effect, size) for size in effect.beyond()]
             if effect.name in unmet:
                 reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
     return kept, reasons
