@@ -21,6 +21,7 @@ from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words
 from .made import beside
+from .meanings import such_as
 from .places import FORCE, LINEAR, PLACES, parameter, scale, settings
 from .ranking import dataset
 from .rung import Rung, begin
@@ -56,7 +57,7 @@ class Discovery:
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
         names = ("name", "place", "port", "form", "terms", "settings", "share", "held_out_share", "p_value", "by_place")
-        return plain({name: getattr(self, name) for name in names})
+        return plain({name: getattr(self, name) for name in names} | {"such_as": such_as(self.place, self.terms)})
 
 
 def discover(
@@ -122,7 +123,7 @@ def _discovery(selection: Selection, name: str) -> Discovery:
     form = in_words(place, terms, shaped)
     share, held_out = total_shares(selection)
     p_value = float(first.p_value[first.names.index(first.winner.name)])
-    sentence = f"Found on measured drives, not in the library: at the {place}, {form}."
+    sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {such_as(place, terms)}."
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(
         name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, first.is_large

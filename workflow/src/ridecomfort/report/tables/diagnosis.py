@@ -9,6 +9,7 @@ import xarray as xr
 
 from ...discrepancy import ranking
 from ...discrepancy.balance import LITTLE
+from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.verdict import first_sentence, sentence
@@ -64,6 +65,7 @@ def verdict(found: Diagnosis) -> Table:
     if proposal.get("form"):
         rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
         rows.append(("in it", sentence(PORTS[proposal["port"]].meaning)))
+        rows.append(("such as", sentence(proposal["such_as"])))
         rows.append(("it removes", _promise(proposal)))
     rows.append(("next, after the vehicle" if beyond else "next", advice.next_step(found)))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
@@ -156,10 +158,11 @@ def evidence(found: Diagnosis) -> Table:
 def forms(found: Diagnosis) -> Table:
     """Of forces of any form, by round, the STRONGEST and the best of every place."""
     said = Column("place", ("", "Place")), Column("form", ("", "Form")), Column("expression", ("", "In what the place sees"))
-    columns = (Column("round", ("", "Round"), "d"), *said, *EVIDENCE)
+    such = Column("such_as", ("", "Such as"))
+    columns = (Column("round", ("", "Round"), "d"), *said, *EVIDENCE, such)
     tried = ranking.forms(found.ranking)
     if tried is None:
-        rows = [(None, NO_FORMS, "", "", *(None,) * 3, "", *(None,) * 4, "")]
+        rows = [(None, NO_FORMS, "", "", *(None,) * 3, "", *(None,) * 4, "", "")]
         return _table(found, "forms", columns, rows, _evidence_sources(found))
     rows, breaks = [], []
     for turn, told in _rounds(tried):
@@ -168,7 +171,7 @@ def forms(found: Diagnosis) -> Table:
         for number, (name, one) in enumerate(told.items()):
             place, _, form = name.partition(":")
             if number < STRONGEST or place not in places:
-                rows.append((turn, place, words(form), PLACES[place].terms[form].expression, *one))
+                rows.append((turn, place, words(form), PLACES[place].terms[form].expression, *one, such_as(place, [form])))
             places.add(place)
     notes = (
         "Forms are terms that a force may be made of at each place where it could act. The first of "
