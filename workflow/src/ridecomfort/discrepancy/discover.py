@@ -29,6 +29,9 @@ from .select import search
 from .selection import Selection
 from .verdict import plain
 
+TERMS = 3
+"""Terms of a force at most: the rod that nods on a tail pushes with three accelerations."""
+
 
 @dataclass(frozen=True)
 class Discovery:
@@ -71,7 +74,7 @@ def discover(
     fitted_on: Sequence[str] | None = None,
     bounds: Mapping[str, Sequence[float]] | None = None,
     uncertain: Mapping[str, float] | None = None,
-    most: int = 2,
+    most: int = TERMS,
     seed: int = 0,
     noise_density: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
     workers: int | None = None,
@@ -92,7 +95,7 @@ def discover(
 
 
 def discovered(
-    rung: Rung, *, name: str = "discovered", effects_folder=None, most: int = 2, seed: int = 0, each: Callable = map,
+    rung: Rung, *, name: str = "discovered", effects_folder=None, most: int = TERMS, seed: int = 0, each: Callable = map,
     say: Callable[[str], None] = lambda words: None,
 ) -> Discovery:  # fmt: skip
     """``discover`` from the ``rung`` of a calibrated model."""
