@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
@@ -296,3 +297,22 @@ def test_a_diagnosis_without_curves_says_so():
     with style.styled():
         each = diagnosed.figures(made_up.diagnosis())["signature"]()
     assert "not estimated" in " ".join(text.get_text() for text in each.findobj(Text))
+
+
+@pytest.mark.parametrize("rounds", [1, 3, 6])
+def test_evidence_of_many_rounds_fits_a_page(rounds):
+    found = made_up.diagnosis(made_up.VERDICT)
+    of_effects = [name for name, one in found.ranking.variables.items() if "effect" in one.dims]
+    one = found.ranking[of_effects].isel(round=[0])
+    more = [one.assign_coords(effect=[f"{name}_{number}" for name in one["effect"].values]) for number in range(12)]
+    drawn = evidence.evidence(replace(found, ranking=_of_rounds(xr.concat([one, *more], "effect"), found.ranking, rounds)))
+    assert drawn.get_size_inches()[1] < 9.6 and len(drawn.axes) == 2 * rounds
+    bars = [len(axes.get_yticklabels()) for axes in drawn.axes[::2]]
+    assert min(bars) > select.PROPOSED
+
+
+def _of_rounds(one, ranking, rounds):
+    """A ranking whose rounds are all as this ``one``."""
+    others = ranking.drop_dims("effect").isel(round=[0])
+    both = xr.merge([one, others])
+    return both.isel(round=[0] * rounds).assign_coords(round=np.arange(1, rounds + 1))

@@ -21,6 +21,12 @@ from ..tables.diagnosis import NO_FORMS, STRONGEST, outcomes, refits
 LEAST = 1.0
 """Percent to both sides of zero that shares are drawn over at least: what removes nothing must look like nothing."""
 
+PAGE, HEAD, AROUND, EACH = 9.0, 0.9, 0.5, 0.155
+"""Inches: the height that a page has room for, and what the figure, a round and a bar take of it."""
+
+FEWEST = 6
+"""Bars of a round that are drawn however many rounds there are: more than are refitted."""
+
 SIGNIFICANT, OTHER, ACCEPTED = "#0072B2", "#C9D3DA", "#D55E00"
 
 DOT = {"marker": "o", "linestyle": "", "color": style.CALIBRATED, "markersize": 4.5}
@@ -52,8 +58,9 @@ def forms(found: Diagnosis) -> Figure:
 def _drawn(ranking: xr.Dataset, none: str) -> Figure:
     """The evidence of a ``ranking``; where it holds nothing, the words for ``none``."""
     rounds = ranking["round"].values
-    shown = min(STRONGEST, ranking.sizes["effect"])
-    drawn = style.figure(style.DOUBLE, 0.9 + (0.5 + 0.155 * shown) * max(len(rounds), 1))
+    room = int(((PAGE - HEAD) / max(len(rounds), 1) - AROUND) / EACH)
+    shown = min(max(room, FEWEST), STRONGEST, ranking.sizes["effect"])
+    drawn = style.figure(style.DOUBLE, HEAD + (AROUND + EACH * shown) * max(len(rounds), 1))
     if not len(rounds) or not shown:
         axes = drawn.subplots()
         axes.set_axis_off()
