@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import cos, exp, pi, sin, tanh
 from types import SimpleNamespace
 
 import pytest
 
+from ridecomfort.discrepancy.discover import Discovery
 from ridecomfort.discrepancy.form import effect_source, in_words
 from ridecomfort.discrepancy.places import AXLES, PLACES, TURNING, WHEELS, WHOLE, scale, settings
 from ridecomfort.effects import library
@@ -114,3 +116,11 @@ def test_a_strut_remembers_how_fast_it_moved_of_late(tmp_path):
             forces.append(entry.act(0, 0.0, 0.1, 0.0, 0.0, 0.0, 0.0, recent, **entry.effect.values())[0])
     assert forces[9999] == pytest.approx(1000.0 * 0.1 * 0.3, rel=0.01)
     assert forces[11999] == pytest.approx(forces[9999] * exp(-1.0), rel=0.01)
+
+
+def test_a_proposal_is_told_by_its_place_what_makes_such_a_force_and_what_it_removes():
+    terms = {"bump_beyond": {"front": 9000.0, "rear": 9000.0}}
+    found = Discovery("discovered", "strut", "suspension", terms, {"bump_beyond": {}}, "", 0.774, 0.916, 0.0015, "", {}, None)
+    said = "at the strut, such as a bump stop, a helper or tender spring. It removes 77 % on the fitted drives"
+    assert found.words() == f"{said}, 92 % on drives held out."
+    assert replace(found, held_out_share=float("nan")).words() == f"{said}."

@@ -57,6 +57,12 @@ class Discovery:
     evidence: xr.Dataset | None = None
     """What became of every term, as for the library (``ranking.dataset``)."""
 
+    def words(self) -> str:
+        """Where it acts, what usually makes such a force, and what it removes, as a sentence."""
+        shares = {"on the fitted drives": self.share, "on drives held out": self.held_out_share}
+        removed = ", ".join(f"{100 * share:.0f} % {where}" for where, share in shares.items() if share == share)
+        return f"at the {self.place}, such as {such_as(self.place, self.terms)}. It removes {removed}."
+
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
         names = ("name", "place", "port", "form", "terms", "settings", "share", "held_out_share", "p_value", "by_place")

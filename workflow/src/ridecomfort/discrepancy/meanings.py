@@ -79,7 +79,7 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "toe_of_deflection": "both wheels of an axle steered one way by travel: a drag link, an axle that turns",
         "toe_of_deflection_on_sides": "bump steer",
         "toe_of_deflection_square_on_sides": "bump steer along a bent line",
-        "toe_late_on_sides": "wheels that steer by the speed of travel: a gyroscope on soft tie rods",
+        "toe_late_on_sides": "wheels that steer by the speed of travel: dampers or bushes that push aside, a gyroscope on soft tie rods",
         "toe_dragged_on_sides": "toe links that are dragged along by friction",
     },
     "body": {

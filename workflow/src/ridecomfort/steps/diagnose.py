@@ -40,10 +40,13 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     if proposal is not None:
         content["proposal"] = proposal.json()
         if proposal.source:
-            _write(Path(verdict).with_name(f"{name}.py"), proposal.source)
+            file = Path(verdict).with_name(f"{name}.py")
+            _write(file, proposal.source)
     store.write(table, ranking, title="Evidence for effects that the model lacks", configuration=config, seed=config["seed"])
     _write(verdict, json.dumps(content, indent=1) + "\n")
     note(found.words())
+    if proposal is not None and proposal.source:
+        note(f"Proposed is a form, in {file}: {proposal.words()}")
 
 
 def _names():

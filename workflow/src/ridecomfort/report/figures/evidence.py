@@ -24,6 +24,9 @@ LEAST = 1.0
 PAGE, HEAD, AROUND, EACH = 9.0, 0.9, 0.5, 0.155
 """Inches: the height that a page has room for, and what the figure, a round and a bar take of it."""
 
+FOUR_DIGITS = 9999
+"""Gain beyond which labels of four ticks collide."""
+
 FEWEST = 6
 """Bars of a round that are drawn however many rounds there are: more than are refitted."""
 
@@ -75,7 +78,8 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         _scores(left, one.sel(effect=names), names, winner)
         left.set_title(f"round {turn}" if winner else f"round {turn}: nothing accepted")
         _refits(right, one, names)
-        for axes, count in ((left, 4), (right, 5)):
+        crowded = left.get_xlim()[1] > FOUR_DIGITS
+        for axes, count in ((left, 3 if crowded else 4), (right, 5)):
             axes.locator_params(axis="x", nbins=count)
             axes.tick_params(axis="y", length=0)
     panels[0][1].set_title("refits: fitted / held out")
