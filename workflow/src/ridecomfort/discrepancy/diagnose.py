@@ -215,13 +215,13 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
         return verdict
     kept = tuple(effect for effect in verdict.effects if _is_much(effect, verdict)) or verdict.effects[:1]
     reasons = [*verdict.reasons, "no force of any form explains more by itself: what is left may be another one, or many small things"]
-    reasons += [_apart(effect) for effect in verdict.effects if effect not in kept]
+    reasons += [_not_named(effect) for effect in verdict.effects if effect not in kept]
     share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
     kind = "cluster" if any(effect.like for effect in kept) else "named"
     return replace(verdict, verdict=kind, effects=kept, reasons=tuple(reasons), share=share, held_out_share=held_out)
 
 
-def _apart(effect: Named) -> str:
+def _not_named(effect: Named) -> str:
     """What is said of an effect that is not named after all."""
     shares = " and ".join(f"{100 * share:.0f} %" for share in (effect.share, effect.held_out_share) if np.isfinite(share))
     return f"{effect.name}, which takes {shares} of that, may be a part of what is left"

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
 import xarray as xr
 
 from .. import pool
@@ -60,7 +61,7 @@ class Discovery:
     def words(self) -> str:
         """Where it acts, what usually makes such a force, and what it removes, as a sentence."""
         shares = {"on the fitted drives": self.share, "on drives held out": self.held_out_share}
-        removed = ", ".join(f"{100 * share:.0f} % {where}" for where, share in shares.items() if share == share)
+        removed = ", ".join(f"{100 * share:.0f} % {where}" for where, share in shares.items() if np.isfinite(share))
         return f"at the {self.place}, such as {such_as(self.place, self.terms)}. It removes {removed}."
 
     def json(self) -> dict:

@@ -43,7 +43,7 @@ def participation(columns: np.ndarray, numbers: np.ndarray) -> np.ndarray:
 def p_values(
     frame: Frame, residual: np.ndarray, columns: np.ndarray, group: np.ndarray, sign: np.ndarray, few: float = FEW
 ) -> tuple[np.ndarray, np.ndarray]:
-    """By group: p-value over all groups whose columns act at ``few`` places (1 for the others), and whether it is one of them.
+    """By group: p-value over all groups whose columns act at less than ``few`` places (1 for the others), and whether it is one of them.
 
     ``residual`` (element,) and ``columns`` (column, element) are vectors of ``frame``; ``sign`` is 1 where only positive
     amounts of a column are physical, else 0.

@@ -122,7 +122,7 @@ def doubts(located: xr.Dataset) -> list[str]:
 
 
 def words(located: xr.Dataset, count: int = 5) -> list[str]:
-    """Doubts and findings as sentences."""
+    """Doubts and, behind them, findings as sentences."""
     return [*doubts(located), *(finding.words() for finding in findings(located, count))]
 
 

@@ -298,7 +298,7 @@ def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial
 def _best(trials: Sequence[Trial]) -> Trial | None:
     """The trial with the most merit of those that nothing speaks against; one that explains more of the drives it was fitted to, and of those
     held out by likelihood and by share, goes before it: where a rough patch holds most of an error few blocks count, and the z of the
-    right damper was 1.9 beside a tyre that explained half as much."""
+    right damper was 1.9 beside a tyre that explained less than half as much."""
     sound = [trial for trial in trials if not trial.objection]
     best = max(sound, key=_merit, default=None)
     explained = lambda trial: np.array([trial.bic, trial.held_out_gain, trial.held_out_share])

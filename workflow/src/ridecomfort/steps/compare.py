@@ -24,14 +24,14 @@ def main(road, measured, vehicle, calibration, config, output):
         noise_density=config["noise_density"],
     )
     located = locate.locate(result)
-    words = findings.words(located)
+    words, doubts = findings.words(located), findings.doubts(located)
     result = result.merge(located).assign_attrs(**located.attrs, words="\n".join(words))
     store.write(
         result, output, title=f"Simulated against measured drives on {config['site']}", configuration=config
     )
-    for doubt in findings.doubts(located):
+    for doubt in doubts:
         note(doubt)
-    print(*(finding.words() for finding in findings.findings(located)), sep="\n", file=sys.stderr)
+    print(*words[len(doubts) :], sep="\n", file=sys.stderr)
 
 
 if __name__ == "__main__":

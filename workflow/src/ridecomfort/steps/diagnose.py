@@ -37,16 +37,17 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     content = {"sites": config["sites"], **found.json()}
     for old in Path(verdict).parent.glob(f"{DISCOVERED}*.py"):  # of drives or of a model before
         old.unlink()
+    conclusions = [found.words()]
     if proposal is not None:
         content["proposal"] = proposal.json()
         if proposal.source:
             file = Path(verdict).with_name(f"{name}.py")
             _write(file, proposal.source)
+            conclusions.append(f"Proposed is a form, in {file}: {proposal.words()}")
     store.write(table, ranking, title="Evidence for effects that the model lacks", configuration=config, seed=config["seed"])
     _write(verdict, json.dumps(content, indent=1) + "\n")
-    note(found.words())
-    if proposal is not None and proposal.source:
-        note(f"Proposed is a form, in {file}: {proposal.words()}")
+    for words in conclusions:
+        note(words)
 
 
 def _names():

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from ...comfort import streaming, weighting
 from .. import style
-from ..study import Study
+from ..study import Site, Study
 
 SECONDS = 16.0
 """Length of the sample signal (sec:ride_comfort_results)."""
@@ -85,7 +85,7 @@ def validation_iso(study: Study) -> Figure:
 EXACT, BILINEAR = style.OURS, style.PAPER
 
 
-def sampled(study: Study):
+def sampled(study: Study) -> Site:
     """The site that the sample signal comes from."""
     return study.compared[0] if study.compared else study.sites[0]
 
