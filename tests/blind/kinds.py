@@ -127,6 +127,12 @@ def _outside_messy(rng, names, number) -> Draw:
     return Draw((str(rng.choice(MADE_UP)),), float(rng.choice(STRONG)), frozenset(), spoilt=spoilt)
 
 
+def _outside_beside(rng, names, number) -> Draw:
+    """A force that the library never had, and an effect of the library."""
+    name = str(rng.choice(_plain(names)))
+    return Draw((str(rng.choice(MADE_UP)), name), float(rng.choice(STRONG[1:])), frozenset({name}))
+
+
 def _wrong_file(rng, names, number) -> Draw:
     """One or two parameters that nothing calibrates are far off; by turns with an effect missing beside them and with none."""
     chosen = rng.choice([name for name in UNCERTAIN if PARAMETERS[name].unit != "m"], int(rng.integers(1, 3)), replace=False)
@@ -162,6 +168,7 @@ KINDS: Mapping[str, Callable] = {
     "another setting": _set_otherwise,
     "wrong file": _wrong_file,
     "measurement": _of_measurement,
+    "outside, beside the library": _outside_beside,
 }
 
 SUSPECT = ("clock error, left", "gain error", "scanner noise")

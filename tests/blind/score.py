@@ -112,13 +112,17 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
         line(f"p of the whole library below {100 * LEVEL:.0f} %: {kind}", of(kind), lambda row: row["p_value"] < LEVEL, "3-8 %")
     line(f"p of the whole library below {100 * LEVEL:.0f} %: all of these", of(*nulls), lambda row: row["p_value"] < LEVEL, "3-8 %")
     line("wrong effect named with confidence", rows, lambda row: row["wrong_named"], "at most 3 %")
-    for kind in ("outside", "outside, messy"):
+    with_library = single("outside, beside the library", strong)
+    for kind in ("outside", "outside, messy", "outside, beside the library"):
         said = f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3'
         line(said, single(kind, strong), lambda row: row["verdict"] == "outside", "80 %")
     placed = [row for kind in ("outside", "outside, messy") for row in single(kind, strong) if row["form_share"] != ""]
     line("place of such an effect right (strut, tyre, contact, links, body, steering, structure)", placed, lambda row: row["place_right"])
     formed = lambda row: row["form_share"] >= FORM
     line(f"its proposed form removes {100 * FORM:.0f} % of what the true one does, held out", placed, formed, "70 %")
+    line("effect of the library beside such a force named, and no other", with_library, lambda row: row["exact"])
+    both = [row for row in with_library if row["form_share"] != ""]
+    line(f"both together remove {100 * FORM:.0f} % of what the true ones do, held out", both, formed)
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"], "85 %")
     line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"], "70 %")
     beside = [row for row in of("wrong file") if row["hidden"] and reached[id(row)] >= 0.3]

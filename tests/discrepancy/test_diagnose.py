@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from ridecomfort.discrepancy.beyond import Beyond, BeyondBounds
-from ridecomfort.discrepancy.diagnose import named_all_the_same, reconsidered
+from ridecomfort.discrepancy.diagnose import beside_a_force, named_all_the_same, reconsidered
 from ridecomfort.discrepancy.discover import Discovery
 from ridecomfort.discrepancy.verdict import Named, Verdict, with_parameters, with_remainder
 
@@ -233,3 +233,42 @@ def test_a_road_alone_is_not_suspected_where_a_force_explains_more_than_its_nois
     assert reconsidered(suspected, replace(SURE, share=0.4, held_out_share=0.1), is_road_open=True).verdict == "outside"
     for weaker in ({"share": 0.15}, {"held_out_share": -0.1}, {"p_value": 0.03}, {"place": ""}):
         assert reconsidered(suspected, replace(SURE, **weaker), is_road_open=True) is suspected
+
+
+KNEE = replace(FOUND, name="damper_knee")
+
+WITH_FRICTION = replace(SURE, share=0.97, held_out_share=0.96, beside=(FOUND,))
+
+
+def test_effects_that_are_missing_beside_a_force_take_the_place_of_those_that_stand_in_for_it():
+    alone = replace(NOTHING, verdict="outside", effects=(FOUND, KNEE), share=0.5, held_out_share=0.45)
+    found = beside_a_force(alone, WITH_FRICTION)
+    assert found.effects == (FOUND,) and (found.share, found.held_out_share) == (0.3, 0.3)
+    assert found.reasons[0] == "without a force that it does not hold the library comes up to friction, damper_knee"
+    assert found.reasons[-1].startswith("a force at the tyre that the library does not hold, with friction beside it, explains more: 97 %")
+    assert beside_a_force(alone, replace(SURE, beside=())).effects == ()
+    for weaker in (replace(WITH_FRICTION, share=0.6, held_out_share=0.55), replace(WITH_FRICTION, held_out_share=0.4), replace(WITH_FRICTION, p_value=0.03)):
+        assert beside_a_force(alone, weaker) is alone
+    named = replace(alone, verdict="named")
+    assert beside_a_force(named, WITH_FRICTION) is named
+
+
+def test_names_give_way_to_a_force_and_effects_beside_it_that_fit_better_beyond_chance_and_leave_half():
+    """With all that the library has beside it, hardly any force would do no better."""
+    named = replace(NOTHING, verdict="named", effects=(FOUND, KNEE), share=0.79, held_out_share=0.74)
+    found = reconsidered(named, WITH_FRICTION, fits_better=True)
+    assert found.verdict == "outside" and beside_a_force(found, WITH_FRICTION).reasons.count(found.reasons[-1]) == 1
+    assert reconsidered(named, WITH_FRICTION) is named
+    for weaker in (replace(WITH_FRICTION, share=0.89), replace(WITH_FRICTION, held_out_share=0.86), replace(WITH_FRICTION, p_value=0.03)):
+        assert reconsidered(named, weaker, fits_better=True) is named
+
+
+def test_what_explains_most_is_named_unless_such_a_force_leaves_half():
+    left = replace(OUTSIDE, effects=(FOUND,))
+    assert named_all_the_same(left, replace(WITH_FRICTION, share=0.7, held_out_share=0.68)).verdict == "named"
+    assert named_all_the_same(left, WITH_FRICTION) is left
+
+
+def test_on_a_road_that_may_be_another_such_a_force_counts_where_it_leaves_half():
+    assert reconsidered(LITTLE, WITH_FRICTION, is_road_open=True) is LITTLE
+    assert reconsidered(LITTLE, replace(WITH_FRICTION, share=0.6), is_road_open=True).verdict == "named"

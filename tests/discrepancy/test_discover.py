@@ -8,9 +8,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from ridecomfort.discrepancy.discover import Discovery
+from ridecomfort.discrepancy.discover import Discovery, may_follow
 from ridecomfort.discrepancy.form import effect_source, in_words
 from ridecomfort.discrepancy.places import AXLES, PLACES, TURNING, WHEELS, WHOLE, scale, settings
+from ridecomfort.discrepancy.verdict import Named
 from ridecomfort.effects import library
 
 KNOWN = {"tanh": tanh, "cos": cos, "sin": sin, "abs": abs, "max": max, "min": min}
@@ -124,3 +125,16 @@ def test_a_proposal_is_told_by_its_place_what_makes_such_a_force_and_what_it_rem
     said = "at the strut, such as a bump stop, a helper or tender spring. It removes 77 % on the fitted drives"
     assert found.words() == f"{said}, 92 % on drives held out."
     assert replace(found, held_out_share=float("nan")).words() == f"{said}."
+    friction = Named("suspension_friction", (), "", 0.001, 0.3, 0.3, 0.0, (), {})
+    beside = replace(found, beside=(friction,))
+    assert "Together with suspension_friction it removes 77 % on the fitted drives" in beside.words()
+    assert beside.json()["beside"] == ["suspension_friction"] and found.json()["beside"] == []
+
+
+def test_terms_of_a_force_act_at_one_place_and_effects_of_the_library_beside_them():
+    follows = lambda accepted, other: may_follow(accepted, other, most=2)
+    assert follows(["suspension_friction"], "strut:velocity_size") and follows(["strut:velocity_size"], "suspension_friction")
+    assert follows(["strut:velocity_size", "suspension_friction"], "strut:deflection_cube")
+    assert not follows(["suspension_friction", "strut:velocity_size"], "tyre:deflection_cube")
+    full = ["strut:velocity_size", "strut:deflection_cube"]
+    assert not follows(full, "strut:deflection_square") and follows(full, "suspension_friction")

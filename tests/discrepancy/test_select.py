@@ -304,6 +304,22 @@ def test_what_drives_held_out_confirm_goes_first_unless_another_explains_more_of
     assert select._best([]) is None
 
 
+def test_what_is_simpler_goes_before_what_explains_hardly_more():
+    """An effect of the library before the term of a force that does what it does, and some noise besides."""
+    model = Linear(4, {"effect_2.size": 1.0}, twins=("effect_2.size", "effect_1.size"))
+    winner = lambda **settings: select.select(model, {"stiffness": 0.0}, most=1, **settings).accepted
+    assert winner() == ("effect_2",) and winner(simpler={"effect_1"}) == ("effect_1",)
+    apart = Linear(4, {"effect_2.size": 1.0})
+    assert select.select(apart, {"stiffness": 0.0}, most=1, simpler={"effect_1"}).accepted == ("effect_2",)
+
+
+def test_what_may_not_follow_those_accepted_is_not_looked_for_beside_them():
+    model = Linear(1, {"effect_2.size": 1.5, "effect_4.size": 1.0})
+    accepted = lambda **settings: set(select.select(model, {"stiffness": 0.0}, most=3, **settings).accepted)
+    assert accepted() == {"effect_2", "effect_4"}
+    assert accepted(together=lambda names, other: (names, other) != (["effect_2"], "effect_4")) == {"effect_2"}
+
+
 def test_a_size_beyond_which_nothing_drives_is_probed_the_other_way():
     model = Linear(1, {"effect_2.size": 0.95})
     plain = model.residual

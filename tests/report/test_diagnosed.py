@@ -65,6 +65,16 @@ def test_a_proposed_form_is_shown():
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
 
 
+def test_effects_beside_a_proposed_form_are_switched_on_together_with_it():
+    names = [effect["name"] for effect in made_up.VERDICT["effects"]]
+    verdict = {**made_up.VERDICT, "verdict": "outside", "proposal": PROPOSAL | {"beside": names}}
+    said = rows(diagnosed.tables(made_up.diagnosis(verdict))["verdict"])
+    by_name = {row["what"]: row["in_words"] for row in said}
+    assert by_name["in the library"].endswith(", beside the proposed form.") and "second choice" not in said[-1]["in_words"]
+    assert f"effects: [discovered, {', '.join(names)}]" in said[-1]["in_words"]
+    assert any(what.startswith("with ") and what.endswith(" it removes") for what in by_name)
+
+
 @pytest.mark.parametrize(("held_out", "first", "second"), [(0.72, "Go on from", "look at the form"), (0.7499, "Go on from", "look at the form"), (0.78, "Look at", "go on from")])
 def test_the_better_of_library_and_proposed_form_comes_first(held_out, first, second):
     proposal = PROPOSAL | {"share": 0.70, "held_out_share": held_out}

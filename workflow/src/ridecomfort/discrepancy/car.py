@@ -12,6 +12,7 @@ from .. import simulate as simulator
 from ..calibrated import with_values
 from ..drive.replay import Replay, Simulated
 from ..effects import library
+from ..effects.contract import COMPILED
 from ..vocabulary import SIGNALS
 from . import nuisances
 from .experiment import Candidate, Record, Size, by_record
@@ -50,7 +51,7 @@ class Car:
         """The same with these candidates, whose effects are in the files of a folder."""
         known = library.find(folder)
         names = {size.key.partition(".")[0] for candidate in candidates for size in candidate.sizes}
-        quiet = {name: known[name].effect.neutral for name in names}
+        quiet = {name: known[name].effect.neutral for name in names if known[name].effect.port in COMPILED}
         replays = [replace(again, options={**again.options, "effects_folder": folder}) for again in self.replays]
         return replace(self, candidates=tuple(candidates), quiet=quiet, replays=replays)
 

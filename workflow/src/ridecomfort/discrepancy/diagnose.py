@@ -72,14 +72,17 @@ def diagnose(
     is_road_alone = verdict.verdict == "suspect" and table.attrs["suspected"] == "road"
     proposal = None
     if _is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
-        proposal = discovered(rung, name=name, **common)
+        beside = experiment.candidates if verdict.verdict in ("named", "cluster", "outside") else ()
+        proposal = discovered(rung, name=name, known=beside, **common)
         table = with_forms(table, proposal.evidence)
         verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, _fits_better(proposal, selection))
         if not (table.attrs["turns"] or table.attrs["road"]):
             verdict = named_all_the_same(verdict, proposal)
         proposal = proposal if verdict.verdict == "outside" else None
-    if proposal is not None and found is not None and not found.is_first and proposal.share > verdict.share + found.share:
-        found = None
+    if proposal is not None:
+        if found is not None and not found.is_first and proposal.share > verdict.share + found.share:
+            found = None
+        verdict = beside_a_force(verdict, proposal)
     return table, with_parameters(verdict, found), proposal
 
 
@@ -135,7 +138,7 @@ def reconsidered(
     measurement was found and nothing else speaks against the data. ``fits_better``: whether the force fits drives better beyond chance than
     what was found.
     """
-    said = f"a force at the {proposal.place} that the library does not hold"
+    said = _said_of(proposal)
     match verdict.verdict:
         case "nothing":
             return _said(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_sure(proposal) else verdict
@@ -144,6 +147,11 @@ def reconsidered(
         case "outside":
             return _road_or_force(verdict, proposal) if is_road_open else verdict
     return _said(verdict, "outside", f"{said} explains more: {_explained(proposal)}") if _is_better(verdict, proposal, fits_better) else verdict
+
+
+def _said_of(proposal: Discovery) -> str:
+    beside = f", with {', '.join(proposal.names_beside())} beside it," if proposal.beside else ""
+    return f"a force at the {proposal.place} that the library does not hold{beside}"
 
 
 def _noise_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
@@ -165,7 +173,8 @@ def _error_or_force(verdict: Verdict, proposal: Discovery, said: str, fits_bette
 def _road_or_force(verdict: Verdict, proposal: Discovery) -> Verdict:
     """Where the road may be another than that of its file, "outside" becomes what the library has, "suspect" if that is little, unless a
     force explains BETTER as much."""
-    if not verdict.effects or is_sure(proposal) and proposal.share > BETTER * verdict.share:
+    is_more = _leaves_half(verdict, proposal) if proposal.beside else proposal.share > BETTER * verdict.share
+    if not verdict.effects or is_sure(proposal) and is_more:
         return verdict
     if not verdict.share >= LITTLE:
         return _said(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
@@ -177,12 +186,14 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
     """Whether a force is sure and explains so much more than what was found that this stands in for it.
 
     It explains BETTER as much of the fitted drives, and no less of those held out; or what was found is DOUBTFUL or too large, and the
-    force ``fits_better`` and leaves MOST_LEFT of it at most. Where repeats surely share an error beside what was found, EQUAL more of the fitted
+    force ``fits_better`` and leaves MOST_LEFT of it at most. With effects of the library beside it, it ``fits_better`` and leaves HALF. Where repeats surely share an error beside what was found, EQUAL more of the fitted
     drives and not much less of the others will do, or, where little is left, leaving HALF of that.
     """
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     if not is_sure(proposal):
         return False
+    if proposal.beside:
+        return fits_better and _leaves_half(verdict, proposal)
     if verdict.is_left and verdict.share < DOUBTFUL:
         return proposal.share > verdict.share + EQUAL and not BETTER * proposal.held_out_share < held_out
     is_more = proposal.share > BETTER * verdict.share and not proposal.held_out_share < held_out
@@ -211,7 +222,8 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     if verdict.verdict != "outside" or not verdict.effects or not min(shares, default=0.0) >= ENOUGH or verdict.is_like_error:
         return verdict
     theirs = [share for share in (proposal.share, proposal.held_out_share) if np.isfinite(share)] if is_sure(proposal) else []
-    if any(share > own + EQUAL for share, own in zip(theirs, shares)):
+    is_better = _leaves_half(verdict, proposal) if proposal.beside else any(share > own + EQUAL for share, own in zip(theirs, shares))
+    if theirs and is_better:
         return verdict
     kept = tuple(effect for effect in verdict.effects if _is_much(effect, verdict)) or verdict.effects[:1]
     reasons = [*verdict.reasons, "no force of any form explains more by itself: what is left may be another one, or many small things"]
@@ -241,6 +253,26 @@ def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
     is_silent = verdict.verdict == "nothing" or verdict.verdict == "suspect" and is_road_alone
     is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL
     return _said(verdict, "outside" if is_silent or is_doubtful else verdict.verdict, turns)
+
+
+def _leaves_half(verdict: Verdict, proposal: Discovery) -> bool:
+    """Whether what a force and effects beside it leave is HALF of what the library alone does at most, on fitted drives and on those held out."""
+    pairs = (proposal.share, verdict.share), (proposal.held_out_share, verdict.held_out_share)
+    return all(1.0 - ours <= HALF * (1.0 - theirs) for ours, theirs in pairs if np.isfinite(ours) and np.isfinite(theirs))
+
+
+def beside_a_force(verdict: Verdict, proposal: Discovery) -> Verdict:
+    """The verdict "outside" with the effects that are missing beside a force which leaves MOST_LEFT at most, in place of those that the library
+    would do with alone, which may stand in for it."""
+    is_more = is_sure(proposal) and _left(proposal) <= MOST_LEFT * _left(verdict) and not proposal.held_out_share < verdict.held_out_share - EQUAL
+    if verdict.verdict != "outside" or not is_more:
+        return verdict
+    alone = ", ".join(effect.name for effect in verdict.effects)
+    reasons = (f"without a force that it does not hold the library comes up to {alone}", *verdict.reasons) if alone else verdict.reasons
+    said = f"{_said_of(proposal)} explains more: {_explained(proposal)}"
+    reasons = reasons if said in reasons else (*reasons, said)
+    share, held_out = (sum((getattr(effect, key) for effect in proposal.beside), 0.0) for key in ("share", "held_out_share"))
+    return replace(verdict, effects=proposal.beside, reasons=reasons, share=share, held_out_share=held_out)
 
 
 def _leaves_less(verdict: Verdict, proposal: Discovery) -> bool:

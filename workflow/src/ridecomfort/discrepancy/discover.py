@@ -26,9 +26,9 @@ from .meanings import such_as
 from .places import FORCE, LINEAR, PLACES, parameter, scale, settings
 from .ranking import dataset
 from .rung import Rung, begin
-from .select import search
+from .select import EFFECTS, search
 from .selection import Selection
-from .verdict import plain
+from .verdict import Named, plain, standing
 
 TERMS = 3
 """Terms of a force at most: the rod that nods on a tail pushes with three accelerations."""
@@ -57,17 +57,25 @@ class Discovery:
     """Whether the first term gains so much on the fitted drives that the error changes its colour by it."""
     evidence: xr.Dataset | None = None
     """What became of every term, as for the library (``ranking.dataset``)."""
+    beside: tuple[Named, ...] = ()
+    """Effects of the library that are missing, too: shares are of what goes with all together."""
 
     def words(self) -> str:
-        """Where it acts, what usually makes such a force, and what it removes, as a sentence."""
+        """Where it acts, what usually makes such a force, and what it removes, as two sentences."""
         shares = {"on the fitted drives": self.share, "on drives held out": self.held_out_share}
         removed = ", ".join(f"{100 * share:.0f} % {where}" for where, share in shares.items() if np.isfinite(share))
-        return f"at the {self.place}, such as {such_as(self.place, self.terms)}. It removes {removed}."
+        removes = f"Together with {', '.join(self.names_beside())} it removes" if self.beside else "It removes"
+        return f"at the {self.place}, such as {such_as(self.place, self.terms)}. {removes} {removed}."
+
+    def names_beside(self) -> list[str]:
+        """Names of the effects of the library that are missing, too."""
+        return [effect.name for effect in self.beside]
 
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
         names = ("name", "place", "port", "form", "terms", "settings", "share", "held_out_share", "p_value", "by_place")
-        return plain({name: getattr(self, name) for name in names} | {"such_as": such_as(self.place, self.terms)})
+        more = {"such_as": such_as(self.place, self.terms), "beside": self.names_beside()}
+        return plain({name: getattr(self, name) for name in names} | more)
 
 
 def discover(
@@ -103,17 +111,25 @@ def discover(
 
 def discovered(
     rung: Rung, *, name: str = "discovered", effects_folder=None, most: int = TERMS, seed: int = 0, each: Callable = map,
-    say: Callable[[str], None] = lambda words: None,
+    say: Callable[[str], None] = lambda words: None, known: Sequence[Candidate] = (),
 ) -> Discovery:  # fmt: skip
-    """``discover`` from the ``rung`` of a calibrated model."""
+    """``discover`` from the ``rung`` of a calibrated model; ``known``: effects of the library that may be missing, too.
+
+    These are looked for at the same time, and one that explains as much as a term goes before it: with the larger of two that are missing left
+    out, the other is not seen, or stood in for.
+    """
     unknown = {_name(place, term): (place, term) for place in PLACES for term in PLACES[place].terms}
     text = "A force that is looked for."
     with beside(effects_folder, {own: effect_source(own, place, {term: {}}, text) for own, (place, term) in unknown.items()}) as folder:
-        candidates = [candidate for place in PLACES for candidate in _terms(place)]
-        rung = replace(rung, experiment=rung.experiment.looking_for(candidates, folder))
-        together = lambda first, other: _place(first.name) == _place(other.name)
-        selection = search(rung, most=most, seed=seed, each=each, together=together, say=say, few=event.SEVERAL)
-    return replace(_discovery(selection, name), evidence=dataset(rung.experiment, selection))
+        terms = [candidate for place in PLACES for candidate in _terms(place)]
+        rung = replace(rung, experiment=rung.experiment.looking_for([*known, *terms], folder))
+        selection = search(
+            rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
+            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known},
+        )  # fmt: skip
+    found = _discovery(selection, name)
+    beside_it = tuple(standing(selection, known)) if found.place else ()
+    return replace(found, evidence=dataset(rung.experiment, selection), beside=beside_it)
 
 
 def _discovery(selection: Selection, name: str) -> Discovery:
@@ -121,10 +137,11 @@ def _discovery(selection: Selection, name: str) -> Discovery:
     by_place = {
         place: max((gain for own, gain in zip(first.names, first.gain) if _place(own) == place), default=0.0) for place in PLACES
     }
-    if not selection.accepted:
+    ours = [name for name in selection.accepted if _is_term(name)]
+    if not ours:
         return Discovery(name, "", "", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
-    place, terms, shaped = _place(selection.accepted[0]), {}, {}
-    for accepted in selection.accepted:
+    place, terms, shaped = _place(ours[0]), {}, {}
+    for accepted in ours:
         term = accepted.partition(":")[2]
         keys = {part: _key(place, term, part) for part in PLACES[place].terms[term].parts}
         terms[term] = {part: selection.final.values[key] for part, key in keys.items() if key in selection.final.values}
@@ -132,12 +149,24 @@ def _discovery(selection: Selection, name: str) -> Discovery:
         shaped[term] = {name: selection.final.values.get(_key(place, term, name), typical) for name, typical in own.items()}
     form = in_words(place, terms, shaped)
     share, held_out = total_shares(selection)
-    p_value = float(first.p_value[first.names.index(first.winner.name)])
+    turn = selection.rounds[selection.accepted.index(ours[0])]
+    p_value = float(turn.p_value[turn.names.index(ours[0])])
     sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {such_as(place, terms)}."
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(
-        name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, first.is_large
+        name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, turn.is_large
     )
+
+
+def _is_term(name: str) -> bool:
+    """Whether a candidate is a term of an unknown force, not an effect of the library."""
+    return ":" in name
+
+
+def may_follow(accepted: Sequence[str], other: str, most: int) -> bool:
+    """Whether a candidate may follow those accepted: all of ``most`` terms act at one place."""
+    terms = [name for name in accepted if _is_term(name)]
+    return not (_is_term(other) and terms) or len(terms) < most and _place(other) == _place(terms[0])
 
 
 def _place(name: str) -> str:

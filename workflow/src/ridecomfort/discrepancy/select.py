@@ -61,6 +61,9 @@ SETTLED, FAR = 3, 0.25
 """Refits of a round that are settled, the best, and share of the largest gain below which none catches up. From there on shapes are
 fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
 
+EQUAL = 0.02
+"""Share of the explainable error by which two explanations that count as equal may differ."""
+
 ALIAS, LEAST_OWN = 0.05, 0.01
 """Share of the power that nuisances must leave of an error of an instrument or of what a tyre feels of the road, below which it is one
 of them under another name, and of any other effect, which may be much like one and yet be there."""
@@ -83,16 +86,18 @@ def search(
     most: int = EFFECTS,
     seed: int = 0,
     each: Callable = map,
-    together: Callable[[Candidate, Candidate], bool] = lambda first, other: True,
+    together: Callable[[Sequence[str], str], bool] = lambda accepted, other: True,
     say: Callable[[str], None] = lambda words: None,
     few: float = event.FEW,
+    simpler: Collection[str] = (),
 ) -> Selection:
     """Find up to ``most`` missing effects from a ``rung``.
 
-    ``each`` maps a function over candidates (``map`` or that of a pool); ``together`` says whether a candidate may follow the ``first``
-    one accepted; ``say`` is told what goes on; ``few``: as for ``propose``.
+    ``each`` maps a function over candidates (``map`` or that of a pool); ``together`` says whether a candidate may follow those
+    accepted, by their names; ``say`` is told what goes on; ``few``: as for ``propose``. ``simpler``: names that go before any other which
+    explains hardly more.
     """
-    return _Search(rung, most, seed, each, together, say, few).run()
+    return _Search(rung, most, seed, each, together, say, few, simpler).run()
 
 
 @dataclass
@@ -104,6 +109,7 @@ class _Search:
     together: Callable
     say: Callable
     few: float = event.FEW
+    simpler: Collection[str] = ()
     accepted: list[str] = field(default_factory=list)
     shaped: set[str] = field(default_factory=set)
     """Keys of what shapes accepted effects and is fitted."""
@@ -128,8 +134,7 @@ class _Search:
             self.accepted.append(turn.winner.name)
             self.shaped |= {size.key for size in self.by_name[turn.winner.name].shaping if size.key in turn.winner.fit.keys}
             self.say(f"accepted {turn.winner.name}")
-            first = self.by_name[self.accepted[0]]
-            self.columns = {job: own for job, own in self.columns.items() if self.together(first, self.by_name[job[0]])}
+            self.columns = {job: own for job, own in self.columns.items() if self.together(self.accepted, job[0])}
             self.rung = climb(
                 self.rung.experiment, turn.winner.fit.values, self._sizes(), self.each, before=self.rung
             )
@@ -196,7 +201,7 @@ class _Search:
         for stage in ([t for t in tried if t.gain >= least], [t for t in tried if t.gain < least]):
             if winner is None:
                 trials += self._followed_up(stage)
-                winner = _best(trials)
+                winner = _best(trials, self.simpler)
         like, correlation, apart = (), {}, {}
         if winner is not None:
             frames = [frame for frame in (rung.frame, rung.check_frame) if frame is not None]
@@ -295,14 +300,21 @@ def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial
     return {name: said for name, said in why.items() if name not in judged}
 
 
-def _best(trials: Sequence[Trial]) -> Trial | None:
+def _best(trials: Sequence[Trial], simpler: Collection[str] = ()) -> Trial | None:
     """The trial with the most merit of those that nothing speaks against; one that explains more of the drives it was fitted to, and of those
     held out by likelihood and by share, goes before it: where a rough patch holds most of an error few blocks count, and the z of the
-    right damper was 1.9 beside a tyre that explained less than half as much."""
+    right damper was 1.9 beside a tyre that explained less than half as much. What is ``simpler`` goes before what explains no EQUAL more."""
     sound = [trial for trial in trials if not trial.objection]
     best = max(sound, key=_merit, default=None)
     explained = lambda trial: np.array([trial.bic, trial.held_out_gain, trial.held_out_share])
-    return max((trial for trial in sound if np.all(explained(trial) > explained(best))), key=_merit, default=best)
+    best = max((trial for trial in sound if np.all(explained(trial) > explained(best))), key=_merit, default=best)
+    alike = (trial for trial in sound if trial.name in simpler and not _explains_more(best, trial))
+    return best if best is None or best.name in simpler else max(alike, key=_merit, default=best)
+
+
+def _explains_more(one: Trial, other: Trial) -> bool:
+    """Whether one trial removes EQUAL more than another of the explainable error, on fitted drives or on those held out, if any."""
+    return one.share > other.share + EQUAL or one.held_out_share > other.held_out_share + EQUAL
 
 
 def _merit(trial: Trial) -> tuple[bool, float]:

@@ -104,11 +104,10 @@ def sentence(reason: str) -> str:
     return begun if begun.endswith("?") else f"{begun}."
 
 
-def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[str]:
-    """Names of the accepted effects that are no chance and not one another in another shape."""
+def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[Named]:
+    """The accepted effects that are no chance and not one another in another shape."""
     by_name = {candidate.name: candidate for candidate in candidates}
-    found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
-    return [effect.name for effect in _kept(selection, found, by_name)[0]]
+    return _kept(selection, _found(selection, by_name), by_name)[0]
 
 
 def judge(
@@ -118,7 +117,7 @@ def judge(
     """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it, ``notes`` words
     on the road that may be otherwise than it was driven; ``is_material``: whether what repeats share is worth explaining."""
     by_name = {candidate.name: candidate for candidate in candidates}
-    found = [_named(selection, number, by_name) for number in range(len(selection.accepted))]
+    found = _found(selection, by_name)
     effects, reasons = _kept(selection, found, by_name)
     balance = balanced(selection, notes, is_material)
     is_vain = bool(found) and balance.share <= 0
@@ -289,15 +288,20 @@ def _set(selection: Selection, candidate: Candidate) -> list[str]:
 def _shaped_by(selection: Selection, effect: Named, found: Sequence[Named], by_name) -> str:
     """The name of an effect found before at the same port that it is like and beside which it is small; empty where there is none."""
     port = by_name[effect.name].port
-    before = zip(selection.rounds, found[: found.index(effect)]) if port else ()
-    for turn, other in before:
+    turns = {turn.winner.name: turn for turn in selection.rounds if turn.winner is not None}
+    for other in found[: found.index(effect)] if port else ():
         is_small = by_name[other.name].port == port and effect.share < ANOTHER_SHAPE * other.share
-        if is_small and turn.correlation.get(effect.name, 0.0) > SAME_PORT:
+        if is_small and turns[other.name].correlation.get(effect.name, 0.0) > SAME_PORT:
             return other.name
     return ""
 
 
-def _named(selection: Selection, number: int, by_name) -> Named:
+def _found(selection: Selection, by_name: Mapping[str, Candidate]) -> list[Named]:
+    """Those of the accepted that are among the candidates ``by_name``."""
+    return [_named(selection, number, by_name) for number, name in enumerate(selection.accepted) if name in by_name]
+
+
+def _named(selection: Selection, number: int, by_name: Mapping[str, Candidate]) -> Named:
     turn = selection.rounds[number]
     winner = turn.winner
     place = turn.names.index(winner.name)
@@ -311,10 +315,10 @@ def _named(selection: Selection, number: int, by_name) -> Named:
         if size.key not in selection.intervals
     ]
     before, after = selection.states[number : number + 2]
+    like = tuple(name for name in turn.cluster if name in by_name)
     return Named(
         winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]),
-        *shares(selection, before, after), float(turn.absorbed[place]), turn.cluster, turn.differ_on, by_name[winner.name].instrument,
-        tuple(held),
+        *shares(selection, before, after), float(turn.absorbed[place]), like, turn.differ_on, by_name[winner.name].instrument, tuple(held),
     )  # fmt: skip
 
 

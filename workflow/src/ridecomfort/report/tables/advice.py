@@ -82,6 +82,12 @@ def library_helps(verdict: Mapping) -> bool:
     return verdict["verdict"] == "outside" and bool(verdict["effects"]) and helps
 
 
+def is_beside(verdict: Mapping) -> bool:
+    """Whether the effects of a verdict are those that are missing beside its proposed form."""
+    beside = (verdict.get("proposal") or {}).get("beside")
+    return bool(beside) and beside == [effect["name"] for effect in verdict["effects"]]
+
+
 def farther(beyond: Mapping) -> str:
     """What to do where parameters of the vehicle want to lie beyond their bounds."""
     names = ", ".join(one["parameter"] for one in beyond["parameters"])
@@ -119,8 +125,8 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     if max(fitted_of_form, held_out_of_form) < LITTLE:
         return go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
     file = Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py")
-    try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"]]))
-    if not library_helps(said):
+    try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"], *(proposal.get("beside") or ())]))
+    if not library_helps(said) or is_beside(said):
         return try_form
     library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form - AS_GOOD
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)

@@ -33,6 +33,9 @@ HELD = {True: "as is typical", False: "held, the best of a few"}
 STRONGEST = 12
 """Candidates of a round that are drawn, and forms of a force that are told."""
 
+OF_THE_LIBRARY = "library"
+"""Place of an effect that was looked for together with forms."""
+
 NO_FORMS = "No force of any form was looked for: the library explains the error, or the data are suspect."
 """What is said there."""
 
@@ -60,13 +63,15 @@ def verdict(found: Diagnosis) -> Table:
     if advice.library_helps(said):
         held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
         checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
-        taken = f"{', '.join(names)} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, and may stand in for what is missing."
+        role = "beside the proposed form" if advice.is_beside(said) else "and may stand in for what is missing"
+        taken = f"{', '.join(names)} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, {role}."
         rows.append(("in the library", taken))
     if proposal.get("form"):
         rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
         rows.append(("in it", sentence(PORTS[proposal["port"]].meaning)))
         rows.append(("such as", sentence(proposal["such_as"])))
-        rows.append(("it removes", _promise(proposal)))
+        beside = proposal.get("beside")
+        rows.append((f"with {', '.join(map(words, beside))} it removes" if beside else "it removes", _promise(proposal)))
     rows.append(("next, after the vehicle" if beyond else "next", advice.next_step(found)))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
@@ -169,14 +174,16 @@ def forms(found: Diagnosis) -> Table:
         breaks.append(len(rows))
         places = set()
         for number, (name, one) in enumerate(told.items()):
-            place, _, form = name.partition(":")
+            place, form = name.split(":") if ":" in name else (OF_THE_LIBRARY, name)
             if number < STRONGEST or place not in places:
-                rows.append((turn, place, words(form), PLACES[place].terms[form].expression, *one, such_as(place, [form])))
+                expression, such_a = ("", "") if place == OF_THE_LIBRARY else (PLACES[place].terms[form].expression, such_as(place, [form]))
+                rows.append((turn, place, words(form), expression, *one, such_a))
             places.add(place)
     notes = (
         "Forms are terms that a force may be made of at each place where it could act. The first of "
         "a place is its best, so that places are ranked by it. Gain, p-value (over all terms of all places) and shares as in the evidence "
-        f"for the library. Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file. Accepted is the best "
+        "for the library, whose effects are looked for together with them where it explains too little alone: they may be missing, too. "
+        f"Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file. Accepted is the best "
         "of a round; whether it is proposed, and with which factors, fitted together in the end, says the verdict, which takes the library where that does as well.",
     )
     return _table(found, "forms", columns, rows, _evidence_sources(found, ranking.FORMS), notes, breaks[1:])
