@@ -55,8 +55,21 @@ def test_every_form_can_be_written(tables):
 def test_what_calibration_made_of_the_model_is_told_with_what_the_drives_say_of_it(tables):
     spring, friction = rows(tables["calibrated"])
     assert (spring["parameter"], spring["initial"], spring["value"]) == ("spring stiffness front", 28000.0, 20000.0)
-    assert friction["parameter"] == "suspension friction: front" and friction["verdict"] == "at its lower bound"
+    assert friction["parameter"] == "suspension friction: front" and friction["verdict"] == "at its lower bound, may be nil"
     assert any("the data ask for more" in note for note in tables["calibrated"].notes)
+
+
+@pytest.mark.parametrize(
+    ("place", "interval", "said"),
+    [(0, (15000.0, 22000.0), "identified, its interval ends at a bound"), (0, (19000.0, 22000.0), "identified"), (1, (-1.0, 9.0), "identified, may be nil")],
+)
+def test_an_interval_that_ends_at_a_bound_or_holds_no_effect_at_all_is_said(study, place, interval, said):
+    (name, calibration), *_ = study.calibrations.items()
+    verdict = np.where(np.arange(2) == place, "identified", calibration["verdict"])
+    ends = {f"interval_{end}": ("parameter", np.full(2, value)) for end, value in zip(("lower", "upper"), interval)}
+    other = calibration.assign(verdict=("parameter", verdict), **ends)
+    row = rows(differing.tables(replace(study, calibrations={name: other}))["calibrated"])[place]
+    assert row["verdict"] == said
 
 
 def test_that_sizes_of_effects_may_differ_from_the_searchs_is_said_where_there_are_any(tables, study):

@@ -177,7 +177,7 @@ def calibrated(found: Difference) -> Table:
             chosen = calibration.sel(parameter=parameter)
             shown = [float(chosen[column.key]) for column in columns[3:9]]
             in_words = words(parameter.replace(".", ": "))
-            rows.append((catalogue.label(name), in_words, unit(str(chosen["unit"].item())), *shown, str(chosen["verdict"].item())))
+            rows.append((catalogue.label(name), in_words, unit(str(chosen["unit"].item())), *shown, _in_words(parameter, chosen)))
         variables = "initial, value, interval_lower, interval_upper, lower, upper, verdict"
         sources.append(Source(catalogue.label(name), found.calibration_files.get(name, ""), variables, "as in the file"))
         notes.append(f"{catalogue.label(name)}: {calibration.attrs['remarks']}.")
@@ -192,6 +192,15 @@ def calibrated(found: Difference) -> Table:
     notes += filter(None, [found.standin_note()])
     caption = f"{catalogue.DIFFERENCE_TABLES['calibrated']} Model: {found.model}."
     return Table("calibrated", caption, columns, tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks[1:]))
+
+
+def _in_words(parameter: str, chosen: xr.Dataset) -> str:
+    """What is known of a parameter, of effects whether there may be none."""
+    said, (lower, upper) = str(chosen["verdict"].item()), (float(chosen[f"interval_{end}"]) for end in ("lower", "upper"))
+    if "." in parameter and lower <= 0.0 <= upper:
+        return f"{said}, may be nil"
+    is_cut = lower <= float(chosen["lower"]) or upper >= float(chosen["upper"])
+    return f"{said}, its interval ends at a bound" if is_cut and said == "identified" else said
 
 
 def _drives(site: Site, role: str) -> list[int]:
