@@ -8,11 +8,15 @@ from types import SimpleNamespace
 
 import pytest
 
-from ridecomfort.discrepancy.discover import Discovery, may_follow
+from ridecomfort.discrepancy import select
+from ridecomfort.discrepancy.discover import Discovery, may_follow, proposed
+from ridecomfort.discrepancy.experiment import Candidate
 from ridecomfort.discrepancy.form import effect_source, in_words
 from ridecomfort.discrepancy.places import AXLES, PLACES, TURNING, WHEELS, WHOLE, scale, settings
 from ridecomfort.discrepancy.verdict import Named
 from ridecomfort.effects import library
+
+from .linear import Linear
 
 KNOWN = {"tanh": tanh, "cos": cos, "sin": sin, "abs": abs, "max": max, "min": min}
 
@@ -138,3 +142,29 @@ def test_terms_of_a_force_act_at_one_place_and_effects_of_the_library_beside_the
     assert not follows(["suspension_friction", "strut:velocity_size"], "tyre:deflection_cube")
     full = ["strut:velocity_size", "strut:deflection_cube"]
     assert not follows(full, "strut:deflection_square") and follows(full, "suspension_friction")
+
+
+def found_beside(port, **truth):
+    """What is proposed where the second effect of a linear model is a term of a force at the strut, and the fifth one of the library."""
+    model, key = Linear(1, {f"{name}.size": value for name, value in truth.items()}), "unknown_strut_velocity_size.velocity_size_front"
+    term, of_library = (model.candidates[k] for k in (2, 4))
+    model.truth[key] = model.truth.pop("effect_2.size")
+    model.columns = [{key if name == "effect_2.size" else name: column for name, column in own.items()} for own in model.columns]
+    term = Candidate("strut:velocity_size", (replace(term.sizes[0], key=key),))
+    model.candidates = (term, replace(of_library, port=port))
+    selection = select.select(model, {"stiffness": 0.0}, most=3)
+    assert set(selection.accepted) == {"strut:velocity_size", "effect_4"}
+    return proposed(selection, "found", model.candidates[1:])
+
+
+def test_effects_that_are_missing_too_are_told_beside_the_form_and_what_all_remove():
+    found = found_beside("suspension", effect_2=1.5, effect_4=1.0)
+    assert found.names_beside() == ["effect_4"] and set(found.terms) == {"velocity_size"} and "effect_4" not in found.source
+    assert found.share == pytest.approx(1.0, abs=0.05) and found.held_out_share == pytest.approx(1.0, abs=0.1)
+
+
+@pytest.mark.parametrize(("port", "names"), [("suspension", []), ("aero", ["effect_4"])])
+def test_what_is_small_at_the_port_of_a_form_may_be_what_that_leaves_by_not_being_exact(port, names):
+    found = found_beside(port, effect_2=4.0, effect_4=0.6)
+    assert found.names_beside() == names
+    assert (found.share > 0.98) == bool(names)

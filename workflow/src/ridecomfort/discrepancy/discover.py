@@ -17,7 +17,6 @@ import xarray as xr
 
 from .. import pool
 from . import event, opening
-from .balance import total_shares
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words
@@ -27,8 +26,8 @@ from .places import FORCE, LINEAR, PLACES, parameter, scale, settings
 from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
-from .selection import Selection
-from .verdict import Named, plain, standing
+from .selection import Selection, shares
+from .verdict import ANOTHER_SHAPE, Named, plain, standing
 
 TERMS = 3
 """Terms of a force at most: the rod that nods on a tail pushes with three accelerations."""
@@ -127,12 +126,11 @@ def discovered(
             rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
             say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known},
         )  # fmt: skip
-    found = _discovery(selection, name)
-    beside_it = tuple(standing(selection, known)) if found.place else ()
-    return replace(found, evidence=dataset(rung.experiment, selection), beside=beside_it)
+    return replace(proposed(selection, name, known), evidence=dataset(rung.experiment, selection))
 
 
-def _discovery(selection: Selection, name: str) -> Discovery:
+def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Discovery:
+    """What a ``selection`` among terms of a force and effects that are ``known`` says of an effect of this ``name``."""
     first = selection.rounds[0]
     by_place = {
         place: max((gain for own, gain in zip(first.names, first.gain) if _place(own) == place), default=0.0) for place in PLACES
@@ -148,14 +146,30 @@ def _discovery(selection: Selection, name: str) -> Discovery:
         own = {setting.name: setting.typical for setting in settings(place, term)}
         shaped[term] = {name: selection.final.values.get(_key(place, term, name), typical) for name, typical in own.items()}
     form = in_words(place, terms, shaped)
-    share, held_out = total_shares(selection)
+    effects = _beside(selection, known, PLACES[place].port, ours)
+    share, held_out = np.add(_removed(selection, ours), _removed(selection, [effect.name for effect in effects])).tolist()
     turn = selection.rounds[selection.accepted.index(ours[0])]
     p_value = float(turn.p_value[turn.names.index(ours[0])])
     sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {such_as(place, terms)}."
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(
-        name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, turn.is_large
-    )
+        name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, turn.is_large,
+        beside=tuple(effects),
+    )  # fmt: skip
+
+
+def _beside(selection: Selection, known: Sequence[Candidate], port: str, terms: Sequence[str]) -> list[Named]:
+    """Effects of the library that stand beside the ``terms`` of a force at a ``port``, without what is small there beside these: no form need
+    be exact, and what that leaves another shape may take up."""
+    ports, least = {candidate.name: candidate.port for candidate in known}, ANOTHER_SHAPE * _removed(selection, terms)[0]
+    return [effect for effect in standing(selection, known) if ports[effect.name] != port or effect.share >= least]
+
+
+def _removed(selection: Selection, names: Sequence[str]) -> tuple[float, float]:
+    """Share of the explainable error that went when these were accepted, on fitted and on held-out drives (nan without)."""
+    own = [shares(selection, *selection.states[k : k + 2]) for k, name in enumerate(selection.accepted) if name in names]
+    fitted, held_out = np.sum(own, axis=0) if own else (0.0, 0.0)
+    return float(fitted), float(held_out)
 
 
 def _is_term(name: str) -> bool:
