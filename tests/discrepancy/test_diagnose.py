@@ -149,7 +149,7 @@ def test_what_explains_most_is_named_though_a_rest_is_shared_that_no_force_expla
     found = named_all_the_same(left, replace(SURE, share=0.57, held_out_share=0.56))
     assert found.verdict == "named" and [effect.name for effect in found.effects] == [FOUND.name]
     assert (found.share, found.held_out_share) == (0.57, 0.55)
-    assert "no force of any form explains more" in found.reasons[-2] and found.reasons[-1].startswith("cornering_degression, which takes ")
+    assert "no force of any form explains much more" in found.reasons[-2] and found.reasons[-1].startswith("cornering_degression, which takes ")
 
 
 @pytest.mark.parametrize("change", [{"share": 0.45}, {"held_out_share": 0.4}, {"verdict": "suspect"}, {"effects": ()}, {"is_like_error": True}])

@@ -161,6 +161,13 @@ def test_evidence_is_in_the_order_of_the_gain_with_the_outcome_of_refits():
     assert [row["outcome"] for row in found[3:]] == ["its refit gains less than 5 % of the best", ""]
 
 
+def test_a_form_that_the_library_goes_before_gains_no_less_but_is_no_better():
+    sure = {"strut:velocity_direction": True, "suspension_friction": True}
+    assert diagnosis._less("strut:velocity_direction", "suspension_friction", sure) == "no better than the accepted one"
+    assert diagnosis._less("suspension_friction", "strut:velocity_direction", sure) == "gains less than the accepted one"
+    assert diagnosis._less("strut:velocity_direction", "suspension_friction", sure | {"strut:velocity_direction": False}) == "less sure on drives held out"
+
+
 def unobjected():
     """The ranking without anything that speaks against the second refit."""
     found = made_up.ranking()

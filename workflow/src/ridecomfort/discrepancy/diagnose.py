@@ -226,7 +226,7 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     if theirs and is_better:
         return verdict
     kept = tuple(effect for effect in verdict.effects if _is_much(effect, verdict)) or verdict.effects[:1]
-    reasons = [*verdict.reasons, "no force of any form explains more by itself: what is left may be another one, or many small things"]
+    reasons = [*verdict.reasons, "no force of any form explains much more, alone or beside the library: what is left may be another one, or many small things"]
     reasons += [_not_named(effect) for effect in verdict.effects if effect not in kept]
     share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
     kind = "cluster" if any(effect.like for effect in kept) else "named"

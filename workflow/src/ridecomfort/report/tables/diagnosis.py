@@ -228,9 +228,16 @@ def outcomes(one: xr.Dataset) -> dict[str, str]:
     winner, trials = str(one["winner"].item()), refits(one)
     sure = {name: not trial["trial_held_out_z"] <= HELD_OUT_Z for name, trial in trials.items()}
     for name, trial in trials.items():
-        less = "less sure on drives held out" if sure.get(winner) and not sure[name] else "gains less than the accepted one"
-        told[name] = "accepted" if name == winner else str(trial["trial_objection"].item()) or less
+        told[name] = "accepted" if name == winner else str(trial["trial_objection"].item()) or _less(name, winner, sure)
     return told
+
+
+def _less(name: str, winner: str, sure: Mapping[str, bool]) -> str:
+    """Why a refit that nothing speaks against was not the accepted one; ``sure``: of which drives held out are."""
+    if sure.get(winner) and not sure[name]:
+        return "less sure on drives held out"
+    is_simpler = ":" in name and winner and ":" not in winner  # a force of any form, and an effect of the library
+    return "no better than the accepted one" if is_simpler else "gains less than the accepted one"
 
 
 def _alike(effect) -> str:
