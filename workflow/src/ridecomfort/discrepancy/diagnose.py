@@ -20,6 +20,7 @@ from .propose import SURE
 from .rank import ranked
 from .ranking import with_forms
 from .rung import Rung, begin
+from .select import EQUAL
 from .selection import Selection
 from .verdict import Named, Verdict, with_parameters
 
@@ -33,10 +34,6 @@ the mean of fitted drives and of those held out, for a wrong file of the vehicle
 HALF, WORTH = 0.5, 0.025
 """Share of what the library leaves, where that is little, which a force of any form may leave at most to do so, and share of the
 explainable error by which it must be better then."""
-
-EQUAL = 0.02
-"""Share of the explainable error by which two explanations that count as equal may differ."""
-
 
 SURELY, MOST_LEFT = 3.0, 0.75
 """z above which one of two models fits drives better beyond chance, and share of what the other leaves of the explainable error, on fitted
@@ -186,8 +183,9 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
     """Whether a force is sure and explains so much more than what was found that this stands in for it.
 
     It explains BETTER as much of the fitted drives, and no less of those held out; or what was found is DOUBTFUL or too large, and the
-    force ``fits_better`` and leaves MOST_LEFT of it at most. With effects of the library beside it, it ``fits_better`` and leaves HALF. Where repeats surely share an error beside what was found, EQUAL more of the fitted
-    drives and not much less of the others will do, or, where little is left, leaving HALF of that.
+    force ``fits_better`` and leaves MOST_LEFT of it at most. Where repeats surely share an error beside what was found, EQUAL more of the
+    fitted drives and not much less of the others will do, or, where little is left, leaving HALF of that. With effects of the library beside
+    it, a force ``fits_better`` and leaves HALF.
     """
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     if not is_sure(proposal):

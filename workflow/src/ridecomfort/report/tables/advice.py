@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ...discrepancy.balance import LITTLE
-from ...discrepancy.diagnose import EQUAL
+from ...discrepancy.select import EQUAL
 from ...effects import library
 from ...study import BASE, JOIN
 from ..study import Diagnosis
