@@ -244,7 +244,7 @@ def test_effects_that_are_missing_beside_a_force_take_the_place_of_those_that_st
     alone = replace(NOTHING, verdict="outside", effects=(FOUND, KNEE), share=0.5, held_out_share=0.45)
     found = beside_a_force(alone, WITH_FRICTION)
     assert found.effects == (FOUND,) and (found.share, found.held_out_share) == (0.3, 0.3)
-    assert found.reasons[0] == "without a force that it does not hold the library comes up to friction, damper_knee"
+    assert found.reasons[0] == "the library alone comes up to friction, damper_knee"
     assert found.reasons[-1].startswith("a force at the tyre that the library does not hold, with friction beside it, explains more: 97 %")
     assert beside_a_force(alone, replace(SURE, beside=())).effects == ()
     for weaker in (replace(WITH_FRICTION, share=0.6, held_out_share=0.55), replace(WITH_FRICTION, held_out_share=0.4), replace(WITH_FRICTION, p_value=0.03)):

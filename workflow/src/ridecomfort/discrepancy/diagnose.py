@@ -266,7 +266,7 @@ def beside_a_force(verdict: Verdict, proposal: Discovery) -> Verdict:
     if verdict.verdict != "outside" or not is_more:
         return verdict
     alone = ", ".join(effect.name for effect in verdict.effects)
-    reasons = (f"without a force that it does not hold the library comes up to {alone}", *verdict.reasons) if alone else verdict.reasons
+    reasons = (f"the library alone comes up to {alone}", *verdict.reasons) if alone else verdict.reasons
     said = f"{_said_of(proposal)} explains more: {_explained(proposal)}"
     reasons = reasons if said in reasons else (*reasons, said)
     share, held_out = (sum((getattr(effect, key) for effect in proposal.beside), 0.0) for key in ("share", "held_out_share"))
