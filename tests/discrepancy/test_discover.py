@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from ridecomfort.discrepancy import select
+from ridecomfort.discrepancy.car import LONGEST
 from ridecomfort.discrepancy.discover import Discovery, may_follow, proposed
 from ridecomfort.discrepancy.experiment import Candidate
 from ridecomfort.discrepancy.form import effect_source, in_words
@@ -88,6 +89,13 @@ def test_a_force_may_have_a_linear_part_of_its_own(tmp_path):
     assert "linear = -1.667" in in_words("strut", terms, shaped)
     plain = effect_source("found", "strut", terms, "Found.", {"deflection_size_times_velocity": {"linear": 0.0}})
     assert "linear" not in plain
+
+
+def test_what_a_low_pass_remembers_can_be_integrated_in_the_longest_steps():
+    """The scheme of third order bears slopes of 0.545 per step on the real axis (Hairer and Wanner 1996, V.1)."""
+    for place, term in (("strut", "slow_velocity"), ("strut", "late_velocity"), ("tyre", "slow_velocity")):
+        (frequency,) = (one for one in settings(place, term) if one.name == "frequency")
+        assert 2 * pi * frequency.plausible[1] * LONGEST < 0.545
 
 
 def test_a_part_that_moves_on_a_spring_of_its_own_swings_at_its_frequency_and_is_rigid_below(tmp_path):

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from ..effects.contract import Parameter
+from ..effects.lag import SHORTEST
 
 FORCE = 30.0
 """N (or N m) that a term is probed with at typical motion."""
@@ -23,6 +24,10 @@ STRONGEST_OF_LINKS = 600.0
 CORNERING, MASS, INCLINED = 8e4, 1500.0, 1000.0
 """N that a slip (or an angle of the wheels) of one would make at typical stiffness, that an acceleration of one stands for, and what a wheel
 makes that moves aside, fore or aft as far as it rises."""
+
+FASTEST = round(1.0 / (2.0 * pi * SHORTEST), 1)
+"""Hz up to which a low-pass can be integrated. One that is faster differs from the slower one by damping, or by the size of its factor,
+which are fitted anyway."""
 
 AXLES = ("front", "rear")
 
@@ -89,7 +94,7 @@ class Place:
 def _below(expression: str, beside: str = "") -> Term:
     """Velocity through a low-pass of first order, ``slow``: what creeps beside a spring; without the velocity itself, what gives way in
     series with a damper."""
-    frequency = _setting("frequency", "Hz", 10.0, 1.0, 150.0, "frequency that it follows up to")
+    frequency = _setting("frequency", "Hz", 10.0, 1.0, FASTEST, "frequency that it follows up to")
     return Term(
         expression, "N s/m", states=(State("slow", f"{2 * pi:.4f} * frequency * (velocity - slow)", 0.1),), settings=(frequency,), beside=beside
     )
