@@ -23,7 +23,7 @@ def rough(length: float = 300.0, spacing: float = 0.1, seed: int = 1, waves: int
 
 
 def test_against_the_equations_integrated_by_runge_kutta():
-    """sec:IRI_concept with errata.md, in heights instead of slopes, by scipy's own solver."""
+    """sec:IRI_concept, put right (docs/method.md), in heights instead of slopes, by scipy's own solver."""
     s, height = rough(120.0, 0.02)
     a, b = quartercar.GOLDEN_CAR.matrices()
     v = quartercar.SPEED

@@ -16,7 +16,7 @@ def test_windows_follow_upon_each_other():
     found = sections.windows(S)
     assert len(found) == 20 and found.start[:2].tolist() == [50.0, 55.0]
     assert np.all(found.behind - found.first == 20)
-    # 605 windows of 5 m are 3025 m (errata.md, site lengths).
+    # 605 windows of 5 m are 3025 m (docs/method.md, site lengths).
     assert len(sections.windows(np.arange(0, 3025.01, 0.25))) == 605
     assert len(sections.windows(np.arange(0, 3024.9, 0.1))) == 604
 

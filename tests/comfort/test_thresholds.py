@@ -25,7 +25,7 @@ def shard(runs: int = 30) -> xr.Dataset:
 
 
 def test_published_thresholds():
-    """tab:thresholds_manual; AG deceleration -5.08 m/s2 (errata.md)."""
+    """tab:thresholds_manual; AG deceleration -5.08 m/s2 (docs/method.md)."""
     assert (thresholds.ACCELERATION["a_x"]["AG"].lower, thresholds.ACCELERATION["a_x"]["AG"].upper) == (-5.08, 3.07)
     assert thresholds.ACCELERATION["a_y"]["ND"].upper == 4.0
     assert all(band.source for styles in thresholds.ACCELERATION.values() for band in styles.values())

@@ -41,7 +41,8 @@ def test_a_bar_twice_as_stiff_and_an_inertia_of_seven_tenths_are_told_with_what_
 
 
 def test_nothing_is_told_of_a_car_that_is_within_its_bounds(car):
-    assert beyond.beyond_bounds(selected(measured(car, {"anti_roll_stiffness_rear": 1.1}), car)) is None
+    selection = selected(measured(car, {"anti_roll_stiffness_rear": 1.1}), car)
+    assert not beyond.ends_at_bounds(selection) and beyond.beyond_bounds(selection) is None
 
 
 def test_a_bar_of_half_the_stiffness_takes_the_place_of_an_effect_that_stands_in_for_it(car):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ridecomfort.discrepancy import refit, select, verdict
+from ridecomfort.discrepancy import judge, refit, select
 
 from .linear import Linear
 
@@ -32,7 +32,7 @@ def test_intervals_are_widened_by_what_held_out_drives_disagree_and_the_verdict_
     selection = select.select(model, {"stiffness": 0.0}, most=1)
     told, own = half_widths(selection)
     assert selection.birge_ratio > 2.0 and told > 1.5 * own
-    found = verdict.judge(selection, model.candidates)
+    found = judge.judge(selection, model.candidates)
     assert any(f"ask for other sizes by {selection.birge_ratio:.1f} times" in reason for reason in found.reasons)
 
 

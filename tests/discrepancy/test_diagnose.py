@@ -7,9 +7,10 @@ from dataclasses import replace
 import pytest
 
 from ridecomfort.discrepancy.beyond import Beyond, BeyondBounds
-from ridecomfort.discrepancy.diagnose import beside_a_force, named_all_the_same, reconsidered
 from ridecomfort.discrepancy.discover import Discovery
-from ridecomfort.discrepancy.verdict import Named, Verdict, with_parameters, with_remainder
+from ridecomfort.discrepancy.judge import with_parameters, with_remainder
+from ridecomfort.discrepancy.reconsider import beside_a_force, named_all_the_same, reconsidered
+from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 
@@ -182,13 +183,20 @@ def test_what_is_left_is_said_in_percent_of_the_power_of_each_signal():
 
 
 def test_parameters_beyond_their_bounds_are_a_reason_more():
-    named = replace(NOTHING, verdict="named")
+    named = replace(NOTHING, verdict="named", effects=(FOUND,))
     said = with_parameters(named, beyond())
     assert said.verdict == "named" and said.reasons[:-1] == named.reasons
     assert said.reasons[-1].startswith("another 30 % of the explainable error, 20 % on drives held out,")
     assert "roll_inertia 390 kg m2 for 572" in said.reasons[-1]
     assert said.json()["beyond_bounds"]["parameters"][0]["interval"] == [380.0, 400.0]
     assert with_parameters(named, None) is named
+
+
+def test_parameters_are_told_beside_effects_only_where_there_are_any_and_for_the_values_of_the_file():
+    named = replace(NOTHING, verdict="named", effects=(FOUND,))
+    assert with_parameters(named, beyond()).reasons[-1].startswith("another 30 % of the explainable error")
+    assert with_parameters(LITTLE_ALONE, beyond()).reasons[-1].startswith("30 % of the explainable error")
+    assert "roll_inertia 390 kg m2 for 600" in beyond().of({"roll_inertia": 600.0}).words(is_more=False)
 
 
 def test_where_they_are_all_that_is_missing_it_is_no_effect_of_the_library():
@@ -207,6 +215,8 @@ def test_an_effect_beside_them_that_drives_held_out_hardly_confirm_may_be_what_t
 
 
 FOUND = Named("friction", (), "", 0.001, 0.3, 0.3, 0.0, (), {})
+
+LITTLE_ALONE = replace(NOTHING, verdict="outside")
 
 LITTLE = replace(NOTHING, verdict="outside", effects=(FOUND,), share=0.3, held_out_share=0.3)
 

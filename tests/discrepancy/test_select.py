@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import evidence, select, tries, verdict
+from ridecomfort.discrepancy import evidence, judge, select, tries
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.propose import CERTAIN
 from ridecomfort.discrepancy.rung import begin
@@ -20,7 +20,7 @@ from .linear import SAMPLES, Linear
 
 def judged(model, suspicions=()):
     selection = select.select(model, {"stiffness": 0.0}, most=3)
-    return selection, verdict.judge(selection, model.candidates, suspicions)
+    return selection, judge.judge(selection, model.candidates, suspicions)
 
 
 def rounds(model, most):
@@ -43,7 +43,7 @@ def test_a_size_that_ends_beyond_what_is_plausible_is_a_reason_more():
     assert not any("beyond what is plausible" in reason for reason in found.reasons)
     narrow = lambda size: replace(size, upper=0.5) if size.key == "effect_2.size" else size
     candidates = [replace(one, sizes=tuple(map(narrow, one.sizes))) for one in model.candidates]
-    (said,) = (reason for reason in verdict.judge(selection, candidates).reasons if "beyond what is plausible" in reason)
+    (said,) = (reason for reason in judge.judge(selection, candidates).reasons if "beyond what is plausible" in reason)
     assert said.startswith("effect_2 ends at a size of ") and "to 0.5)" in said
 
 
@@ -78,7 +78,7 @@ def test_an_error_of_the_measurement_is_suspect_by_name_unless_drives_held_out_r
     assert found.verdict == "suspect" and "effect_2 is an error of the measurement, not of the vehicle" in found.reasons
     first, last = selection.states
     refuted = replace(selection, states=(first, replace(last, held_out_squares=1.1 * first.held_out_squares)))
-    found = verdict.judge(refuted, model.candidates)
+    found = judge.judge(refuted, model.candidates)
     assert found.verdict == "outside" and not found.effects and found.is_like_error
 
 
@@ -98,7 +98,7 @@ def test_effects_that_remove_nothing_in_all_are_not_told():
     selection, _ = judged(model)
     first, last = selection.states
     vain = replace(selection, states=(first, replace(last, squares=1.02 * first.squares)))
-    found = verdict.judge(vain, model.candidates)
+    found = judge.judge(vain, model.candidates)
     assert not found.effects and found.share == 0.0 and "effect_2 helped when added" in found.reasons[0]
     assert found.verdict == "nothing" and not any("-" in reason for reason in found.reasons)
 
@@ -368,7 +368,7 @@ def test_without_repeats_an_error_that_answers_to_what_cannot_be_it_is_more_than
     assert found.verdict == "outside" and found.effects == ()
     assert any("answers to effect_3" in reason for reason in found.reasons)
     selection = select.select(alone(Linear(5, too_large)), {"stiffness": 0.0}, most=3)
-    assert verdict.judge(selection, Linear(5, {}).candidates, is_material=False).verdict == "nothing"
+    assert judge.judge(selection, Linear(5, {}).candidates, is_material=False).verdict == "nothing"
 
 
 @pytest.mark.parametrize("seed", range(30, 36))

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import balance, select, shared, verdict
+from ridecomfort.discrepancy import balance, judge, select, shared
 from ridecomfort.discrepancy.experiment import Record
 from ridecomfort.discrepancy.judged import band
 from ridecomfort.discrepancy.shared import is_material, shared_error
@@ -18,7 +18,7 @@ from .linear import RATE, SAMPLES, Linear
 
 def judged(model):
     selection = select.select(model, {"stiffness": 0.0}, most=1)
-    return selection, verdict.judge(selection, model.candidates)
+    return selection, judge.judge(selection, model.candidates)
 
 
 def test_what_repeats_share_in_a_narrow_band_is_told_with_its_signal_and_band():
@@ -37,7 +37,7 @@ def test_what_repeats_share_in_a_narrow_band_is_told_with_its_signal_and_band():
 def test_on_a_road_that_is_another_an_error_that_repeats_share_counts_where_it_is_too_slow_to_be_the_road(lower, z, said):
     selection, _ = judged(Linear(8, {}))
     left = replace(selection.remaining, band=shared.Band("a_y", lower, lower + 2.0, z))
-    found = verdict.judge(replace(selection, remaining=left), Linear(8, {}).candidates, notes=["the road is another"])
+    found = judge.judge(replace(selection, remaining=left), Linear(8, {}).candidates, notes=["the road is another"])
     assert found.verdict == said
 
 

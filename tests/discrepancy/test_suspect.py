@@ -70,3 +70,9 @@ def test_the_size_of_white_noise_is_estimated(rough):
     noisy = rough.copy()
     noisy["elevation"] = rough["elevation"] + 1e-3 * np.random.default_rng(2).standard_normal(rough["elevation"].shape)
     assert suspect.road_noise(noisy) == pytest.approx(1e-3, rel=0.15)
+
+
+@pytest.mark.filterwarnings("error")
+def test_points_too_far_apart_and_a_road_without_any_height_tell_no_noise(rough):
+    coarse = roads.road(600.0, 0.24, height=roads.rough)
+    assert suspect.road_noise(coarse) == 0.0 and suspect.road_noise(0.0 * rough) == 0.0

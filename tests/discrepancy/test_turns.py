@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import turns
-from ridecomfort.discrepancy.diagnose import heard
+from ridecomfort.discrepancy.reconsider import heard
 from ridecomfort.discrepancy.experiment import Record
 from ridecomfort.discrepancy.verdict import Verdict
 

@@ -33,7 +33,7 @@ def iri(
     the first sample (``Response.state``), else that of the first 11 m.
 
     Raises InputError for gaps, samples out of order or a segment longer than the profile.
-    Source: sec:IRI_concept with errata.md; Sayers (1995), TRR 1501; ASTM E1926-08.
+    Source: sec:IRI_concept, put right (docs/method.md); Sayers (1995), TRR 1501; ASTM E1926-08.
     """
     response = respond(profile, spacing, moving_average=moving_average, speed=speed, state=state)
     first, last = response.position[0], response.position[-1]

@@ -38,7 +38,7 @@ class GoldenCar:
     unsprung_mass: float = 0.15
 
     def matrices(self) -> tuple[np.ndarray, np.ndarray]:
-        """A (4, 4) in 1/s and B (4,) in 1/s2 of x' = A x + B h, as errata.md puts them right."""
+        """A (4, 4) in 1/s and B (4,) in 1/s2 of x' = A x + B h, put right (docs/method.md)."""
         c, k1, k2, mu = self.damping, self.tyre_stiffness, self.spring_stiffness, self.unsprung_mass
         a = [[0, 1, 0, 0], [-k2, -c, k2, c], [0, 0, 0, 1], [k2 / mu, c / mu, -(k1 + k2) / mu, -c / mu]]
         return np.array(a, float), np.array([0, 0, 0, k1 / mu])

@@ -1,7 +1,7 @@
 """Frequency weightings of ISO 2631-1 and ISO 8041: the analogue response, applied exactly.
 
 The product of four stages of second order (eq:highpass to eq:h_s with the slips
-of errata.md put right): band limits, acceleration-velocity transition, upward step.
+put right, docs/method.md): band limits, acceleration-velocity transition, upward step.
 """
 
 from __future__ import annotations

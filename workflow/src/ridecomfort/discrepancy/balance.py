@@ -90,8 +90,8 @@ def something_left(selection: Selection) -> bool:
     return bool(selection.remaining.z > SHARED_Z and selection.remaining.share > SHARED)
 
 
-def is_shared(selection: Selection) -> bool:
-    """Whether repeats surely share an error still, in all or in one band of one signal."""
+def may_share(selection: Selection) -> bool:
+    """Whether repeats share an error still, in all, however little of it, or in one band of one signal, whatever the road may be."""
     band = selection.remaining.band
     return selection.remaining.z > SHARED_Z or (band is not None and band.z > SHARED_BAND_Z)
 

@@ -24,7 +24,7 @@ WIDER = {"m": 1.0, "1": 1.0, "kg m2": 2.0}
 friction by what rubber does (one of 0.2 on a dry road is a tyre that is soft to the side), inertias by mass and size..."""
 
 ANY = 3.0
-"""...and stiffnesses and dampings by nothing but their effect."""
+"""...and all else, stiffnesses, dampings and masses, by nothing but its effect."""
 
 LEAST_SHARE = 0.05
 """Share of the explainable error that must go for them to be worth a word."""
@@ -35,8 +35,8 @@ LEFT = 0.75
 
 @dataclass(frozen=True)
 class Beyond:
-    """A parameter of the vehicle: its ``given`` value with the ``bounds`` it was kept in, and the ``value`` it has within ``wider`` ones,
-    with its 90 % ``interval``."""
+    """A parameter of the vehicle: the value that the vehicle was ``given`` with, the ``bounds`` it was kept in, and the ``value`` it has within
+    ``wider`` ones, with its 90 % ``interval``."""
 
     parameter: str
     unit: str
@@ -57,14 +57,20 @@ class BeyondBounds:
     held_out_share: float
     is_first: bool = False
 
-    def words(self) -> str:
-        """What they are and what goes with them."""
+    def words(self, is_more: bool) -> str:
+        """What they are and what goes with them; ``is_more``: beside effects that were found."""
         names = ", ".join(
             f"{one.parameter} {_rounded(one.value):g} {one.unit}".removesuffix(" 1") + f" for {_rounded(one.given):g}" for one in self.parameters
         )
         held_out = f", {100 * self.held_out_share:.0f} % on drives held out," if np.isfinite(self.held_out_share) else ""
         share = f"{100 * self.share:.0f} % of the explainable error{held_out} goes with parameters of the vehicle beyond their bounds: {names}"
-        return f"{share}; other shares are of what they leave" if self.is_first else f"another {share}"
+        if self.is_first:
+            return f"{share}; other shares are of what they leave"
+        return f"another {share}" if is_more else share
+
+    def of(self, vehicle) -> BeyondBounds:
+        """The same with the values that this vehicle has as given: what it was calibrated to is no value of its file."""
+        return replace(self, parameters=tuple(replace(one, given=float(vehicle[one.parameter])) for one in self.parameters))
 
 
 def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBounds | None, Rung] | None:
@@ -85,6 +91,11 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
     intervals = refit.intervals(rung.fit, rung.frame, sizes) if is_sure else {}
     parameters = _beyond(selection.frame.experiment, rung.experiment, rung.fit.values, intervals) if is_sure else ()
     return (BeyondBounds(parameters, *gone) if parameters else None), rung
+
+
+def ends_at_bounds(selection: Selection) -> bool:
+    """Whether a parameter of the vehicle ends at a bound in the first model of a selection or in the last: else none wants to go beyond."""
+    return any(_wider(selection, state) for state in (selection.states[0], selection.states[-1]))
 
 
 def before_effects(selection: Selection, each: Callable = map) -> Rung | None:

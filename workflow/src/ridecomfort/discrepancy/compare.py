@@ -1,7 +1,7 @@
 """Where model and measurement differ: residuals and errors of every signal of every drive.
 
 NRMSE is RMSE over the range (max - min) of the measured signal; the paper does not
-state its normalisation, and this is the reading that fits its figures (errata.md).
+state its normalisation, and this is the reading that fits its figures (docs/method.md).
 """
 
 from __future__ import annotations

@@ -20,6 +20,7 @@ from . import event, opening
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words
+from .judge import ANOTHER_SHAPE, standing
 from .made import beside
 from .meanings import such_as
 from .places import FORCE, LINEAR, PLACES, parameter, scale, settings
@@ -27,7 +28,7 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection, shares
-from .verdict import ANOTHER_SHAPE, Named, plain, standing
+from .verdict import Named, plain
 
 TERMS = 3
 """Terms of a force at most: the rod that nods on a tail pushes with three accelerations."""

@@ -9,16 +9,17 @@ import xarray as xr
 
 from .. import pool
 from . import floor, opening, suspect, turns
-from .balance import CONFIRMED, ENOUGH, is_shared, is_slow, total_shares
+from .balance import CONFIRMED, ENOUGH, is_slow, may_share, total_shares
 from .car import Car
 from .experiment import Frame
+from .judge import judge, standing, with_remainder
 from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection
 from .signature import signature
 from .shared import is_material
-from .verdict import Verdict, judge, standing, with_remainder
+from .verdict import Verdict
 
 
 def rank(
@@ -78,7 +79,7 @@ def ranked(
     matters = _is_material(selection)
     of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
-    doubts = suspicions(experiment, selection, is_explained, matters and is_shared(selection))
+    doubts = suspicions(experiment, selection, is_explained, matters and may_share(selection))
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]

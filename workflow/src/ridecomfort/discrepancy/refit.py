@@ -25,7 +25,7 @@ SHORTEST = 0.1
 """Share of a step that it is shortened to at most."""
 
 SAME_GAIN = 0.05
-"""Share of a gain by which steps twice as long may tell another one; where they do, sizes are nearly those of the best fit."""
+"""Relative difference of the gains in long and in short steps up to which a fit in long steps is taken: its sizes are nearly the best then."""
 
 RENEWAL = 0.3
 """Probes that a size must have moved for its column to be made anew."""

@@ -230,21 +230,15 @@ class _Search:
     def _judge(self, trial: Trial) -> Trial | None:
         """A trial with what it does to the drives held out; None where these cannot be simulated."""
         rung, candidate, fit = self.rung, self.by_name[trial.name], trial.fit
+        held_gain, held_z, is_weak = float("nan"), float("nan"), False
         try:
             held = exp.simulate(rung.experiment, fit.values, self.held_out)
             if rung.check_frame is not None:
                 held, _ = realign.closer(rung.experiment, fit.values, held, rung.check_frame)
+                held_gain, held_z, is_weak = self._held_out_gain(candidate.name, held)
+            met = not self.held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
         except (InputError, ValueError):
             return None
-        held_gain, held_z, is_weak = float("nan"), float("nan"), False
-        if rung.check_frame is not None:
-            held_gain = refit.information(rung.check_frame, held) - refit.information(rung.check_frame, rung.check)
-            fall, held_z = refit.advantage(rung.check_frame, held, rung.check)
-            change = rung.check_frame.flat(held) - rung.check_frame.flat(rung.check)
-            size = float(change @ change)
-            is_there = fall > 2.0 * ABSENT_Z * np.sqrt(size) - size
-            is_weak = candidate.name in self.certain and is_there and (not self.accepted or size < WEAK)
-        met = not self.held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
         if not met:
             held_gain, held_z = float("nan"), float("nan")
         now, before, first = self._state(candidate.name, fit, held), self._state("", rung.fit, rung.check), self.first
@@ -258,6 +252,17 @@ class _Search:
         )  # fmt: skip
         left = floor.explained_share(before.squares, rung.floor_squares, first.squares, rung.floor_squares)
         return replace(trial, objection=self._objection(trial, candidate, is_weak, left))
+
+    def _held_out_gain(self, name: str, held: Mapping[int, np.ndarray]) -> tuple[float, float, bool]:
+        """What residuals of the drives held out gain against those of the rung, the z of that, and whether it is too weak to reach HELD_OUT_Z
+        and yet confirms the effect of this name."""
+        frame, before = self.rung.check_frame, self.rung.check
+        gain = refit.information(frame, held) - refit.information(frame, before)
+        fall, z = refit.advantage(frame, held, before)
+        change = frame.flat(held) - frame.flat(before)
+        size = float(change @ change)
+        is_there = fall > 2.0 * ABSENT_Z * np.sqrt(size) - size
+        return gain, z, name in self.certain and is_there and (not self.accepted or size < WEAK)
 
     def _meets(self, candidate: Candidate, fit: Fit) -> bool:
         """Whether any drive held out has what the candidate acts on, a stop that is reached for example."""

@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 
 from ..drive import turning
-from . import experiment as exp
 from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
@@ -77,8 +76,10 @@ def road_noise(road: xr.Dataset) -> float:
     density *= 2 * spacing / np.sum(window**2)
     wavenumber = np.fft.rfftfreq(length, spacing)
     law = (wavenumber > ROAD_BAND[0]) & (wavenumber < ROAD_BAND[1])
-    fitted = np.polyfit(np.log(wavenumber[law]), np.log(density[law]), 1)
     high = (wavenumber > NOISE_BAND) & (wavenumber < 0.45 / spacing)
+    if not (high.any() and (density[law] > 0.0).all()):  # points too far apart to tell, or a road without a law
+        return 0.0
+    fitted = np.polyfit(np.log(wavenumber[law]), np.log(density[law]), 1)
     expected = np.exp(np.polyval(fitted, np.log(wavenumber[high])))
     if np.median(density[high] / expected) < EXCESS:
         return 0.0
@@ -91,12 +92,8 @@ def noise_share(experiment: Car, index: int, values, deviation: float, explainab
     again = experiment.replays[index]
     noise = deviation * np.random.default_rng(seed).standard_normal(again.road.elevation.shape)
     noisy = replace(again, road=replace(again.road, elevation=again.road.elevation + noise))
-    experiment.replays[index] = noisy
-    try:
-        changed = exp.simulate(experiment, values, [index])[index]
-    finally:
-        experiment.replays[index] = again
-    change = changed - experiment.residual(values, index)
+    on_it = replace(experiment, replays=[noisy if number == index else own for number, own in enumerate(experiment.replays)])
+    change = on_it.residual(values, index) - experiment.residual(values, index)
     power = floor.squares(experiment, {index: change})[0]
     kept = explainable > 0
     return float(np.median(power[kept] / explainable[kept])) if kept.any() else 0.0

@@ -9,6 +9,7 @@ from ...discrepancy.balance import LITTLE
 from ...discrepancy.select import EQUAL
 from ...effects import library
 from ...study import BASE, JOIN
+from ...vehicle.parameters import PARAMETERS
 from ..study import Diagnosis
 
 NEXT = {
@@ -71,9 +72,9 @@ def next_step(found: Diagnosis) -> str:
 
 
 def is_file_alone(verdict: Mapping) -> bool:
-    """Whether parameters of the vehicle that lie far from its file are all that was found."""
-    proposal = verdict.get("proposal") or {}
-    return bool(verdict.get("beyond_bounds")) and verdict["verdict"] == "outside" and not verdict["effects"] and not proposal.get("form")
+    """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form."""
+    proposal, beyond = verdict.get("proposal") or {}, verdict.get("beyond_bounds") or {}
+    return bool(beyond.get("is_first")) and verdict["verdict"] == "outside" and not verdict["effects"] and not proposal.get("form")
 
 
 def library_helps(verdict: Mapping) -> bool:
@@ -82,25 +83,25 @@ def library_helps(verdict: Mapping) -> bool:
     return verdict["verdict"] == "outside" and bool(verdict["effects"]) and helps
 
 
-def is_beside(verdict: Mapping) -> bool:
-    """Whether the effects of a verdict are those that are missing beside its proposed form."""
-    beside = (verdict.get("proposal") or {}).get("beside")
-    return bool(beside) and beside == [effect["name"] for effect in verdict["effects"]]
-
-
 def farther(beyond: Mapping) -> str:
     """What to do where parameters of the vehicle want to lie beyond their bounds."""
     names = ", ".join(one["parameter"] for one in beyond["parameters"])
-    ends = [
-        (min(one["wider"][0], 0.5 * one["value"]), max(one["wider"][1], 2.0 * one["value"])) for one in beyond["parameters"]
-    ]  # a value at the end of the wider bounds wants to go on
-    bounds = ", ".join(
-        "{}: [{:g}, {:g}]".format(one["parameter"], *(float(f"{end:.3g}") for end in own)) for one, own in zip(beyond["parameters"], ends)
-    )
+    bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(_written, _farther(one))) for one in beyond["parameters"])
     return (
-        f"First of all: if the vehicle's file may be that wrong, have it calibrated: add {names} to calibration: parameters in config/study.yaml, and "
-        f"{bounds} to calibration: bounds, then compare and diagnose again. If it cannot be, they stand in for something else."
+        f"First of all: if the vehicle's file may be that wrong, have it calibrated: let calibration: parameters in config/study.yaml hold {names}, "
+        f"too, and calibration: bounds {bounds}; then compare and diagnose again. If it cannot be, they stand in for something else."
     )
+
+
+def _farther(one: Mapping) -> tuple[float, float]:
+    """Bounds to calibrate a parameter in: a value at the end of the wider ones that were tried wants to go on, as far as any vehicle does."""
+    known = PARAMETERS[one["parameter"]]
+    return max(min(one["wider"][0], 0.5 * one["value"]), known.lower), min(max(one["wider"][1], 2.0 * one["value"]), known.upper)
+
+
+def _written(number: float) -> str:
+    """A number of three digits as a configuration takes it, which reads one with an exponent and no point as text."""
+    return f"{float(f'{number:.3g}'):f}".rstrip("0").rstrip(".")
 
 
 def _left(verdict: Mapping) -> str:
@@ -124,9 +125,9 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     (fitted, held_out), (fitted_of_form, held_out_of_form) = ((one["share"], held(one)) for one in (said, proposal))
     if max(fitted_of_form, held_out_of_form) < LITTLE:
         return go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
-    file = Path(found.files.get("verdict", "")).with_name(f"{proposal['name']}.py")
+    file = Path(found.files.get("verdict", "")).parent / f"{proposal['name']}.py"
     try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"], *(proposal.get("beside") or ())]))
-    if not library_helps(said) or is_beside(said):
+    if not library_helps(said) or said.get("is_beside_form"):
         return try_form
     library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form - AS_GOOD
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)

@@ -63,7 +63,7 @@ def verdict(found: Diagnosis) -> Table:
     if advice.library_helps(said):
         held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
         checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
-        role = "beside the proposed form" if advice.is_beside(said) else "and may stand in for what is missing"
+        role = "beside the proposed form" if said.get("is_beside_form") else "and may stand in for what is missing"
         taken = f"{', '.join(names)} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, {role}."
         rows.append(("in the library", taken))
     if proposal.get("form"):
@@ -104,7 +104,7 @@ def missing_effects(found: Diagnosis) -> Table:
         for number, size in enumerate(sizes or [{}]):
             lower, upper = size.get("interval", (None, None))
             plausible = {True: "yes", False: "no", None: ""}[size.get("is_plausible")]
-            if lower is not None and lower <= 0.0 <= upper:
+            if lower is not None and lower <= 0.0 <= upper and not size.get("is_shaping"):
                 plausible += ", may be nil"
             if size.get("is_held"):
                 plausible = HELD[size["is_typical"]]
@@ -153,7 +153,7 @@ def evidence(found: Diagnosis) -> Table:
         rows += [(turn, words(name), *one) for name, one in told.items()]
     notes = (
         "Gain: fall of twice the negative log-likelihood. The p-value is that of the largest gain over the whole library, by block "
-        "wild bootstrap: a screen of what is worth a refit, too small on short drives (docs/diagnosis.md). Every effect is tested; the "
+        "wild bootstrap: a screen of what is worth a refit; docs/diagnosis.md says how often it is small where nothing is missing. Every effect is tested; the "
         "best are refitted together with the calibrated parameters, and what that removes "
         "is told above the floor as known in the round: for what an accepted effect removes, and its size, in the end see the missing effects.",
     )

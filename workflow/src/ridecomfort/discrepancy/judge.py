@@ -1,0 +1,264 @@
+"""From a selection of effects to the verdict that its evidence carries."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced, something_left
+from .beyond import BeyondBounds
+from .cluster import SAME_PORT
+from .experiment import Candidate, Size
+from .propose import LEVEL, SURE
+from .selection import Selection, shares
+from .tries import LEAST_MOVED
+from .verdict import Named, Verdict
+
+MOST = 0.8
+"""Share of what repeats share that an error of the measurement must take to be all that is wrong."""
+
+TOLD, LEAST_TOLD = 3, 0.001
+"""Signals of which it is told what is left, and share of their power below which it is not."""
+
+ANOTHER_SHAPE = 0.05
+"""Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
+
+
+def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[Named]:
+    """The accepted effects that are no chance and not one another in another shape."""
+    by_name = {candidate.name: candidate for candidate in candidates}
+    return _kept(selection, _found(selection, by_name), by_name)[0]
+
+
+def judge(
+    selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = (), notes: Sequence[str] = (),
+    is_material: bool = True,
+) -> Verdict:  # fmt: skip
+    """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it, ``notes`` words
+    on the road that may be otherwise than it was driven; ``is_material``: whether what repeats share is worth explaining."""
+    by_name = {candidate.name: candidate for candidate in candidates}
+    found = _found(selection, by_name)
+    effects, reasons = _kept(selection, found, by_name)
+    balance = balanced(selection, notes, is_material)
+    is_vain = bool(found) and balance.share <= 0
+    if is_vain:
+        effects, reasons, balance = [], [_vain(found)], replace(balance, share=0.0, held_out=0.0)
+    reasons += notes
+    is_little = bool(found) and balance.is_little and not is_vain
+    is_wrong, is_like_error = lambda name: by_name[name].instrument, False
+    wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
+    vehicle = [effect for effect in effects if effect not in wrong]
+    if wrong:
+        names = ", ".join(effect.name for effect in wrong)
+        # An error of the measurement that leaves much, or that drives held out refute, is what something else, not in the library, looks like.
+        is_little = is_little or balance.held_out <= 0 or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
+        if is_little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
+            # Beside what explains most, one that removes little may be a part of what is left, as any effect may.
+            is_like_error = sum(effect.share for effect in wrong) >= LITTLE * (1.0 - balance.share)
+            effects, wrong = vehicle, []
+            reasons.append(f"{names} would help, an error of the measurement that may stand in for something else")
+        else:
+            reasons.append(f"{names} is an error of the measurement, not of the vehicle")
+    decoys = any(turn.decoy_ranks for turn in selection.rounds)
+    if decoys:
+        reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
+    if wrong or decoys or suspicions:
+        said = (*reasons, *suspicions)
+        return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
+    if not is_vain:
+        reasons += _removed(balance) if found else _unfound(selection, len(candidates))
+    if is_little or balance.is_left and not effects:
+        kind = "outside"
+        reasons.append(_unexplained(selection, balance, is_little))
+    elif effects:
+        kind = "cluster" if any(effect.like for effect in effects) else "named"
+        reasons += [_alike(effect) for effect in effects if effect.like]
+    else:
+        kind = "nothing"
+        if something_left(selection):
+            reasons.append(f"repeats share an error, too small to matter or of a kind that drivers make: {selection.remaining}")
+    if effects and selection.birge_ratio > 1.0:
+        reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
+    said = (*reasons, _floor(selection))
+    left = balance.is_left, balance.is_shared
+    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error)
+
+
+def with_remainder(verdict: Verdict, remainder: Mapping[str, float]) -> Verdict:
+    """A verdict that says what share of the power of each signal is left."""
+    largest = sorted(remainder, key=lambda name: -remainder[name])[:TOLD]
+    told = [f"{100 * remainder[name]:.1f} % of the power of {name}" for name in largest if remainder[name] >= LEAST_TOLD]
+    left = " and ".join([", ".join(told[:-1]), told[-1]]) if len(told) > 1 else "".join(told)
+    words = f"left above the floor: {left}" if told else f"less than {100 * LEAST_TOLD:g} % of the power of any signal is left above the floor"
+    reasons = verdict.reasons if verdict.verdict == "suspect" else (*verdict.reasons, words)
+    return replace(verdict, reasons=reasons, remainder=dict(remainder))
+
+
+def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
+    """A verdict with the parameters of the vehicle that explain more beyond their bounds, if any: a reason more. Where they came first and
+    nothing else is missing, or nothing that drives held out confirm, what is missing is no effect of the library."""
+    if found is None:
+        return verdict
+    reasons = (*verdict.reasons, found.words(bool(verdict.effects)))
+    if found.is_first and verdict.verdict in ("named", "cluster") and verdict.held_out_share < CONFIRMED:
+        names = ", ".join(effect.name for effect in verdict.effects)
+        reasons = (*reasons, f"{names} may be what these leave: too little on drives held out to be what is missing")
+        return replace(verdict, verdict="outside", effects=(), reasons=reasons, share=0.0, held_out_share=0.0, beyond_bounds=found)
+    kind = "outside" if found.is_first and verdict.verdict == "nothing" else verdict.verdict
+    return replace(verdict, verdict=kind, reasons=reasons, beyond_bounds=found)
+
+
+def _removed(balance: Balance) -> list[str]:
+    """How much of the explainable error the effects remove, in words."""
+    held_out = [f"{_percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
+    return [f"{_percent(balance.share)} of the explainable error is removed on the fitted drives", *held_out]
+
+
+def _vain(found: Sequence[Named]) -> str:
+    """What is said of effects that each helped beside what the one before left, and in all do not."""
+    names = ", ".join(effect.name for effect in found)
+    return f"{names} helped when added, but nothing of the explainable error is removed once the vehicle's parameters are fitted anew beside it"
+
+
+def _unfound(selection: Selection, count: int) -> list[str]:
+    """Why none of ``count`` candidates was accepted, in words."""
+    first = selection.rounds[0] if selection.rounds else None
+    best = float(np.min(first.p_value)) if first is not None and first.p_value.size else 1.0
+    if best > LEVEL:
+        return [f"the best of {count} candidates has p = {best:.2g} over the whole library"]
+    return [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
+
+
+def _unexplained(selection: Selection, balance: Balance, is_little: bool) -> str:
+    """What is left beside the effects, in words; ``is_little``: whether too little was found."""
+    if not is_little and not selection.has_repeats:
+        names = ", ".join(answered(selection))
+        return f"but the error answers to {names} on drives held out, too, more than noise does, and none of them explains it"
+    if not is_little:
+        return f"but repeats share an error that no candidate explains: {selection.remaining}"
+    if balance.explained < ENOUGH:
+        return "that is less than half" + (" of what repeats share" if selection.has_repeats else "")
+    if balance.is_refuted:
+        return "too little on drives held out to be what is missing"
+    return f"but repeats share an error that it leaves: {selection.remaining}"
+
+
+def _alike(effect: Named) -> str:
+    where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like)
+    return f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}"
+
+
+def _floor(selection: Selection) -> str:
+    """What the floor is known from, in words."""
+    if selection.has_repeats:
+        return "the floor is known from repeats"
+    assumed = "assumed from the noise of the instruments" if selection.floor_squares.any() else "taken as nil"
+    return f"no drive was repeated: the floor is {assumed}"
+
+
+def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[Named], list[str]]:
+    """The effects that stand, and in words what is to be said of them and of the others."""
+    unmet = {turn.winner.name for turn in selection.rounds if turn.winner is not None and not turn.winner.met}
+    shared = not selection.has_repeats or selection.shared_z > SHARED_Z
+    kept, reasons = [], []
+    for effect in found:
+        same = _shaped_by(selection, effect, found, by_name)
+        if not any(size.key in selection.sure for size in by_name[effect.name].sizes):
+            reasons.append(f"{effect.name} helps, but its size may as well be none")
+        elif same:
+            reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
+        elif not shared and effect.p_value > SURE:
+            reasons.append(f"{effect.name} may be chance: repeats share no error for certain")
+        elif effect.name in unmet and effect.p_value > SURE:
+            reasons.append(f"{effect.name} may be chance: no drive held out meets it")
+        else:
+            kept.append(effect)
+            reasons += _set(selection, by_name[effect.name])
+            reasons += [_beyond(effect, size) for size in effect.beyond()]
+            if effect.name in unmet:
+                reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
+    return kept, reasons
+
+
+def _beyond(effect: Named, size: Mapping) -> str:
+    """What is said of a size that was plausible when its effect was found, and is not once all is fitted together."""
+    value, unit, (lower, upper) = f"{size['size']:.3g}", size["unit"], size["plausible"]
+    told = f"{effect.name} ends at a {size['parameter']} of {value} {unit}".removesuffix(" 1")
+    return f"{told}, beyond what is plausible ({lower:g} to {upper:g}): it may stand in for something beside it"
+
+
+def _set(selection: Selection, candidate: Candidate) -> list[str]:
+    """At which settings an effect was found that are not typical, nor fitted, in words."""
+    values = {size: selection.final.values.get(size.key, size.neutral) for size in candidate.shaping if size.key not in selection.intervals}
+    told = [
+        f"{size.key.partition('.')[2]} {value:.3g} {size.unit}".removesuffix(" 1")
+        for size, value in values.items()
+        if abs(value - size.neutral) > size.probe
+    ]
+    held = ", ".join(told)
+    return [f"{candidate.name} was found with {held} held, the best of a few values that were tried"] if told else []
+
+
+def _shaped_by(selection: Selection, effect: Named, found: Sequence[Named], by_name) -> str:
+    """The name of an effect found before at the same port that it is like and beside which it is small; empty where there is none."""
+    port = by_name[effect.name].port
+    turns = {turn.winner.name: turn for turn in selection.rounds if turn.winner is not None}
+    for other in found[: found.index(effect)] if port else ():
+        is_small = by_name[other.name].port == port and effect.share < ANOTHER_SHAPE * other.share
+        if is_small and turns[other.name].correlation.get(effect.name, 0.0) > SAME_PORT:
+            return other.name
+    return ""
+
+
+def _found(selection: Selection, by_name: Mapping[str, Candidate]) -> list[Named]:
+    """Those of the accepted that are among the candidates ``by_name``."""
+    return [_named(selection, number, by_name) for number, name in enumerate(selection.accepted) if name in by_name]
+
+
+def _named(selection: Selection, number: int, by_name: Mapping[str, Candidate]) -> Named:
+    turn = selection.rounds[number]
+    winner = turn.winner
+    place = turn.names.index(winner.name)
+    sizes = []
+    for size in (*by_name[winner.name].sizes, *by_name[winner.name].shaping):
+        if size.key in selection.intervals:
+            sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
+    held = [
+        _held(size, selection.final.values.get(size.key, size.neutral))
+        for size in by_name[winner.name].shaping
+        if size.key not in selection.intervals
+    ]
+    before, after = selection.states[number : number + 2]
+    like = tuple(name for name in turn.cluster if name in by_name)
+    return Named(
+        winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]),
+        *shares(selection, before, after), float(turn.absorbed[place]), like, turn.differ_on, by_name[winner.name].instrument, tuple(held),
+    )  # fmt: skip
+
+
+def _size(size: Size, value: float, interval: tuple[float, float]) -> dict:
+    return {
+        "parameter": size.key.partition(".")[2] or size.key,
+        "size": float(value),
+        "unit": size.unit,
+        "interval": [float(end) for end in interval],
+        "plausible": [float(size.lower), float(size.upper)],
+        "is_plausible": size.holds(value),
+        "is_shaping": size.shaping,
+    }
+
+
+def _held(size: Size, value: float) -> dict:
+    is_typical = abs(value - size.neutral) < LEAST_MOVED * size.probe
+    return {
+        "parameter": size.key.partition(".")[2],
+        "size": float(size.neutral if is_typical else value),
+        "unit": size.unit,
+        "is_typical": bool(is_typical),
+    }
+
+
+def _percent(share: float) -> str:
+    return f"{round(100 * share)} %" if np.isfinite(share) else "an unknown share"
