@@ -72,6 +72,18 @@ def test_an_error_of_drives_that_were_not_repeated_matters_from_some_percent_of_
     assert is_material(frame, residuals, measured) is matters
 
 
+@pytest.mark.parametrize(("channel", "size", "matters"), [("a_x", 0.006, False), ("a_x", 0.02, True), ("a_z", 0.006, True)])
+def test_what_a_foot_leaves_of_slow_longitudinal_acceleration_does_not_matter_however_little_else_there_is(channel, size, matters):
+    """Two repeats that share ``size`` m/s2 rms at 1.2 to 2.4 Hz, a third of the power there."""
+    record = Record("drive", "fit", "road", "usual", RATE, (0.8, 40.0), 0.2 * np.arange(6000), 20.0)
+    frame = SimpleNamespace(experiment=SimpleNamespace(records=[record, record], channels=(channel,)), indices=[0, 1], all_cleaned=dict)
+    shared, own = band(np.random.default_rng(3).standard_normal((2, 1, 6000)), RATE, (1.2, 2.4))
+    fast = np.random.default_rng(4).standard_normal((1, 6000))  # of the signal alone
+    residuals = dict.fromkeys((0, 1), size * shared / shared.std())
+    measured = dict.fromkeys((0, 1), size * (shared / shared.std() + np.sqrt(2.0) * own / own.std() + 0.1 * fast))
+    assert is_material(frame, residuals, measured) is matters
+
+
 class Plain:
     """Series that are white and clean already."""
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced, something_left
+from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced
 from .beyond import BeyondBounds
 from .cluster import SAME_PORT
 from .experiment import Candidate, Size
@@ -77,8 +77,8 @@ def judge(
         reasons += [_alike(effect) for effect in effects if effect.like]
     else:
         kind = "nothing"
-        if something_left(selection):
-            reasons.append(f"repeats share an error, too small to matter or of a kind that drivers make: {selection.remaining}")
+    if kind != "outside" and balance.is_shared and not balance.is_left:
+        reasons.append(f"repeats share an error, too small to matter or of a kind that drivers make: {selection.remaining}")
     if effects and selection.birge_ratio > 1.0:
         reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
     said = (*reasons, _floor(selection))
