@@ -138,7 +138,7 @@ def test_the_values_of_a_sequence_that_is_left_out_are_refused(road, nominal):
 def test_a_roll_centre_below_the_road_has_bounds_in_order(road, nominal):
     low = nominal.replace(roll_centre_height_front=-0.1)
     bounds = calibrate._bounds(low, ["roll_centre_height_front"], {})
-    assert bounds["roll_centre_height_front"] == [-0.2, -0.05]
+    assert bounds["roll_centre_height_front"] == (-0.2, -0.05)
 
 
 def test_chosen_starts_lead_to_the_same_fit_and_are_kept(road, nominal):

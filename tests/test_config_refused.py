@@ -100,6 +100,22 @@ def test_mistake_on_the_command_line(project, change, said):
         config.load({"sites": ["own"], **change}, project, given=["runs"])
 
 
+def test_a_vehicle_outside_of_the_bounds_it_would_be_calibrated_in_is_refused_with_bounds_that_are_taken(project):
+    """Calibrated in those of the paper's car, a van would be another one, for which effects would make up."""
+    (project / "drive.csv").write_text(HEADER)
+    write(project, "own", {"road": {"file": "road.crg"}, "vehicle": "van", "drives": [DRIVE]})
+    with pytest.raises(InputError, match="calibration: bounds") as refused:
+        config.load({"sites": ["own"]}, project)
+    said, _, wanted = str(refused.value).partition(", such as ")
+    assert "config/vehicles/van.yaml has spring_stiffness_rear" not in said and "tyre_radial_stiffness 212642, tyre_radial_damping 200" in said
+    assert wanted == "tyre_radial_stiffness: [106000, 425000], tyre_radial_damping: [100, 400]"
+    config.load({"sites": ["own"], "calibration": {"bounds": yaml.safe_load("{" + wanted + "}")}}, project)
+    # What nobody calibrates may be anything, and so may a vehicle that was not measured.
+    config.load({"sites": ["own"], "calibration": {"parameters": ["tyre_friction"]}}, project)
+    write(project, "own", {"road": {"file": "road.crg"}, "vehicle": "van"})
+    config.load({"sites": ["own"]}, project)
+
+
 SITE_MISTAKES = [
     ({"road": {"file": "gone.crg"}}, "road: file: no such file 'gone.crg'"),
     ({"rode": {"file": "road.crg"}}, "'rode'"),

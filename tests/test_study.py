@@ -46,9 +46,10 @@ def test_without_calibration_the_drives_of_one_vehicle_are_diagnosed_together(pr
     write(project, "checked", {**site, "drives": [{**DRIVE, "role": "check"}]})
     write(project, "fitted", site)
     write(project, "of_a_van", {**site, "vehicle": "van"})
-    study = config.load({"sites": ["checked", "of_a_van", "fitted"]}, project)
+    bounds = {"spring_stiffness_rear": [20000, 78000], "tyre_radial_stiffness": [106000, 425000], "tyre_radial_damping": [100, 7000]}
+    study = config.load({"sites": ["checked", "of_a_van", "fitted"], "calibration": {"bounds": bounds}}, project)
     assert study.diagnosed == ["of_a_van"]
-    study = config.load({"sites": ["checked", "fitted", "of_a_van"]}, project)
+    study = config.load({"sites": ["checked", "fitted", "of_a_van"], "calibration": {"bounds": bounds}}, project)
     assert study.diagnosed == ["fitted", "checked"]
     study = config.load({"sites": ["checked"]}, project)
     assert study.diagnosed == [] and not study.forward

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pytest
 
 from ridecomfort.discrepancy import beyond, diagnose, opening, rung, select
@@ -73,3 +75,23 @@ def test_an_effect_that_is_missing_beside_a_wrong_file_is_named_alone(car):
     (damping,) = verdict.beyond_bounds.parameters
     assert damping.parameter == "damping_front" and holds(damping, 1.45 * car["damping_front"])
     assert any("other shares are of what they leave" in reason for reason in verdict.reasons)
+
+
+@pytest.mark.parametrize(
+    ("alone", "kept", "whole", "is_told"),
+    [(-0.1, 1, 0.99, True), (-0.1, 1, 0.97, False), (-0.1, 2, 0.99, False), (0.3, 2, 0.99, False), (0.97, 0, 0.97, True)],
+)
+def test_a_wrong_file_is_told_of_which_fewer_effects_leave_half(monkeypatch, alone, kept, whole, is_told):
+    """Two effects remove 95 %. Parameters, put right, remove ``alone``, and with the ``kept`` effects ``whole``: beside one that does nearly
+    all, a wrong damper is but some percent, most of which a knee of the dampers takes."""
+    before = SimpleNamespace(accepted=("roll_centre_height", "damper_knee"), states=(0.0, 0.75, 0.95), frame=SimpleNamespace(experiment=None))
+    after = SimpleNamespace(
+        accepted=before.accepted[:kept], states=(alone, whole), frame=before.frame, final=SimpleNamespace(values={}), intervals={}
+    )
+    damping = beyond.Beyond("damping_rear", "N s/m", 2230.0, (1895.5, 2564.5), (631.8, 7693.5), 1193.0, (1182.0, 1204.0))
+    monkeypatch.setattr(beyond, "shares", lambda selection, first, last, *others: (last - first, last - first))
+    monkeypatch.setattr(beyond, "_beyond", lambda *found: (damping,))
+    told = beyond.searched(before, after)
+    assert (told is not None) is is_told
+    if told is not None and alone < 0.0:
+        assert told.words(True).startswith("beside what is missing, parameters of the vehicle lie beyond their bounds: damping_rear 1190 N s/m for 2230")

@@ -7,7 +7,7 @@ from copy import copy
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy.rung import climb, final_fit
+from ridecomfort.discrepancy.rung import awake, climb, final_fit
 
 from .linear import Linear
 
@@ -37,11 +37,20 @@ def test_a_size_that_ended_where_it_starts_is_fitted_from_far_off_too():
     assert fit.values[KEY] == pytest.approx(2.5, abs=0.05)
 
 
+def test_it_is_so_before_the_next_effect_is_looked_for():
+    model = Bent(3)
+    sizes = [*model.free, model.candidates[2].sizes[0]]
+    rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes)
+    assert awake(rung, sizes, model.free) is rung  # of other sizes none sleeps
+    assert awake(rung, sizes, model.candidates[2].sizes).fit.values[KEY] == pytest.approx(2.5, abs=0.05)
+
+
 def test_where_nil_is_best_it_stays():
     model = Linear(3, {})
     sizes = [*model.free, model.candidates[2].sizes[0]]
-    fit, _ = final_fit(climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes), sizes)
-    assert fit.values[KEY] == pytest.approx(0.0, abs=0.1)
+    rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes)
+    fit, _ = final_fit(rung, sizes)
+    assert fit.values[KEY] == pytest.approx(0.0, abs=0.1) and awake(rung, sizes, model.candidates[2].sizes) is rung
 
 
 class Held(Linear):

@@ -362,9 +362,7 @@ def _bounds(vehicle, parameters: Sequence[str], given: Mapping[str, Sequence[flo
     for name in parameters:
         if name not in PARAMETERS:
             raise InputError(f"unknown parameter {name!r}; known are {', '.join(PARAMETERS)}", place="parameters")
-        span = PARAMETERS[name]
-        wide = sorted(min(max(factor * vehicle[name], span.lower), span.upper) for factor in (0.5, 2.0))
-        bounds[name] = given.get(name, BOUNDS.get(name, wide))
+        bounds[name] = given.get(name, BOUNDS.get(name, vehicle.about(name)))
     return {**bounds, **{name: pair for name, pair in given.items() if "." in name}}
 
 

@@ -14,7 +14,7 @@ from .drive import readers, units
 from .effects import library
 from .errors import InputError
 from .road import checks
-from .schema import read_yaml, validate
+from .schema import as_written, read_yaml, validate
 from .study import DATA, NO_CALIBRATION, VEHICLES, Study, has_fit
 from .vehicle import parameters
 from .vocabulary import CALIBRATED
@@ -62,6 +62,7 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
     _check_parameters(settings["calibration"], _source("calibration", given))
     _check_uncertain(settings["diagnosis"]["uncertain"], settings["calibration"]["parameters"], _source("diagnosis", given))
     _check_vehicles(study, given)
+    _check_bounds(study, given)
     _check_width(study, given)
     _check_calibrations(study)
     _check_handed_in(study)
@@ -221,6 +222,26 @@ def _check_vehicles(study: Study, given: list[str]) -> None:
             source = SITES / f"{name}.yaml" if "vehicle" in site else _source("vehicle", given)
             raise InputError(f"unknown vehicle {file.stem!r}; known vehicles: {known}", file=source, place="vehicle")
         parameters.read(file)
+
+
+def _check_bounds(study: Study, given: list[str]) -> None:
+    """Every vehicle that is calibrated lies within the bounds: one beyond them would be another car, for which effects would make up."""
+    block = study.settings["calibration"]
+    for name, site in study.sites.items():
+        if not has_fit(site):
+            continue
+        vehicle = parameters.read(study.folder / study.vehicle(name))
+        known = {key: block["bounds"][key] for key in block["parameters"] if key in block["bounds"]}
+        # A value of nil, as of a tyre without damping, is one that nobody knows.
+        beyond = [key for key, (lower, upper) in known.items() if vehicle[key] and not lower <= vehicle[key] <= upper]
+        if beyond:
+            values = ", ".join(f"{key} {vehicle[key]:g}" for key in beyond)
+            wanted = ", ".join("{}: [{}, {}]".format(key, *map(as_written, vehicle.about(key))) for key in beyond)
+            raise InputError(
+                f"{study.vehicle(name)} has {values}, outside of these, expected bounds that hold them, such as {wanted}",
+                file=_source("calibration", given),
+                place="calibration: bounds",
+            )
 
 
 def _check_width(study: Study, given: list[str]) -> None:

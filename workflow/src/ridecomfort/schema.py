@@ -84,6 +84,11 @@ def load(kind: str) -> Mapping:
     return yaml.safe_load((SCHEMAS / f"{kind}.yaml").read_text(encoding="utf-8"))
 
 
+def as_written(number: float) -> str:
+    """A number to three digits as a configuration takes it: YAML reads one with an exponent and no point as text."""
+    return str(_plain(float(f"{number:.3g}")))
+
+
 def _ascending(validator, wanted, instance, schema):
     numbers = [value for value in instance if isinstance(value, (int, float))] if isinstance(instance, list) else []
     if wanted and numbers != sorted(numbers):

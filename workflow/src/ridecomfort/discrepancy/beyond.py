@@ -29,8 +29,9 @@ ANY = 3.0
 LEAST_SHARE = 0.05
 """Share of the explainable error that must go for them to be worth a word."""
 
-LEFT = 0.75
-"""Share of what effects leave of the explainable error that parameters alone may leave at most to take their place."""
+LEFT, CLOSER = 0.75, 0.5
+"""Shares of what effects leave of the explainable error that parameters alone, and parameters with fewer effects, may leave at most to take
+their place: beside an effect that does nearly all, what a wrong damper does is little, and another effect stands in for that."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,8 @@ class BeyondBounds:
         )
         held_out = f", {100 * self.held_out_share:.0f} % on drives held out," if np.isfinite(self.held_out_share) else ""
         share = f"{100 * self.share:.0f} % of the explainable error{held_out} goes with parameters of the vehicle beyond their bounds: {names}"
+        if self.is_first and not _is_enough((self.share, self.held_out_share)):
+            return f"beside what is missing, parameters of the vehicle lie beyond their bounds: {names}; shares are of what they leave"
         if self.is_first:
             return f"{share}; other shares are of what they leave"
         return f"another {share}" if is_more else share
@@ -118,13 +121,17 @@ def without_effects(rung: Rung, each: Callable = map) -> Rung | None:
 def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     """Parameters beyond their bounds, found by the search ``after``, which allowed that. None unless they alone explain a share that is worth
     a word, at least one lies outside of its bounds, and the model is better than that of the search ``before``, which kept to them: by
-    such a share, or by parameters that alone leave no more than LEFT of what all effects did.
+    such a share, or by parameters that alone leave no more than LEFT of what all effects did. Or with fewer effects it leaves no more than
+    CLOSER of what those did, whatever the parameters do alone.
     """
     gained = shares(before, before.states[-1], after.states[-1], after)
     alone = shares(before, before.states[0], after.states[0], after)
     effects = shares(before, before.states[0], before.states[-1], after)
-    is_simpler = not any(1.0 - ours > LEFT * (1.0 - theirs) for ours, theirs in zip(alone, effects))
-    if not _is_enough(alone) or not (_is_enough(gained) or is_simpler):
+    whole = shares(before, before.states[0], after.states[-1], after)
+    leaves = lambda ours, most: not any(1.0 - own > most * (1.0 - theirs) for own, theirs in zip(ours, effects))
+    is_fewer = len(after.accepted) < len(before.accepted)
+    is_better = _is_enough(alone) and (_is_enough(gained) or leaves(alone, LEFT))
+    if not (is_better or is_fewer and leaves(whole, CLOSER)):
         return None
     parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
     return BeyondBounds(parameters, *alone, is_first=True) if parameters else None

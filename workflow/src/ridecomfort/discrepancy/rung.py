@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -116,11 +116,28 @@ def final_fit(rung: Rung, sizes: Sequence[Size], each: Callable = map) -> tuple[
         raw = _near(start, sizes, raw, each)
         fit, frame = _at_own_spectrum(start, sizes, raw)
     free = {size.key for size in rung.experiment.free}
-    for size in sizes:
-        way = abs(fit.values.get(size.key, size.neutral) - size.neutral)
-        if size.key not in free and size.sign and not size.shaping and way < ASLEEP * (size.upper - size.lower):
-            fit = min(fit, _woken(start.experiment, frame, fit, sizes, size, raw), key=lambda one: one.loss)
+    for size in _asleep(fit, (size for size in sizes if size.key not in free)):
+        fit = min(fit, _woken(start.experiment, frame, fit, sizes, size, raw), key=lambda one: one.loss)
     return fit, frame
+
+
+def awake(rung: Rung, sizes: Sequence[Size], newest: Sequence[Size], each: Callable = map) -> Rung:
+    """The rung with all ``sizes`` fitted from far off one of the ``newest`` that ended where it starts, where that is better; else the same.
+
+    Before the next effect is looked for: what such a size would do, another effect stands in for (for the longitudinal relaxation of tyres,
+    wheels that recede).
+    """
+    for size in _asleep(rung.fit, newest):
+        fit = _woken(rung.experiment, rung.frame, rung.fit, sizes, size, rung.raw)
+        if fit.loss < rung.fit.loss - MOVED * len(sizes):
+            rung = climb(rung.experiment, fit.values, sizes, each, before=rung)
+    return rung
+
+
+def _asleep(fit: Fit, sizes: Iterable[Size]) -> list[Size]:
+    """The sizes that can be larger only and ended where they start."""
+    way = lambda size: abs(fit.values.get(size.key, size.neutral) - size.neutral)
+    return [size for size in sizes if size.sign and not size.shaping and way(size) < ASLEEP * (size.upper - size.lower)]
 
 
 def _near(start: _Aligned, sizes: Sequence[Size], raw: Raw, each: Callable) -> Raw:

@@ -21,7 +21,7 @@ from .experiment import Candidate, Experiment
 from .probe import Job, Raw
 from .propose import HELD_OUT_Z, Proposal, propose
 from .refit import Fit
-from .rung import Rung, begin, climb, final_fit, roles
+from .rung import Rung, awake, begin, climb, final_fit, roles
 from .selection import Round, Selection, State, Trial
 from .shared import Shared, shared_error
 from .tries import LEAST_MOVED, Tries, implausible, own_sizes
@@ -138,6 +138,7 @@ class _Search:
             self.rung = climb(
                 self.rung.experiment, turn.winner.fit.values, self._sizes(), self.each, before=self.rung
             )
+            self.rung = awake(self.rung, self._sizes(), self.by_name[turn.winner.name].sizes, self.each)
             self.sooner, _ = self._sooner()
             states.append(self._state(turn.winner.name, self.rung.fit, self.rung.check))
         rung = self.rung

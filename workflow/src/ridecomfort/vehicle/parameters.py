@@ -74,6 +74,12 @@ class Vehicle:
             _check(name, value, None)
         return Vehicle(self.name, MappingProxyType({**self.values, **values}), self.sources)
 
+    def about(self, parameter: str) -> tuple[float, float]:
+        """Half and twice the value of a parameter, as far as it is plausible, the lower one first."""
+        span = PARAMETERS[parameter]
+        lower, upper = sorted(min(max(factor * self[parameter], span.lower), span.upper) for factor in (0.5, 2.0))
+        return lower, upper
+
 
 def read(path) -> Vehicle:
     """A vehicle from its YAML file: for each parameter ``{value, unit, source}``.

@@ -8,6 +8,7 @@ from pathlib import Path
 from ...discrepancy.balance import LITTLE
 from ...discrepancy.select import EQUAL
 from ...effects import library
+from ...schema import as_written
 from ...study import BASE, JOIN
 from ...vehicle.parameters import PARAMETERS
 from ..study import Diagnosis
@@ -86,7 +87,7 @@ def library_helps(verdict: Mapping) -> bool:
 def farther(beyond: Mapping) -> str:
     """What to do where parameters of the vehicle want to lie beyond their bounds."""
     names = ", ".join(one["parameter"] for one in beyond["parameters"])
-    bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(_written, _farther(one))) for one in beyond["parameters"])
+    bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(as_written, _farther(one))) for one in beyond["parameters"])
     return (
         f"First of all: if the vehicle's file may be that wrong, have it calibrated: let calibration: parameters in config/study.yaml hold {names}, "
         f"too, and calibration: bounds {bounds}; then compare and diagnose again. If it cannot be, they stand in for something else."
@@ -97,11 +98,6 @@ def _farther(one: Mapping) -> tuple[float, float]:
     """Bounds to calibrate a parameter in: a value at the end of the wider ones that were tried wants to go on, as far as any vehicle does."""
     known = PARAMETERS[one["parameter"]]
     return max(min(one["wider"][0], 0.5 * one["value"]), known.lower), min(max(one["wider"][1], 2.0 * one["value"]), known.upper)
-
-
-def _written(number: float) -> str:
-    """A number of three digits as a configuration takes it, which reads one with an exponent and no point as text."""
-    return f"{float(f'{number:.3g}'):f}".rstrip("0").rstrip(".")
 
 
 def _left(verdict: Mapping) -> str:
