@@ -38,6 +38,25 @@ def test_an_error_that_is_even_along_the_road_has_no_stretch(located):
     assert "all along the road" in findings.words(even)[0]
 
 
+def test_an_error_at_many_places_is_not_said_to_be_everywhere(located):
+    """Bends, gear changes or patches of another surface: every eighth stretch."""
+    patchy = located.copy(deep=True)
+    share = patchy["power_share"].values
+    patches = np.arange(share.shape[1]) % 8 == 0
+    share[...] = share.sum(axis=1, keepdims=True) * (patches / patches.sum())[:, None]
+    found = findings.findings(patchy)[0]
+    assert found.stretch is None and found.least == pytest.approx(0.1)
+    assert "at many places, half of it on 10 % of the road" in findings.words(patchy)[0]
+
+
+def test_a_band_below_the_floor_makes_no_other_more_than_all_of_the_error(located):
+    below = located.copy(deep=True)
+    share = below["power_share"]
+    signal, _, band = np.unravel_index(share.values.argmax(), share.shape)
+    share[signal, :, (band + 1) % share.sizes["band"]] = -0.5 * share.values.sum()
+    assert findings.findings(below)[0].explainable_share <= 1.0
+
+
 def test_low_classes_are_said_with_the_other_word(located):
     turned = located.sel(condition=["speed"])
     turned = turned.assign({key: turned[key].isel({"class": slice(None, None, -1)}) for key in ("condition_error", "condition_measured")})

@@ -119,7 +119,7 @@ def test_it_is_said_how_the_floor_is_known(tables, study):
 
 def test_findings_are_numbered_alike_in_table_and_figure(tables, drawn, study):
     site = study.sites[0]
-    words = [text.get_text() for text in drawn["located_ts1"].findobj(Text)]
+    words = [" ".join(text.get_text().split()) for text in drawn["located_ts1"].findobj(Text)]
     for number, each in enumerate(findings.findings(site.comparison), start=1):
         row = next(row for row in rows(tables["findings"]) if row["site"] == "Ts1" and row["number"] == number)
         assert row["power_pct"] == pytest.approx(100 * each.power_share)

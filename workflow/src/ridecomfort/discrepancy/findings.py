@@ -22,8 +22,8 @@ OF_A_SIGNAL = 2
 HALF = 0.5
 """Share of an error that the stretch of road named for it holds."""
 
-EVERYWHERE = 0.35
-"""Share of the road from which on an error counts as spread all along it."""
+EVERYWHERE, PATCHY = 0.35, 0.2
+"""Share of the road from which on one stretch that holds HALF of an error says nothing, and up to which many that do are told to be few."""
 
 PREVAILING, HELD, LEAST = 2.0, 0.1, 0.1
 """How many times as large as below an edge an error is beside the signal above it (or the other way round) for that to be named; the least
@@ -60,16 +60,18 @@ CONDITIONS: dict[str, tuple[Callable[[float], str], Callable[[float], str]]] = {
 
 @dataclass(frozen=True)
 class Finding:
-    """An error above the floor: its signal, band in Hz, the stretch in m that holds half of it (None: all along the road).
+    """An error above the floor: its signal, band in Hz, the stretch in m that holds half of it (None: no short one does), and the ``least``
+    share of the road, in stretches wherever they are, that does.
 
     ``when`` is the condition under which it is largest beside the signal, in words (empty: none); ``power_share`` is over the
-    signal's measured power, ``explainable_share`` over its error above the floor in all bands.
+    signal's measured power, ``explainable_share`` over its error in all bands that lie above the floor.
     """
 
     signal: str
     lower: float
     upper: float
     stretch: tuple[float, float] | None
+    least: float
     when: str
     power_share: float
     explainable_share: float
@@ -78,7 +80,7 @@ class Finding:
     def where(self) -> str:
         """The stretch in words."""
         if self.stretch is None:
-            return "all along the road"
+            return "all along the road" if self.least > PATCHY else f"at many places, half of it on {100 * self.least:.0f} % of the road"
         return "half of it at {:.2f}-{:.2f} km".format(*(place / 1000 for place in self.stretch))
 
     def words(self) -> str:
@@ -95,6 +97,8 @@ def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
     OF_A_SIGNAL each; the largest alone, from LEAST_NAMED on, where none does."""
     share = located["power_share"].values
     whole = share.sum(axis=1)
+    above = np.maximum(whole, 0.0).sum(axis=1, keepdims=True)  # a band that came out below the floor takes nothing off
+    explainable = whole / np.where(above > 0.0, above, np.inf)
     found = []
     for signal, band in sorted(np.ndindex(whole.shape), key=lambda key: -whole[key]):
         if not whole[signal, band] >= (NAMED if found else LEAST_NAMED) or len(found) == count:
@@ -103,10 +107,10 @@ def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
         if sum(finding.signal == name for finding in found) == OF_A_SIGNAL:
             continue
         lower, upper = (float(located[f"band_{end}"][band]) for end in ("lower", "upper"))
-        explainable = float(located["explainable_share"][signal, :, band].sum())
-        place = _stretch(located, np.maximum(share[signal, :, band], 0.0))
+        along = np.maximum(share[signal, :, band], 0.0)
         lower = max(lower, LOWEST_OF_DRIVER.get(name, lower))
-        found.append(Finding(name, lower, upper, place, _when(located, signal, band), float(whole[signal, band]), explainable))
+        parts = float(whole[signal, band]), float(explainable[signal, band])
+        found.append(Finding(name, lower, upper, _stretch(located, along), _least(along), _when(located, signal, band), *parts))
     return found
 
 
@@ -134,6 +138,12 @@ def _stretch(located: xr.Dataset, share: np.ndarray) -> tuple[float, float] | No
             first = int(sums.argmax())
             return float(located["stretch_start"][first]), float(located["stretch_end"][first + length - 1])
     return None
+
+
+def _least(share: np.ndarray) -> float:
+    """The least part of the stretches that holds HALF of an error."""
+    held = np.cumsum(np.sort(share)[::-1])
+    return (int(np.searchsorted(held, HALF * held[-1])) + 1) / len(share)
 
 
 def _when(located: xr.Dataset, signal: int, band: int) -> str:

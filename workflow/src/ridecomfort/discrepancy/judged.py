@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
+from scipy.fft import dct, idct
 
 LOWEST = 0.8
 """Hz; slower errors are drifts of instruments and what the driver makes of the path."""
@@ -23,9 +24,7 @@ def lowest(signals: Sequence[str]) -> np.ndarray:
 
 def judged(series: np.ndarray, rate: float, signals: Sequence[str]) -> np.ndarray:
     """Series (..., signal, sample) at ``rate`` Hz without what is too slow to say something of the vehicle."""
-    bins = np.fft.rfft(series, axis=-1)
-    frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
-    return np.fft.irfft(np.where(frequency >= lowest(signals)[:, None], bins, 0.0), series.shape[-1], axis=-1)
+    return _kept(series, rate, lambda frequency: frequency >= lowest(signals)[:, None])
 
 
 AGAINST = -0.3
@@ -59,7 +58,11 @@ def doubt(name: str, found: float, times: float) -> str:
 
 def band(series: np.ndarray, rate: float, edges: tuple[float, float]) -> np.ndarray:
     """Series (..., sample) at ``rate`` Hz with nothing left outside of a band (Hz)."""
-    bins = np.fft.rfft(series, axis=-1)
-    frequency = np.fft.rfftfreq(series.shape[-1], 1.0 / rate)
-    kept = (frequency >= edges[0]) & (frequency < edges[1])
-    return np.fft.irfft(np.where(kept, bins, 0.0), series.shape[-1], axis=-1)
+    return _kept(series, rate, lambda frequency: (frequency >= edges[0]) & (frequency < edges[1]))
+
+
+def _kept(series: np.ndarray, rate: float, is_kept: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """Series with the frequencies (Hz) that are kept alone, as if they went on mirrored at their ends: braking from one end to the other,
+    repeated, would be a jump of all frequencies."""
+    frequency = 0.5 * rate * np.arange(series.shape[-1]) / series.shape[-1]
+    return idct(np.where(is_kept(frequency), dct(series, axis=-1), 0.0), axis=-1)

@@ -60,7 +60,8 @@ def located(study: Difference, site: str) -> Figure:
         frequency, above = _above(own)
         colours = {"cmap": "YlOrBr", "norm": LogNorm(PALEST, DARKEST)}
         image = left.pcolormesh(place, frequency, np.maximum(above, PALEST).T, **colours, shading="nearest", rasterized=True)
-        left.set_title(f"in all {max(100 * float(own['power_share'].sum()), 0.0):.1f} % of the signal's power", loc="right", fontsize=7)
+        whole = np.maximum(own["power_share"].sum("stretch").values, 0.0).sum()
+        left.set_title(f"in all {100 * whole:.1f} % of the signal's power", loc="right", fontsize=7)
         left.set_yscale("log")
         left.set_ylim(BANDS[0][0], BANDS[-1][1])
         left.set_yticks([1, 2, 5, 10, 20, 40], ["1", "2", "5", "10", "20", "40"])
