@@ -230,7 +230,7 @@ def test_what_shapes_an_effect_and_was_held_is_told_with_its_value():
     held = {"parameter": "knee_velocity", "size": 0.1, "unit": "m/s", "is_typical": True}
     found = made_up.diagnosis({**made_up.VERDICT, "effects": [{**made_up.VERDICT["effects"][0], "held": [held]}]})
     (row,) = [row for row in rows(diagnosed.tables(found)["missing_effects"]) if row["parameter"] == "knee velocity"]
-    assert (row["size"], row["unit"], row["plausible"], row["interval_lower"]) == (0.1, "m/s", "as is typical", None)
+    assert (row["size"], row["unit"], row["plausible"], row["interval_lower"]) == (0.1, "m/s", "typical: the drives ask for no other", None)
 
 
 def looked_for_any_form() -> Diagnosis:

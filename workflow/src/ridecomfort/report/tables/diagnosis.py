@@ -27,7 +27,7 @@ SUSPECT = "The data are suspect: what stands here explains their error as they a
 FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
 """What is said where those are all that was found."""
 
-HELD = {True: "as is typical", False: "held, the best of a few"}
+HELD = {True: "typical: the drives ask for no other", False: "held, the best of a few"}
 """What is said of what only shapes an effect, by whether it is as is typical, where the drives did not ask for another value."""
 
 STRONGEST = 12
