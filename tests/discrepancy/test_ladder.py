@@ -82,6 +82,21 @@ def test_a_signal_at_its_floor_has_nothing_left_to_tell():
     assert found["left"].isnull().all()
 
 
+def test_a_signal_at_its_floor_does_not_count_among_all_signals_either():
+    """A rung that lowers its floor by a thousandth would else count what the uncalibrated vehicle made worse of it."""
+
+    def of_two(own, other, floor=1.0):
+        quiet = comparison(*other, floor=floor).assign_coords(signal=["a_y"])
+        return xr.concat([comparison(*own), quiet], "signal", data_vars="minimal", join="outer")
+
+    models = {"base": of_two((9.0, 5.0), (3.0, 1.001)), "one": of_two((9.0, 3.0), (3.0, 0.999), floor=0.998)}
+    graded = {name: sections((0, 0, 0, 0), (0, 0, 0, 0)) for name in models}
+    for names, titles in ((["base"], []), (["base", "one"], ["+ one"])):
+        found = ladder({"ts1": Measured({name: models[name] for name in names}, graded, True)}, names, titles)
+        assert found["left"].sel(signal="a_y").isnull().all()
+        assert found["left_overall"].sel(group="fitted").values[:2, 0] == pytest.approx([2.0, 1.0])
+
+
 def test_repeats_say_how_well_a_perfect_model_could_agree():
     one = sections((0, 0, 0, 0), (0, 0, 0, 0), groups=(2, 2))
     one["grade"][0, 0, 1, 0] = 1  # the second repeat is graded otherwise by thresholds in one section of four

@@ -36,7 +36,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     ``signal``: ``nrmse`` of the whole error; of what is judged (``judged.judged``) ``rmse`` and ``floor_rmse``, the least
     that is known from any rung (mean over drives of the square, as root), and ``left``, the mean square above the floor
     over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor;
-    ``left_overall`` weighs each signal by what was explainable of its own error. Over ``method`` in place of signal: numbers
+    ``left_overall`` weighs each of these signals by what was explainable of its own error. Over ``method`` in place of signal: numbers
     of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
     ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
     Nan where there is no such drive, rung or repeat.
@@ -70,9 +70,9 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     visible = start > VISIBLE * (start + floor_squares)
     share = start / (start + floor_squares)
     left = np.where(visible, above / np.where(visible, start, 1.0), np.nan)
-    weight = np.where(np.isfinite(share), share, 0.0)
+    weight = np.where(visible, share, 0.0)
     total = weight.sum(axis=-1)
-    overall = np.sum(weight * above / np.where(start > 0, start, np.inf), axis=-1) / np.where(total > 0, total, np.nan)
+    overall = np.sum(np.where(visible, weight * left, 0.0), axis=-1) / np.where(total > 0, total, np.nan)
     over = ("rung", "site", "group")
     return xr.Dataset(
         {
