@@ -36,6 +36,17 @@ def test_the_missing_effect_is_named_measured_and_confirmed_on_the_held_out_driv
     assert selection.final.values["stiffness"] == pytest.approx(0.7, abs=0.05)
 
 
+def test_an_effect_that_stood_in_for_two_others_is_not_named_beside_them():
+    """effect_0 does nearly what effect_1 and effect_2, which are missing, do together: it comes first, and is nil once they are there."""
+    model = Linear(1, {"effect_1.size": 2.0, "effect_2.size": 2.0})
+    for columns in model.columns[2:]:  # those of all repeats are one
+        columns["effect_0.size"] = columns["effect_0.size"] + columns["effect_1.size"] + columns["effect_2.size"]
+    selection, found = judged(model)
+    assert selection.accepted[0] == "effect_0" and abs(selection.final.values["effect_0.size"]) < 0.05
+    assert {effect.name for effect in found.effects} == {"effect_1", "effect_2"}
+    assert "effect_0 helps, but its size may as well be none" in found.reasons
+
+
 def test_a_size_that_ends_beyond_what_is_plausible_is_a_reason_more():
     """It was plausible when its effect was found; what is fitted beside it may have moved it since."""
     model = Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0})

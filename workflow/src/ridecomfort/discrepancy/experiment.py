@@ -197,6 +197,10 @@ class Frame:
             numbers.append(np.tile(own, len(self.experiment.channels)))
         return np.concatenate(numbers)
 
+    def price(self) -> float:
+        """Fall of the white loss that one more number must make up for (BIC): a block of the road counts as one observation."""
+        return float(np.log(len(np.unique(self.blocks()))))
+
     def drives(self) -> np.ndarray:
         """Number of the record of every element of ``flat``."""
         channels = len(self.experiment.channels)

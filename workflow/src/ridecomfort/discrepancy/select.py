@@ -17,7 +17,7 @@ from ..errors import InputError
 from . import cluster, event, floor, probe, realign, refit
 from . import experiment as exp
 from .consistency import birge_ratio
-from .experiment import Candidate, Experiment
+from .experiment import Candidate, Experiment, Frame
 from .probe import Job, Raw
 from .propose import HELD_OUT_Z, Proposal, propose
 from .refit import Fit
@@ -155,7 +155,7 @@ class _Search:
         strict = refit.intervals(final, frame, sizes, held=True)
         sure = {size.key for size in sizes if not strict[size.key][0] <= size.neutral <= strict[size.key][1]}
         for turn in rounds:  # what gains that much is there, even where parameters that may be wrong leave its size open
-            if turn.winner is not None and turn.is_large:
+            if turn.winner is not None and turn.is_large and self._is_needed(turn.winner.name, final, frame):
                 sure |= {size.key for size in self.by_name[turn.winner.name].sizes}
         return Selection(
             tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
@@ -166,6 +166,21 @@ class _Search:
     def _sizes(self) -> list[exp.Size]:
         """All that is fitted: what is free, and of the accepted effects sizes and shapes."""
         return [*self.rung.experiment.free, *(size for name in self.accepted for size in own_sizes(self.by_name[name], self.shaped))]
+
+    def _is_needed(self, name: str, final: Fit, frame: Frame) -> bool:
+        """Whether the last model without an effect, all others fitted anew, is worse by more than its sizes are worth (BIC).
+
+        One that was found before another may have stood in for it, and be nothing beside it.
+        """
+        own = [size.key for size in own_sizes(self.by_name[name], self.shaped)]
+        rest = [size for size in self._sizes() if size.key not in own]
+        columns = dict(zip(final.keys, final.columns))
+        without = {key: value for key, value in final.values.items() if key not in own}
+        try:
+            fit = refit.refit(frame.experiment, frame, without, rest, {size.key: columns[size.key] for size in rest})
+        except (InputError, ValueError):
+            return True
+        return fit.loss - final.loss > len(own) * frame.price()
 
     def _state(self, name: str, fit: Fit, check) -> State:
         return State(name, fit, *self.rung.squares(fit, check))

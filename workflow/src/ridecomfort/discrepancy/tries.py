@@ -187,19 +187,15 @@ class Tries:
             return False
         free = evidence.basis(np.stack([columns[size.key] for size in fitted]))
         extra = evidence.basis(evidence.without(np.stack([columns[size.key] for size in more]), free))
-        return bool(np.sum((extra @ frame.flat(fit.residuals)) ** 2) > len(more) * self._price())
+        return bool(np.sum((extra @ frame.flat(fit.residuals)) ** 2) > len(more) * self.rung.frame.price())
 
     def _trial(self, candidate: Candidate, shape: Mapping[str, float], fit: Fit, more: int = 0) -> Trial:
         """What a refit gains on the drives that it was fitted to, ``more`` parameters than sizes fitted; the others have not been asked."""
         frame = self.rung.frame
         gain = refit.information(frame, fit.residuals) - self.likely
-        bic = gain - (len(candidate.sizes) + more) * self._price()
+        bic = gain - (len(candidate.sizes) + more) * frame.price()
         unknown = (float("nan"),) * 4
         return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
-
-    def _price(self) -> float:
-        """Gain that one parameter must make up for (BIC)."""
-        return float(np.log(len(np.unique(self.rung.frame.blocks()))))
 
     def _count(self) -> float:
         """Independent values in the band of the fitted records and channels."""
