@@ -49,14 +49,6 @@ def test_an_error_at_many_places_is_not_said_to_be_everywhere(located):
     assert "at many places, half of it on 10 % of the road" in findings.words(patchy)[0]
 
 
-def test_a_band_below_the_floor_makes_no_other_more_than_all_of_the_error(located):
-    below = located.copy(deep=True)
-    share = below["power_share"]
-    signal, _, band = np.unravel_index(share.values.argmax(), share.shape)
-    share[signal, :, (band + 1) % share.sizes["band"]] = -0.5 * share.values.sum()
-    assert findings.findings(below)[0].explainable_share <= 1.0
-
-
 def test_low_classes_are_said_with_the_other_word(located):
     turned = located.sel(condition=["speed"])
     turned = turned.assign({key: turned[key].isel({"class": slice(None, None, -1)}) for key in ("condition_error", "condition_measured")})

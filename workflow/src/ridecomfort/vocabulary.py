@@ -123,7 +123,7 @@ VARIABLES = _table(
     ("band_floor", "1", "mean square of the floor over all of the road, in the unit of the signal squared"),
     ("measured_power", "1", "mean square of the measured signal, in the unit of the signal squared"),
     ("power_share", "1", "mean square error above the floor over that of the measured signal in all bands"),
-    ("explainable_share", "1", "mean square error above the floor over its sum"),
+    ("explainable_share", "1", "mean square error above the floor over its sum in the bands that lie above it"),
     ("error_map", "1", "power spectral density of the error, in the unit of the signal squared per Hz"),
     ("floor_density", "1", "power spectral density of the floor, in the unit of the signal squared per Hz"),
     ("measured_density", "1", "power spectral density of the measured signal, in its unit squared per Hz"),

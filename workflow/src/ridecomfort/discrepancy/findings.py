@@ -97,8 +97,7 @@ def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
     OF_A_SIGNAL each; the largest alone, from LEAST_NAMED on, where none does."""
     share = located["power_share"].values
     whole = share.sum(axis=1)
-    above = np.maximum(whole, 0.0).sum(axis=1, keepdims=True)  # a band that came out below the floor takes nothing off
-    explainable = whole / np.where(above > 0.0, above, np.inf)
+    explainable = located["explainable_share"].values.sum(axis=1)
     found = []
     for signal, band in sorted(np.ndindex(whole.shape), key=lambda key: -whole[key]):
         if not whole[signal, band] >= (NAMED if found else LEAST_NAMED) or len(found) == count:

@@ -60,7 +60,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     ``state``: whose residuals, by default the last. Powers are mean squares, in the unit of the signal squared and over all
     drives, of what is judged (``judged.judged``):
     ``error_power(signal, stretch, band)`` and ``floor_power`` of the floor there; ``power_share``, the error above the
-    floor over the signal's measured power in all bands, and ``explainable_share``, over its own sum; ``error_map(signal, s_map,
+    floor over the signal's measured power in all bands, and ``explainable_share``, over its own in all bands above the floor; ``error_map(signal, s_map,
     frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; by classes of equal duration
     of a ``condition`` (SI units; edges in ``condition_edge``, means in ``condition_level``) ``condition_error`` and
     ``condition_measured(condition, class, signal, band)``, the floor of which is
@@ -84,7 +84,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     powers = [[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives]
     measured = np.average(powers, axis=0, weights=[len(d.place) for d in drives]).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
-    whole = above.sum(axis=(1, 2), keepdims=True)
+    whole = np.maximum(above.sum(axis=1, keepdims=True), 0.0).sum(axis=2, keepdims=True)  # bands below the floor take nothing off
     conditions, condition_edges, levels, by_condition = _conditions(drives, bands)
     places, frequency, density = _map([(d.place, d.error) for d in drives], rate)
     if noise:

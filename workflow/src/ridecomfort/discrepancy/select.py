@@ -155,8 +155,9 @@ class _Search:
         strict = refit.intervals(final, frame, sizes, held=True)
         sure = {size.key for size in sizes if not strict[size.key][0] <= size.neutral <= strict[size.key][1]}
         for turn in rounds:  # what gains that much is there, even where parameters that may be wrong leave its size open
-            if turn.winner is not None and turn.is_large and self._is_needed(turn.winner.name, final, frame):
-                sure |= {size.key for size in self.by_name[turn.winner.name].sizes}
+            if turn.winner is not None and turn.is_large:
+                own = {size.key for size in self.by_name[turn.winner.name].sizes}
+                sure |= own if own & sure or self._is_needed(turn.winner.name, final, frame) else set()
         return Selection(
             tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,

@@ -38,7 +38,7 @@ OF_SIGNAL = 0.05
 
 LIKELY = 4.0
 """z of what repeats share in a band from which on it may be worth explaining: of some hundred and fifty bands one has 3 by chance in every fifth
-trial. One of a signal that hardly is there, yaw rate at 20 Hz, is a hundredth of a percent of it."""
+trial, and of a signal that hardly is there, yaw rate at 20 Hz, such a one was 2e-5 rad/s."""
 
 STRETCH, FEW, PLACED = 20.0, 0.1, 5.0
 """m of road whose errors are taken together, share of the road that may hold half of an error for its places to be told, and z from which on
