@@ -10,19 +10,18 @@ import xarray as xr
 
 from .. import simulate as simulator
 from ..calibrated import with_values
-from ..drive.replay import Replay, Simulated
+from ..drive.replay import PATH_BANDWIDTH, Replay, Simulated, smooth
+from ..drive.sampling import rate_of
+from ..drive.steered import Steered
 from ..effects import library
 from ..effects.contract import COMPILED
 from ..vocabulary import SIGNALS
 from . import nuisances
 from .experiment import Candidate, Record, Size, by_record
 
-ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
-"""m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected, and how often that is done."""
-
-REPEATED = (ASTRAY | {"lateral": 0.0015}, 3), ({"speed": 0.0025, "lateral": 0.0004}, 6)
-"""Both for drives that repeat one another, while sizes are fitted and where drivers are brought to the measured speed and path. What is
-left of a bend is the same in all repeats, and a millimetre of path once in 2 s is as much side acceleration as the noise of an instrument."""
+ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.005}, 2
+"""m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected while sizes are fitted, and how often
+that is done. What is missing of the path then is made good without driving again."""
 
 LONGEST = 0.002
 """s; in such steps most changes of a drive differ by less than half a percent from those in steps of 1 ms."""
@@ -44,6 +43,8 @@ class Car:
     each_record: Callable = map
     exactness: Mapping[int, np.ndarray] = field(default_factory=dict)
     """By record, what a residual (6, sample) lacks because the step of integration is not nil."""
+    steered: Mapping[int, Steered | None] = field(default_factory=dict)
+    """By record, how it answers to the path that its driver is asked for."""
     driven: Mapping[int, tuple[Mapping[str, float], Simulated]] = field(default_factory=dict)
     """By record, the values at which its replay was driven last, and what the model did."""
 
@@ -57,39 +58,32 @@ class Car:
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """Simulated minus measured signals (6, sample) behind the run-in of the model."""
-        again, run = self._driven(values, index)
-        return self._residual(index, again, again.sample(run))
+        again, run, astray = self._driven(values, index, ASTRAY, CORRECTED)
+        return self._residual(index, again, again.sample(run), astray)
 
-    def _residual(self, index: int, again: Replay, simulated: Simulated) -> np.ndarray:
-        return again.residual(simulated)[:, again.compared] + self.exactness.get(index, 0.0)
+    def _residual(self, index: int, again: Replay, simulated: Simulated, astray: Mapping[str, np.ndarray]) -> np.ndarray:
+        return self._on_path(index, again, simulated, astray) + self.exactness.get(index, 0.0)
+
+    def _on_path(self, index: int, again: Replay, simulated: Simulated, astray: Mapping[str, np.ndarray]) -> np.ndarray:
+        """A residual (6, sample) as it would be had the driver kept to the measured path to the last millimetre."""
+        residual, steered = again.residual(simulated)[:, again.compared], self.steered.get(index)
+        return residual if steered is None else residual + steered.made_good(astray["lateral"])
 
     def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
         """What the model does on a drive."""
         known, simulated = self.driven.get(index, (None, None))
         if known == dict(values):
             return simulated
-        again, run = self._driven(values, index)
+        again, run, _ = self._driven(values, index, ASTRAY, CORRECTED)
         return again.sample(run)
 
-    def _driven(self, values: Mapping[str, float], index: int, closely: bool = False) -> tuple[Replay, xr.Dataset]:
-        """A drive along the measured path at the measured speed, with the replay whose driver did so.
+    def _driven(self, values: Mapping[str, float], index: int, *limits) -> tuple[Replay, xr.Dataset, dict[str, np.ndarray]]:
+        """A drive along the measured path at the measured speed, the replay whose driver did so, and what he was still off by.
 
         An effect that moves a vehicle aside makes it meet another road, unless its driver makes up for it as the measured one did.
         """
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        again, effects = self.replays[index], {**self.quiet, **effects}
-        run = again.run(vehicle, effects)
-        allowed, rounds = REPEATED[closely] if self._is_repeated(index) else (ASTRAY, CORRECTED)
-        for _ in range(rounds):
-            astray = again.astray(run)
-            if all(np.sqrt(np.mean(missing[again.compared] ** 2)) < allowed[name] for name, missing in astray.items()):
-                break
-            again = again.corrected(astray)
-            run = again.run(vehicle, effects)
-        return again, run
-
-    def _is_repeated(self, index: int) -> bool:
-        return sum(record.condition == self.records[index].condition for record in self.records) > 1
+        return self.replays[index].driven(vehicle, {**self.quiet, **effects}, *limits)
 
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """What alignment and the road's file leave open of a record, (direction, 6, sample)."""
@@ -121,27 +115,29 @@ class Car:
         0.05 percent of the power of a_y is enough to pass for tyres that envelop 6 cm.
         """
 
-        def driven(index: int) -> tuple[Replay, Simulated, np.ndarray | float]:
-            again, run = self._driven(values, index, closely=True)
+        def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float]:
+            again, run, astray = self._driven(values, index)
             simulated = again.sample(run)
-            return again, simulated, self._missing(values, again, simulated) if exactly else self.exactness.get(index, 0.0)
+            residual = self._on_path(index, again, simulated, astray)
+            return again, simulated, residual, self._missing(values, index, again, residual) if exactly else self.exactness.get(index, 0.0)
 
         found = by_record(self, driven, indices)
         retuned = replace(
             self,
             replays=[found[index][0] if index in found else again for index, again in enumerate(self.replays)],
-            exactness={**self.exactness, **{index: missing for index, (_, _, missing) in found.items()}},
-            driven={**self.driven, **{index: (dict(values), simulated) for index, (_, simulated, _) in found.items()}},
+            exactness={**self.exactness, **{index: missing for index, (*_, missing) in found.items()}},
+            driven={**self.driven, **{index: (dict(values), simulated) for index, (_, simulated, *_) in found.items()}},
         )
-        return retuned, {index: retuned._residual(index, again, simulated) for index, (again, simulated, _) in found.items()}
+        return retuned, {index: residual + missing for index, (_, _, residual, missing) in found.items()}
 
-    def _missing(self, values: Mapping[str, float], again: Replay, simulated: Simulated) -> np.ndarray | float:
-        """What a residual (6, sample) lacks because the step of integration is not nil."""
+    def _missing(self, values: Mapping[str, float], index: int, again: Replay, residual: np.ndarray) -> np.ndarray | float:
+        """What a ``residual`` (6, sample) lacks because the step of integration is not nil."""
         fine = _stepped(again, 0.5)
         if fine is again:
             return 0.0
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        return 4.0 / 3.0 * (fine(vehicle, {**self.quiet, **effects}).signals - simulated.signals)[:, again.compared]
+        run = fine.run(vehicle, {**self.quiet, **effects})
+        return 4.0 / 3.0 * (self._on_path(index, fine, fine.sample(run), fine.astray(run)) - residual)
 
     def taking(self, other: Car, indices: Collection[int]) -> Car:
         """The same with these records as ``other`` has them."""
@@ -175,10 +171,10 @@ class Car:
             later, left = nuisances.slow(found, again.place[kept])
             shift = np.interp(again.time, again.time[kept], later)
             place = np.interp(again.time - shift, again.time, again.place)
-            lateral, u = again.demand["lateral"], again.demand["speed"]["u"].values
-            aside = xr.DataArray(np.interp(u, again.place[kept], left), {"u": u}, "u")
-            drive = again.drive.assign(e=again.drive["e"] - np.interp(again.time, again.time[kept], left))
-            replays[index] = replace(again, drive=drive, place=place, demand={**again.demand, "lateral": lateral - aside})
+            aside = np.interp(again.time, again.time[kept], left)
+            drive = again.drive.assign(e=again.drive["e"] - aside)
+            nearer = replace(again, drive=drive, place=place)
+            replays[index] = nearer.corrected({"lateral": -smooth(aside, rate_of(again.time), PATH_BANDWIDTH)})
             records[index] = replace(records[index], place=place[kept])
         driven = {index: known for index, known in self.driven.items() if index not in amounts}
         return replace(self, replays=replays, records=records, driven=driven)

@@ -56,7 +56,7 @@ def diagnose(
     proposal = None
     if is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
         beside = experiment.candidates if verdict.verdict in ("named", "cluster", "outside") else ()
-        proposal = discovered(rung, name=name, known=beside, **common)
+        proposal = discovered(rung, name=name, known=beside, probed=selection.probed, **common)
         table = with_forms(table, proposal.evidence)
         verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, surely_fits_better(proposal, selection))
         if not (table.attrs["turns"] or table.attrs["road"]):

@@ -24,6 +24,7 @@ from .judge import ANOTHER_SHAPE, standing
 from .made import beside
 from .meanings import such_as
 from .places import FORCE, LINEAR, PLACES, parameter, scale, settings
+from .probe import Job, Raw
 from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
@@ -111,9 +112,10 @@ def discover(
 
 def discovered(
     rung: Rung, *, name: str = "discovered", effects_folder=None, most: int = TERMS, seed: int = 0, each: Callable = map,
-    say: Callable[[str], None] = lambda words: None, known: Sequence[Candidate] = (),
+    say: Callable[[str], None] = lambda words: None, known: Sequence[Candidate] = (), probed: Mapping[Job, Raw] = {},
 ) -> Discovery:  # fmt: skip
-    """``discover`` from the ``rung`` of a calibrated model; ``known``: effects of the library that may be missing, too.
+    """``discover`` from the ``rung`` of a calibrated model; ``known``: effects of the library that may be missing, too, with their
+    columns where these are ``probed``.
 
     These are looked for at the same time, and one that explains as much as a term goes before it: with the larger of two that are missing left
     out, the other is not seen, or stood in for.
@@ -125,7 +127,7 @@ def discovered(
         rung = replace(rung, experiment=rung.experiment.looking_for([*known, *terms], folder))
         selection = search(
             rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
-            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known},
+            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed,
         )  # fmt: skip
     return replace(proposed(selection, name, known), evidence=dataset(rung.experiment, selection))
 

@@ -14,6 +14,7 @@ from ..calibrated import apply
 from ..drive.record import unstack
 from ..drive.replay import Replay, replay
 from ..drive.sampling import rate_of
+from ..drive.steered import steered
 from ..effects import library
 from ..effects.contract import COMPILED
 from ..vehicle.parameters import PARAMETERS
@@ -111,10 +112,11 @@ def car(
         free += [replace(size, neutral=effects[effect.name][size.key.partition(".")[2]]) for size in own.sizes]
     wanted = [name for name in sorted(known if library_names is None else library_names) if name not in effects]
     candidates = tuple(candidate(known[name].effect) for name in wanted)
+    quiet = {name: known[name].effect.neutral for name in wanted if known[name].effect.port in COMPILED}
+    answers = each_record(lambda again: steered(again, vehicle, {**quiet, **effects}), replays)
     return Car(
         _records(sites, fitted_on, replays, noise_density or {}), replays, vehicle, effects, tuple(free),
-        tuple(c for c in candidates if c.sizes),
-        {name: known[name].effect.neutral for name in wanted if known[name].effect.port in COMPILED}, each_record=each_record,
+        tuple(c for c in candidates if c.sizes), quiet, each_record=each_record, steered=dict(enumerate(answers)),
     )  # fmt: skip
 
 

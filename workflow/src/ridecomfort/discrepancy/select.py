@@ -90,14 +90,15 @@ def search(
     say: Callable[[str], None] = lambda words: None,
     few: float = event.FEW,
     simpler: Collection[str] = (),
+    probed: Mapping[Job, Raw] = {},
 ) -> Selection:
     """Find up to ``most`` missing effects from a ``rung``.
 
     ``each`` maps a function over candidates (``map`` or that of a pool); ``together`` says whether a candidate may follow those
     accepted, by their names; ``say`` is told what goes on; ``few``: as for ``propose``. ``simpler``: names that go before any other which
-    explains hardly more.
+    explains hardly more. ``probed``: columns of candidates that are known from a search from the same rung.
     """
-    return _Search(rung, most, seed, each, together, say, few, simpler).run()
+    return _Search(rung, most, seed, each, together, say, few, simpler, probed).run()
 
 
 @dataclass
@@ -110,6 +111,7 @@ class _Search:
     say: Callable
     few: float = event.FEW
     simpler: Collection[str] = ()
+    probed: Mapping[Job, Raw] = field(default_factory=dict)
     accepted: list[str] = field(default_factory=list)
     shaped: set[str] = field(default_factory=set)
     """Keys of what shapes accepted effects and is fitted."""
@@ -161,7 +163,7 @@ class _Search:
         return Selection(
             tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,
-            rung.check_frame, wider,
+            rung.check_frame, wider, self.probed,
         )  # fmt: skip
 
     def _sizes(self) -> list[exp.Size]:
@@ -193,8 +195,10 @@ class _Search:
     def _probe(self, residuals: Mapping[int, np.ndarray]) -> dict[Job, Raw]:
         """Change of the ``residuals`` in longer steps per probe of every size of every candidate and shape, in single precision."""
         jobs = [(c.name, shape) for c in self.rung.experiment.candidates for shape in range(len(c.shapes))]
-        results = self.each(probe.Probe(self.sooner, self.rung.fit.values, residuals), jobs)
-        kept = {job: found for job, found in zip(jobs, results) if found}
+        unknown = [job for job in jobs if job not in self.probed]
+        found = self.each(probe.Probe(self.sooner, self.rung.fit.values, residuals), unknown)
+        self.probed = {**self.probed, **dict(zip(unknown, found))}
+        kept = {job: self.probed[job] for job in jobs if self.probed[job]}
         alias = {name for name, candidate in self.by_name.items() if candidate.instrument or candidate.port == "road"}
         least = lambda name: ALIAS if name in alias else LEAST_OWN
         return {job: found for job, found in kept.items() if self.rung.frame.own_shares(list(found.values())).max() > least(job[0])}

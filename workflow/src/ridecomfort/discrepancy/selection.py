@@ -9,6 +9,7 @@ import numpy as np
 
 from . import floor
 from .experiment import Frame
+from .probe import Job, Raw
 from .refit import Fit
 from .rung import Rung
 from .shared import Shared
@@ -104,6 +105,8 @@ class Selection:
     """...and their frame; none without such records."""
     birge_ratio: float = 1.0
     """Times by which those drives miss the sizes beyond the errors of both, and by which the intervals are widened (``consistency``)."""
+    probed: Mapping[Job, Raw] = field(default_factory=dict)
+    """Change of the residuals of the rung that it began from per probe of every size of the candidates."""
 
 
 def shares(selection: Selection, before: State, after: State, *others: Selection | Rung) -> tuple[float, float]:

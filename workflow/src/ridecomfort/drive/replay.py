@@ -15,7 +15,7 @@ import xarray as xr
 from scipy.signal import butter, sosfiltfilt, welch
 
 from ..errors import InputError
-from ..vehicle.driver import PREVIEW_TIME, path_demand
+from ..vehicle.driver import path_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from .record import upward
 from .sampling import rate_of, resampled, resampled_slopes
@@ -38,17 +38,16 @@ CLOCK_LEFT = 1e-3
 """s that alignment may be off by. A model is compared at its best clock within it and not beyond: a delay of
 3 ms looks like a damping of the tyre, and a wrong damping like a delay."""
 
-TUNING_STEPS, SPEED_BANDWIDTH, PATH_BANDWIDTH = 3, 0.4, 0.4
-"""Rounds, and Hz up to which a driver model's delay is made up for. What is faster in a recorded speed is mostly noise,
-and in a path the vehicle does it by itself."""
+SPEED_BANDWIDTH, PATH_BANDWIDTH = 0.4, 0.4
+"""Hz up to which a driver model's delay is made up for. What is faster in a recorded speed is mostly noise, and in a path the
+vehicle does it by itself."""
+
+CLOSE, CORRECTIONS = {"speed": 0.0025, "lateral": 0.0004}, 6
+"""m/s and m (rms) that a driver who is brought to the measured speed and path may miss them by, and how often at most he is
+corrected for that. A millimetre of path once in 2 s is as much side acceleration as the noise of an instrument."""
 
 SPEED_WINDOW, SPEED_NOISE = 10.0, (2.0, 0.1)
 """s of the spectra of a recorded speed, and from which Hz to which share of its rate it holds nothing of the driver."""
-
-LOOK_AHEAD = {"speed": 0.0, "lateral": PREVIEW_TIME}
-"""s that a correction is asked for before the place where it is to be driven: a driver who steers for a point ahead
-is late by about as long, and corrections that are late by a quarter of a period no longer converge. Unlike those
-of ``path_demand`` they have no second derivative, in which noise of the path would shake the vehicle."""
 
 OVERHANG = 4.0
 """m at the ends of the road where one of the axles, or its contact, would leave it."""
@@ -90,6 +89,8 @@ class Replay:
     time: np.ndarray
     place: np.ndarray
     compared: np.ndarray
+    is_late: bool = True
+    """Whether the driver comes to a path some time after it is asked for, as one who steers for a point ahead does."""
 
     def __call__(self, vehicle, effects=(), clock: float = 0.0) -> Simulated:
         """Simulate and sample at equal place. Raises InputError when the model does not arrive."""
@@ -123,10 +124,35 @@ class Replay:
         A driver model follows what it is asked for with a delay of its own; half a percent of speed is
         half a percent of every frequency.
         """
-        tuned = self
-        for _ in range(TUNING_STEPS):
-            tuned = tuned.corrected(tuned.astray(tuned.run(vehicle, effects)))
-        return tuned
+        return self.driven(vehicle, effects)[0]
+
+    def driven(
+        self, vehicle, effects=(), allowed: Mapping[str, float] = CLOSE, corrections: int = CORRECTIONS
+    ) -> tuple[Replay, xr.Dataset, dict[str, np.ndarray]]:
+        """The same with its driver corrected, so many times at most, until he is off by less than is ``allowed`` (rms, by quantity), the
+        simulated drive on its own clock, and by how much he is still ``astray``."""
+        run = self.run(vehicle, effects)
+        found = self, run, self.astray(run)
+        for _ in range(corrections):
+            again, _, astray = found
+            if all(again._missed(astray, name) < allowed[name] for name in astray):
+                break
+            nearer = again._nearer(astray, vehicle, effects)
+            if "lateral" in astray and again._missed(nearer[2], "lateral") > again._missed(astray, "lateral"):
+                plainly = replace(again, is_late=False)._nearer(astray, vehicle, effects)
+                if again._missed(plainly[2], "lateral") > 0.5 * again._missed(astray, "lateral"):
+                    break
+                nearer = plainly
+            found = nearer
+        return found
+
+    def _nearer(self, astray: Mapping[str, np.ndarray], vehicle, effects) -> tuple[Replay, xr.Dataset, dict[str, np.ndarray]]:
+        again = self.corrected(astray)
+        run = again.run(vehicle, effects)
+        return again, run, again.astray(run)
+
+    def _missed(self, astray: Mapping[str, np.ndarray], name: str) -> float:
+        return float(np.sqrt(np.mean(astray[name][self.compared] ** 2)))
 
     def astray(self, run: xr.Dataset) -> dict[str, np.ndarray]:
         """By how much a simulated drive was too slow (m/s) and too far right (m) at the measured instants, slowly changing, (time,).
@@ -139,16 +165,18 @@ class Replay:
         for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
             missing = self.drive[name].values - np.interp(self.place, travelled, run[name].values)
             if np.isfinite(missing).all():
-                found[quantity] = smooth(missing, rate, bandwidth)
+                found[quantity] = smooth(missing, rate, bandwidth, order=4)
         return found
 
-    def corrected(self, astray: Mapping[str, np.ndarray]) -> Replay:
-        """The same, asking the driver for as much more as is missing."""
+    def corrected(self, missing: Mapping[str, np.ndarray]) -> Replay:
+        """The same, asking the driver for so much more speed (m/s), and for a path so much farther left (m), at the measured instants."""
         demand = dict(self.demand)
         u = demand["speed"]["u"].values
-        for quantity, missing in astray.items():
-            asked = np.interp(self.time - LOOK_AHEAD[quantity], self.time, self.place)
-            demand[quantity] = demand[quantity] + xr.DataArray(np.interp(u, asked, missing), {"u": u}, "u")
+        for quantity, more in missing.items():
+            if quantity == "lateral" and self.is_late:
+                speed = np.interp(self.place, u, demand["speed"].values)
+                more = path_demand(more, 1 / rate_of(self.time), speed)
+            demand[quantity] = demand[quantity] + xr.DataArray(np.interp(u, self.place, more), {"u": u}, "u")
         return replace(self, demand=demand)
 
     def aside(self, vehicle, effects=(), step: float = 0.02) -> np.ndarray:
@@ -267,14 +295,14 @@ def _continued(u: np.ndarray, place: np.ndarray, speed: np.ndarray, rate: float)
     return np.clip(target, 0.8 * speed.min(), 1.2 * speed.max())
 
 
-def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH) -> np.ndarray:
-    """Low-passed without delay (Butterworth of second order, forwards and backwards)."""
-    return sosfiltfilt(_low_pass(bandwidth, rate), values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
+def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH, order: int = 2) -> np.ndarray:
+    """Low-passed without delay (Butterworth, forwards and backwards)."""
+    return sosfiltfilt(_low_pass(bandwidth, rate, order), values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
 
 
 @lru_cache(maxsize=256)  # asked for after every simulated drive
-def _low_pass(bandwidth: float, rate: float) -> np.ndarray:
-    return butter(2, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
+def _low_pass(bandwidth: float, rate: float, order: int) -> np.ndarray:
+    return butter(order, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
 
 
 def speed_bandwidth(speed: np.ndarray, rate: float) -> float:
