@@ -13,7 +13,8 @@ from ridecomfort.discrepancy.car import LONGEST
 from ridecomfort.discrepancy.discover import Discovery, may_follow, proposed
 from ridecomfort.discrepancy.experiment import Candidate
 from ridecomfort.discrepancy.form import effect_source, in_words
-from ridecomfort.discrepancy.places import AXLES, PLACES, TURNING, WHEELS, WHOLE, scale, settings
+from ridecomfort.discrepancy.places import PLACES, scale, settings
+from ridecomfort.discrepancy.terms import AXLES, TURNING, WHEELS, WHOLE
 from ridecomfort.discrepancy.verdict import Named
 from ridecomfort.effects import library
 

@@ -9,9 +9,6 @@ import pytest
 
 from ridecomfort.discrepancy import evidence, judge, select, tries
 from ridecomfort.discrepancy.experiment import Size
-from ridecomfort.discrepancy.propose import CERTAIN
-from ridecomfort.discrepancy.rung import begin
-from ridecomfort.discrepancy.selection import Trial
 from ridecomfort.errors import InputError
 
 from .coloured import coloured
@@ -69,17 +66,6 @@ def test_what_white_noise_would_do_as_well_is_not_named_however_well_places_agre
     monkeypatch.setattr(evidence, "score_test", as_in_white_noise)
     selection, found = judged(Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0}))
     assert not found.effects and (selection.rounds[0].p_value >= 0.2).all()
-
-
-@pytest.mark.parametrize(("met", "share", "is_kept"), [(True, 0.03, True), (False, 0.03, False), (False, 0.3, True)])
-def test_what_no_held_out_drive_meets_must_remove_more(met, share, is_kept):
-    model = Linear(1, {"effect_2.size": 1.0})
-    search = select._Search(begin(model, {"stiffness": 0.0}), 1, 0, map, lambda first, other: True, print)
-    nothing = float("nan")
-    fit = replace(search.rung.fit, values={"stiffness": 0.0, "effect_2.size": 1.0})
-    trial = Trial("effect_2", {}, fit, 100.0, 90.0, nothing, nothing, share, nothing, "", met=met)
-    objection = search._objection(trial, model.candidates[2], False, 1.0)
-    assert objection == ("" if is_kept else "removes 3.0 % of the explainable error, and no drive held out meets it")
 
 
 def test_an_error_of_the_measurement_is_suspect_by_name_unless_drives_held_out_refute_it():
@@ -261,58 +247,6 @@ def test_what_adds_little_at_the_same_port_may_be_another_shape_of_what_it_is_li
     assert {e.name for e in found("", 0.7).effects} == both
     alike = found("suspension", 0.7)
     assert len(alike.effects) == 1 and any("another shape" in reason for reason in alike.reasons)
-
-
-def weakly_held_out(seed, is_there=True):
-    """The trial of an effect that fitted drives leave no doubt of, and of which the one held out has little, or nothing."""
-    model = Linear(seed, {"effect_2.size": 0.3})
-    model.columns[3] = {key: 0.15 * column for key, column in model.columns[3].items()}
-    if not is_there:
-        model.noise[3] = model.noise[3] + 0.3 * model.columns[3]["effect_2.size"]
-    return next(trial for trial in rounds(model, 1)[0].trials if trial.name == "effect_2")
-
-
-def test_where_the_held_out_drive_is_too_weak_to_decide_a_fall_beyond_chance_confirms_what_the_others_leave_no_doubt_of():
-    trials = [weakly_held_out(seed) for seed in range(1, 13)]
-    accepted = [trial for trial in trials if not trial.objection]
-    assert all(trial.held_out_gain > 0 and trial.held_out_z > 0 for trial in accepted)
-    assert len(accepted) > 6 and any(trial.held_out_z < select.HELD_OUT_Z for trial in accepted)
-    assert sum(not weakly_held_out(seed, is_there=False).objection for seed in range(1, 25)) <= 3
-
-
-def test_a_fall_confirms_a_first_effect_and_a_later_one_only_where_the_held_out_drive_is_weak(monkeypatch):
-    monkeypatch.setattr(select, "WEAK", 0.0)
-
-    def objections(number, truth):
-        """Of effect_4 in a round, where the fitted drives leave no doubt of it and the weak one held out says yes without being sure."""
-        for seed in range(1, 13):
-            model = Linear(seed, truth)
-            weak = lambda key: 0.07 if key == "effect_4.size" else 1.0
-            model.columns[3] = {key: weak(key) * column for key, column in model.columns[3].items()}
-            turn = rounds(model, number + 1)[number]
-            for trial in turn.trials:
-                is_certain = turn.p_value[turn.names.index(trial.name)] <= CERTAIN
-                if trial.name == "effect_4" and is_certain and 0 < trial.held_out_z < select.HELD_OUT_Z:
-                    if trial.held_out_gain > 0 and trial.held_out_share > 0:
-                        yield trial.objection
-
-    assert set(objections(0, {"effect_4.size": 0.5})) == {""}
-    assert set(objections(1, {"effect_1.size": 1.0, "effect_4.size": 0.5})) == {"not surely better on drives held out"}
-
-
-def a_trial(name, bic, held_out_gain, held_out_z, held_out_share, objection=""):
-    return Trial(name, {}, None, bic, bic, held_out_gain, held_out_z, 0.5, held_out_share, objection)
-
-
-def test_what_drives_held_out_confirm_goes_first_unless_another_explains_more_of_all_of_them():
-    sure = a_trial("sure", 850.0, 180.0, 3.4, 0.3)
-    much = a_trial("much", 3200.0, 610.0, 1.9, 0.7)
-    assert select._best([sure, much]) is much
-    for less in ({"bic": 800.0}, {"held_out_gain": 170.0}, {"held_out_share": 0.2}, {"objection": "not plausible"}):
-        assert select._best([sure, replace(much, **less)]) is sure
-    more = a_trial("more", 4000.0, 500.0, 1.8, 0.6)
-    assert select._best([more, sure, much]) is more
-    assert select._best([]) is None
 
 
 def test_what_is_simpler_goes_before_what_explains_hardly_more():

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from ..effects.contract import PORTS
 from .experiment import Candidate, Size
-from .places import AXLES, FORCE, SIDE
+from .places import FORCE
+from .terms import AXLES, SIDE
 
 LINE, LEVEL = "line", "level"
 """What of a curve no drive knows: its value at rest and a line through it, or its level alone."""

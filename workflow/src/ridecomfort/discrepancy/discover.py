@@ -23,12 +23,13 @@ from .form import effect_source, in_words
 from .judge import ANOTHER_SHAPE, standing
 from .made import beside
 from .meanings import such_as
-from .places import FORCE, LINEAR, PLACES, parameter, scale, settings
+from .places import FORCE, PLACES, parameter, scale, settings
 from .probe import Job, Raw
 from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection, shares
+from .terms import LINEAR
 from .verdict import Named, plain
 
 TERMS = 3

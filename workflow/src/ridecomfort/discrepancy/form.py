@@ -6,7 +6,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from .places import AXLES, FORCE, LINEAR, PLACES, WHEELS, Term, expression, parameter, scale, settings
+from .places import FORCE, PLACES, expression, parameter, scale, settings
+from .terms import AXLES, LINEAR, WHEELS, Term
 
 WIDTH = 3.0
 """Times its estimate that a factor which was found may plausibly be."""

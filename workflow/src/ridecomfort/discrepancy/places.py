@@ -1,4 +1,4 @@
-"""Where a force that is in no library may act, and the terms it may be made of."""
+"""Where a force that is in no library may act, and the terms that it may be made of there."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from types import SimpleNamespace
 import numpy as np
 
 from ..effects.contract import Parameter
-from ..effects.lag import SHORTEST
+from .terms import (
+    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, TURNING, WHOLE, State, Term, below, beyond, on_spring, setting, sliding, swinging,
+)  # fmt: skip
 
 FORCE = 30.0
 """N (or N m) that a term is probed with at typical motion."""
@@ -24,57 +26,6 @@ STRONGEST_OF_LINKS = 600.0
 CORNERING, MASS, INCLINED = 8e4, 1500.0, 1000.0
 """N that a slip (or an angle of the wheels) of one would make at typical stiffness, that an acceleration of one stands for, and what a wheel
 makes that moves aside, fore or aft as far as it rises."""
-
-FASTEST = round(1.0 / (2.0 * pi * SHORTEST), 1)
-"""Hz up to which a low-pass can be integrated. One that is faster differs from the slower one by damping, or by the size of its factor,
-which are fitted anyway."""
-
-AXLES = ("front", "rear")
-
-WHOLE = ("",)
-
-WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
-
-TURNING = tuple(f"{wheel}_{wave}" for wheel in WHEELS for wave in ("cosine", "sine"))
-"""Parts of what comes and goes as a wheel turns, from an angle of its own."""
-
-SIDE = "(1.0 - 2.0 * (wheel % 2))"
-"""1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
-
-
-LINEAR = Parameter("linear", "1", 0.0, 0.0, (-3.0, 3.0), "linear part beside it, in shares of it at typical motion")
-"""What lets a force take the place of a spring or damper of a vehicle, of which calibration changes no more than is plausible."""
-
-
-def _setting(name: str, unit: str, typical: float, lower: float, upper: float, meaning: str) -> Parameter:
-    return Parameter(name, unit, typical, typical, (lower, upper), meaning)
-
-
-@dataclass(frozen=True)
-class State:
-    """What a force remembers: its ``name``, its ``slope`` (an expression, per second), and a ``typical`` value."""
-
-    name: str
-    slope: str
-    typical: float
-
-
-@dataclass(frozen=True)
-class Term:
-    """A part of a force: its ``expression`` in what the place sees, its own ``states`` and ``settings``, the ``unit`` of its factor, the
-    ``result`` it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force
-    on the body acts ``ahead`` (m, an expression) of the centre of gravity where that is given. ``beside``: what it may be linear in, too;
-    ``turn``: the angle that the parts of TURNING are cosine and sine of."""
-
-    expression: str
-    unit: str
-    result: str = "force"
-    parts: tuple[str, ...] = AXLES
-    states: tuple[State, ...] = ()
-    settings: tuple[Parameter, ...] = ()
-    ahead: str = ""
-    beside: str = ""
-    turn: str = ""
 
 
 @dataclass(frozen=True)
@@ -90,59 +41,6 @@ class Place:
     worth: Mapping[str, float] = field(default_factory=dict)
     strongest: float = STRONGEST
 
-
-def _below(expression: str, beside: str = "") -> Term:
-    """Velocity through a low-pass of first order, ``slow``: what creeps beside a spring; without the velocity itself, what gives way in
-    series with a damper."""
-    frequency = _setting("frequency", "Hz", 10.0, 1.0, FASTEST, "frequency that it follows up to")
-    return Term(
-        expression, "N s/m", states=(State("slow", f"{2 * pi:.4f} * frequency * (velocity - slow)", 0.1),), settings=(frequency,), beside=beside
-    )
-
-
-def _sliding(expression: str, unit: str, beside: str) -> Term:
-    """The direction of motion, which ``strain`` follows over some millimetres; no faster than the step of the kernel bears."""
-    presliding = _setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")
-    strain = State("strain", "(velocity - abs(velocity) * strain) / (presliding + 0.003 * abs(velocity))", 1.0)
-    return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
-
-
-def _beyond(expression: str, *clearances: float, unit: str = "N/m", beside: str = "deflection") -> Term:
-    """What acts from a deflection on: a typical clearance, the least and the largest."""
-    clearance = _setting("clearance", "m", *clearances, "deflection from which on it acts")
-    return Term(expression, unit, settings=(clearance,), beside=beside)
-
-
-def _on_spring(
-    base: str, typical: float, unit: str, result: str, ahead: str = "", frequencies: tuple[float, float, float] = (11.0, 5.0, 25.0)
-) -> Term:
-    """A part of the sprung mass that moves on a spring of its own where the body has the acceleration ``base`` (typically ``typical``);
-    ``frequencies``: the typical one, the least and the largest (Hz)."""
-    frequency = _setting("frequency", "Hz", *frequencies, "frequency at which it swings")
-    damping = _setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
-    turns = f"{2 * pi:.4f} * frequency"
-    against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
-    usual = 2 * pi * frequency.typical
-    states = State("way", "rate", typical / usual**2), State("rate", f"-({base} + {against})", typical / usual)
-    return Term(f"{base} + {against}", unit, result, WHOLE, states, (frequency, damping), ahead)
-
-
-def _swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
-    """What follows ``base`` (typically ``typical``) as a mass on a spring does: ``way``, in units of it."""
-    frequency = _setting("frequency", "Hz", 8.0, 3.0, 25.0, "frequency at which it swings")
-    damping = _setting("damping_ratio", "1", 0.2, 0.05, 0.8, "share of critical damping")
-    turns = f"{2 * pi:.4f} * frequency"
-    slope = f"({turns})**2 * ({base} - way) - 2.0 * damping_ratio * {turns} * rate"
-    states = State("way", "rate", typical), State("rate", slope, 2 * pi * frequency.typical * typical)
-    return Term(expression, unit, result, parts, states, (frequency, damping), beside=beside)
-
-
-KNEE = _setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
-
-ANGLE = _setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
-
-OF_STRUCTURE = (18.0, 8.0, 40.0)
-"""Frequencies of a body that is not rigid, as for ``_on_spring``."""
 
 MOTION = SimpleNamespace(
     speed=20.0, side_speed=0.1, vertical_speed=0.04, roll=0.01, pitch=0.008, roll_rate=0.03, pitch_rate=0.02, yaw_rate=0.05,
@@ -165,12 +63,12 @@ PLACES: Mapping[str, Place] = {
             "deflection_cube": Term("deflection**3", "N/m3", beside="deflection"),
             "deflection_size_times_velocity": Term("abs(deflection) * velocity", "N s/m2", beside="velocity"),
             "deflection_times_velocity": Term("deflection * velocity", "N s/m2", beside="velocity"),
-            "bump_beyond": _beyond("max(deflection - clearance, 0.0)", 0.02, 0.005, 0.06),
-            "rebound_beyond": _beyond("min(deflection + clearance, 0.0)", 0.02, 0.005, 0.06),
-            "bump_damping_beyond": _beyond(
+            "bump_beyond": beyond("max(deflection - clearance, 0.0)", 0.02, 0.005, 0.06),
+            "rebound_beyond": beyond("min(deflection + clearance, 0.0)", 0.02, 0.005, 0.06),
+            "bump_damping_beyond": beyond(
                 "max(deflection - clearance, 0.0) * max(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity"
             ),
-            "rebound_damping_beyond": _beyond(
+            "rebound_damping_beyond": beyond(
                 "min(deflection + clearance, 0.0) * min(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity"
             ),
             "deflection_direction": Term("tanh(deflection / 0.002)", "N", beside="deflection"),
@@ -185,13 +83,13 @@ PLACES: Mapping[str, Place] = {
             "side_force_times_deflection": Term(f"deflection * force_y * {SIDE}", "1/m"),
             "velocity_times_recent": Term(
                 "recent * velocity", "N s2/m2", states=(State("recent", "(abs(velocity) - recent) / time", 0.1),),
-                settings=(_setting("time", "s", 1.0, 0.1, 10.0, "time for which it remembers how fast it moved"),), beside="velocity",
+                settings=(setting("time", "s", 1.0, 0.1, 10.0, "time for which it remembers how fast it moved"),), beside="velocity",
             ),
-            "sliding_direction": _sliding("strain", "N", "velocity"),
-            "sliding_damping": _sliding("abs(velocity) * strain", "N s/m", "velocity"),
-            "slow_velocity": _below("slow", "velocity"),
-            "late_velocity": _below("slow - velocity"),
-            "swinging_deflection": _swinging("deflection", 0.006, "deflection - way", "N/m", "force", AXLES, "deflection"),
+            "sliding_direction": sliding("strain", "N", "velocity"),
+            "sliding_damping": sliding("abs(velocity) * strain", "N s/m", "velocity"),
+            "slow_velocity": below("slow", "velocity"),
+            "late_velocity": below("slow - velocity"),
+            "swinging_deflection": swinging("deflection", 0.006, "deflection - way", "N/m", "force", AXLES, "deflection"),
         },
     ),
     "tyre": Place(
@@ -201,7 +99,7 @@ PLACES: Mapping[str, Place] = {
         {
             "deflection_square": Term("(deflection - rest)**2", "N/m2", beside="deflection"),
             "deflection_cube": Term("(deflection - rest)**3", "N/m3", beside="deflection"),
-            "bump_beyond": _beyond("max(deflection - rest - clearance, 0.0)", 0.006, 0.001, 0.03),
+            "bump_beyond": beyond("max(deflection - rest - clearance, 0.0)", 0.006, 0.001, 0.03),
             "velocity_direction": Term("tanh(velocity / 0.02)", "N", beside="velocity"),
             "velocity_signed_square": Term("velocity * abs(velocity)", "N s2/m2", beside="velocity"),
             "deflection_times_velocity": Term("(deflection - rest) * velocity", "N s/m2", beside="velocity"),
@@ -212,8 +110,8 @@ PLACES: Mapping[str, Place] = {
             "once_a_turn_by_spin": Term("spin**2", "kg m", parts=TURNING, turn="rotation"),
             "twice_a_turn": Term("1.0", "N", parts=TURNING, turn="2.0 * rotation"),
             "thrice_a_turn": Term("1.0", "N", parts=TURNING, turn="3.0 * rotation"),
-            "sliding_direction": _sliding("strain", "N", "velocity"),
-            "slow_velocity": _below("slow", "velocity"),
+            "sliding_direction": sliding("strain", "N", "velocity"),
+            "slow_velocity": below("slow", "velocity"),
         },
         strongest=STRONGEST_OF_TYRE,
     ),
@@ -233,14 +131,14 @@ PLACES: Mapping[str, Place] = {
             "side_slip_of_speed": Term("slip_y * speed", "s/m", "slip_y", beside="slip_y"),
             "side_slip_cube": Term("slip_y**3", "1", "slip_y", beside="slip_y"),
             "side_slip_of_sides": Term(SIDE, "1", "slip_y"),
-            "side_slip_swinging": _swinging("slip_y", 0.01, "way", "1", "slip_y", AXLES, "slip_y"),
+            "side_slip_swinging": swinging("slip_y", 0.01, "way", "1", "slip_y", AXLES, "slip_y"),
             "side_slip_late": Term(
                 "late - slip_y", "1", "slip_y", states=(State("late", "speed * (slip_y - late) / length", 0.005),),
-                settings=(_setting("length", "m", 0.5, 0.1, 3.0, "way over which the slip follows"),),
+                settings=(setting("length", "m", 0.5, 0.1, 3.0, "way over which the slip follows"),),
             ),
             "side_slip_of_late_load": Term(
                 "slip_y * (late - load) / max(load, 400.0)", "1", "slip_y", states=(State("late", "speed * (load - late) / length", 3500.0),),
-                settings=(_setting("length", "m", 0.5, 0.1, 3.0, "way over which the force follows the load"),),
+                settings=(setting("length", "m", 0.5, 0.1, 3.0, "way over which the force follows the load"),),
             ),
             "side_slip_of_push": Term(f"force_x * {SIDE}", "1/N", "slip_y"),
         },
@@ -263,13 +161,13 @@ PLACES: Mapping[str, Place] = {
             "toe_late_on_sides": Term(
                 f"{2 * pi:.4f} * frequency * (deflection - slow) * {SIDE}", "rad s/m", "toe",
                 states=(State("slow", f"{2 * pi:.4f} * frequency * (deflection - slow)", 0.0107),),
-                settings=(_setting("frequency", "Hz", 15.0, 3.0, 60.0, "frequency up to which it goes by the speed of travel"),),
+                settings=(setting("frequency", "Hz", 15.0, 3.0, 60.0, "frequency up to which it goes by the speed of travel"),),
                 beside=f"deflection * {SIDE}",
             ),
             "toe_dragged_on_sides": Term(
                 f"(deflection - held) * {SIDE}", "rad/m", "toe",
                 states=(State("held", "100.0 * (max(deflection - held - way, 0.0) + min(deflection - held + way, 0.0))", 0.008),),
-                settings=(_setting("way", "m", 0.003, 0.0005, 0.01, "travel to either side until it slides"),),
+                settings=(setting("way", "m", 0.003, 0.0005, 0.01, "travel to either side until it slides"),),
                 beside=f"deflection * {SIDE}",
             ),
         },
@@ -296,7 +194,7 @@ PLACES: Mapping[str, Place] = {
             "roll_sliding": Term(
                 "strain", "N m", "moment_x", WHOLE,
                 (State("strain", "(motion.roll_rate - abs(motion.roll_rate) * strain) / (grip + 0.003 * abs(motion.roll_rate))", 1.0),),
-                (_setting("grip", "rad", 0.002, 0.0003, 0.02, "angle over which the direction turns"),), beside="motion.roll_rate",
+                (setting("grip", "rad", 0.002, 0.0003, 0.02, "angle over which the direction turns"),), beside="motion.roll_rate",
             ),
             "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x", WHOLE),
             "roll_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_x", WHOLE),
@@ -313,15 +211,15 @@ PLACES: Mapping[str, Place] = {
             "pitch_of_bounce": Term("motion.vertical_acceleration", "kg m", "moment_y", WHOLE),
             "lift_of_pitching": Term("motion.pitch_acceleration", "kg m", "force_z", WHOLE),
             **{
-                f"resonance_{axle}": _on_spring(
+                f"resonance_{axle}": on_spring(
                     f"motion.vertical_acceleration - motion.{axle} * motion.pitch_acceleration", 0.6, "kg", "force_z", f"motion.{axle}"
                 )
                 for axle in AXLES
             },
-            "sway_rear": _on_spring("motion.speed * motion.yaw_rate", 1.0, "kg", "force_y", "motion.rear", (1.2, 0.4, 6.0)),
-            "roll_resonance": _on_spring("motion.roll_acceleration", 0.4, "kg m2", "moment_x"),
-            "pitch_resonance": _on_spring("motion.pitch_acceleration", 0.3, "kg m2", "moment_y", frequencies=(8.0, 3.0, 25.0)),
-            "surge_above": _on_spring("motion.pitch_acceleration", 0.3, "kg m", "force_x", frequencies=(8.0, 3.0, 25.0)),
+            "sway_rear": on_spring("motion.speed * motion.yaw_rate", 1.0, "kg", "force_y", "motion.rear", (1.2, 0.4, 6.0)),
+            "roll_resonance": on_spring("motion.roll_acceleration", 0.4, "kg m2", "moment_x"),
+            "pitch_resonance": on_spring("motion.pitch_acceleration", 0.3, "kg m2", "moment_y", frequencies=(8.0, 3.0, 25.0)),
+            "surge_above": on_spring("motion.pitch_acceleration", 0.3, "kg m", "force_x", frequencies=(8.0, 3.0, 25.0)),
         },
         ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
     ),
@@ -332,15 +230,15 @@ PLACES: Mapping[str, Place] = {
         {
             "angle_late": Term(
                 "late - angle", "1", "angle", WHOLE, (State("late", "(angle - late) / time", 0.008),),
-                (_setting("time", "s", 0.05, 0.01, 0.5, "time that it is late by"),),
+                (setting("time", "s", 0.05, 0.01, 0.5, "time that it is late by"),),
             ),
             "angle_after_play": Term(
                 "held - angle", "1", "angle", WHOLE,
                 (State("held", "100.0 * (max(angle - held - play, 0.0) + min(angle - held + play, 0.0))", 0.008),),
-                (_setting("play", "rad", 0.001, 0.0001, 0.01, "angle to either side by which it does not follow"),),
+                (setting("play", "rad", 0.001, 0.0001, 0.01, "angle to either side by which it does not follow"),),
             ),
             "angle_of_force": Term("force_y", "rad/N", "angle", WHOLE),
-            "angle_swinging_with_force": _swinging("force_y", 1000.0, "way", "rad/N", "angle", WHOLE),
+            "angle_swinging_with_force": swinging("force_y", 1000.0, "way", "rad/N", "angle", WHOLE),
             "angle_cube": Term("angle**3", "1/rad2", "angle", WHOLE, beside="angle"),
         },
         ("angle",),
@@ -351,14 +249,14 @@ PLACES: Mapping[str, Place] = {
         ("motion", "x", "y", "z"),
         {"motion": MOTION, "x": 0.3, "y": 0.2, "z": 0.5},
         {
-            "bending": _on_spring(
+            "bending": on_spring(
                 "motion.vertical_acceleration - x * motion.pitch_acceleration + y * motion.roll_acceleration", 0.6, "1", "a_z",
                 frequencies=OF_STRUCTURE,
             ),
-            "racking_aside": _on_spring(
+            "racking_aside": on_spring(
                 "motion.speed * motion.yaw_rate - z * motion.roll_acceleration", 0.5, "1", "a_y", frequencies=OF_STRUCTURE
             ),
-            "racking_along": _on_spring("z * motion.pitch_acceleration", 0.2, "1", "a_x", frequencies=OF_STRUCTURE),
+            "racking_along": on_spring("z * motion.pitch_acceleration", 0.2, "1", "a_x", frequencies=OF_STRUCTURE),
         },
         ("a_x", "a_y", "a_z"),
         {"a_x": MASS, "a_y": MASS, "a_z": MASS},
@@ -386,7 +284,7 @@ def scale(place: str, term: str) -> float:
 def _size(place: str, term: str, expression: str) -> float:
     own, typical = PLACES[place].terms[term], PLACES[place].typical
     known = {**typical, "wheel": 0, "tanh": np.tanh, "abs": abs, "max": max, "min": min}
-    known |= {state.name: state.typical for state in own.states} | {setting.name: setting.typical for setting in own.settings}
+    known |= {state.name: state.typical for state in own.states} | {one.name: one.typical for one in own.settings}
     if "clearance" in known or "rest" in expression:
         known |= {key: 2 * value for key, value in typical.items() if key != "rest"}
     if "min(" in expression:

@@ -8,10 +8,10 @@ import numpy as np
 
 from . import refit
 from .balance import CONFIRMED, DOUBTFUL, ENOUGH, LITTLE
+from .confirm import EQUAL
 from .discover import Discovery
 from .places import settings as shaping
 from .propose import SURE
-from .select import EQUAL
 from .selection import Selection
 from .verdict import Named, Verdict
 

@@ -77,6 +77,11 @@ class State:
     squares: np.ndarray
     held_out_squares: np.ndarray
 
+    @classmethod
+    def of(cls, rung: Rung, name: str, fit: Fit, check: Mapping[int, np.ndarray]) -> State:
+        """The model of a ``fit`` beside the drives of a rung; ``check``: its residuals of those held out."""
+        return cls(name, fit, *rung.squares(fit, check))
+
 
 @dataclass(frozen=True)
 class Selection:

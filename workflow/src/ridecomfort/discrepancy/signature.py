@@ -24,8 +24,8 @@ from . import experiment as exp
 from .curves import LINE, Seen
 from .experiment import Frame
 from .made import beside
-from .places import AXLES
 from .rung import Rung
+from .terms import AXLES
 
 LEAST_PLACES = 3.0
 """Blocks of road over which what a knot changes must be spread: of one or two nothing tells how sure its value is."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ...discrepancy.balance import LITTLE
-from ...discrepancy.select import EQUAL
+from ...discrepancy.confirm import EQUAL
 from ...effects import library
 from ...schema import as_written
 from ...study import BASE, JOIN

@@ -1,0 +1,114 @@
+"""What a force that is in no library may be made of: terms, what they remember, and what shapes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+from ..effects.contract import Parameter
+from ..effects.lag import SHORTEST
+
+FASTEST = round(1.0 / (2.0 * pi * SHORTEST), 1)
+"""Hz up to which a low-pass can be integrated. One that is faster differs from the slower one by damping, or by the size of its factor,
+which are fitted anyway."""
+
+AXLES = ("front", "rear")
+
+WHOLE = ("",)
+
+WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
+
+TURNING = tuple(f"{wheel}_{wave}" for wheel in WHEELS for wave in ("cosine", "sine"))
+"""Parts of what comes and goes as a wheel turns, from an angle of its own."""
+
+SIDE = "(1.0 - 2.0 * (wheel % 2))"
+"""1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
+
+LINEAR = Parameter("linear", "1", 0.0, 0.0, (-3.0, 3.0), "linear part beside it, in shares of it at typical motion")
+"""What lets a force take the place of a spring or damper of a vehicle, of which calibration changes no more than is plausible."""
+
+
+def setting(name: str, unit: str, typical: float, lower: float, upper: float, meaning: str) -> Parameter:
+    """What shapes a term, from its ``typical`` value on."""
+    return Parameter(name, unit, typical, typical, (lower, upper), meaning)
+
+
+@dataclass(frozen=True)
+class State:
+    """What a force remembers: its ``name``, its ``slope`` (an expression, per second), and a ``typical`` value."""
+
+    name: str
+    slope: str
+    typical: float
+
+
+@dataclass(frozen=True)
+class Term:
+    """A part of a force: its ``expression`` in what the place sees, its own ``states`` and ``settings``, the ``unit`` of its factor, the
+    ``result`` it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force
+    on the body acts ``ahead`` (m, an expression) of the centre of gravity where that is given. ``beside``: what it may be linear in, too;
+    ``turn``: the angle that the parts of TURNING are cosine and sine of."""
+
+    expression: str
+    unit: str
+    result: str = "force"
+    parts: tuple[str, ...] = AXLES
+    states: tuple[State, ...] = ()
+    settings: tuple[Parameter, ...] = ()
+    ahead: str = ""
+    beside: str = ""
+    turn: str = ""
+
+
+def below(expression: str, beside: str = "") -> Term:
+    """Velocity through a low-pass of first order, ``slow``: what creeps beside a spring; without the velocity itself, what gives way in
+    series with a damper."""
+    frequency = setting("frequency", "Hz", 10.0, 1.0, FASTEST, "frequency that it follows up to")
+    return Term(
+        expression, "N s/m", states=(State("slow", f"{2 * pi:.4f} * frequency * (velocity - slow)", 0.1),), settings=(frequency,), beside=beside
+    )
+
+
+def sliding(expression: str, unit: str, beside: str) -> Term:
+    """The direction of motion, which ``strain`` follows over some millimetres; no faster than the step of the kernel bears."""
+    presliding = setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")
+    strain = State("strain", "(velocity - abs(velocity) * strain) / (presliding + 0.003 * abs(velocity))", 1.0)
+    return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
+
+
+def beyond(expression: str, *clearances: float, unit: str = "N/m", beside: str = "deflection") -> Term:
+    """What acts from a deflection on: a typical clearance, the least and the largest."""
+    clearance = setting("clearance", "m", *clearances, "deflection from which on it acts")
+    return Term(expression, unit, settings=(clearance,), beside=beside)
+
+
+def on_spring(
+    base: str, typical: float, unit: str, result: str, ahead: str = "", frequencies: tuple[float, float, float] = (11.0, 5.0, 25.0)
+) -> Term:
+    """A part of the sprung mass that moves on a spring of its own where the body has the acceleration ``base`` (typically ``typical``);
+    ``frequencies``: the typical one, the least and the largest (Hz)."""
+    frequency = setting("frequency", "Hz", *frequencies, "frequency at which it swings")
+    damping = setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
+    turns = f"{2 * pi:.4f} * frequency"
+    against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
+    usual = 2 * pi * frequency.typical
+    states = State("way", "rate", typical / usual**2), State("rate", f"-({base} + {against})", typical / usual)
+    return Term(f"{base} + {against}", unit, result, WHOLE, states, (frequency, damping), ahead)
+
+
+def swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
+    """What follows ``base`` (typically ``typical``) as a mass on a spring does: ``way``, in units of it."""
+    frequency = setting("frequency", "Hz", 8.0, 3.0, 25.0, "frequency at which it swings")
+    damping = setting("damping_ratio", "1", 0.2, 0.05, 0.8, "share of critical damping")
+    turns = f"{2 * pi:.4f} * frequency"
+    slope = f"({turns})**2 * ({base} - way) - 2.0 * damping_ratio * {turns} * rate"
+    states = State("way", "rate", typical), State("rate", slope, 2 * pi * frequency.typical * typical)
+    return Term(expression, unit, result, parts, states, (frequency, damping), beside=beside)
+
+
+KNEE = setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
+
+ANGLE = setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
+
+OF_STRUCTURE = (18.0, 8.0, 40.0)
+"""Frequencies of a body that is not rigid, as for ``_on_spring``."""
