@@ -7,10 +7,9 @@ from dataclasses import replace
 import pytest
 
 from ridecomfort.discrepancy import confirm, select
-from ridecomfort.discrepancy.confirm import Confirmed
 from ridecomfort.discrepancy.propose import CERTAIN, HELD_OUT_Z
 from ridecomfort.discrepancy.rung import begin
-from ridecomfort.discrepancy.selection import State, Trial
+from ridecomfort.discrepancy.selection import Trial
 
 from .linear import Linear
 
@@ -23,11 +22,9 @@ def rounds(model, most):
 def test_what_no_held_out_drive_meets_must_remove_more(met, share, is_kept):
     model = Linear(1, {"effect_2.size": 1.0})
     rung, nothing = begin(model, {"stiffness": 0.0}), float("nan")
-    candidate = model.candidates[2]
-    judge = Confirmed(rung, {candidate.name: candidate}, State.of(rung, "calibrated", rung.fit, rung.check), (), (), True)
     fit = replace(rung.fit, values={"stiffness": 0.0, "effect_2.size": 1.0})
     trial = Trial("effect_2", {}, fit, 100.0, 90.0, nothing, nothing, share, nothing, "", met=met)
-    objection = judge._objection(trial, candidate, False, 1.0)
+    objection = confirm.objection(trial, model.candidates[2], False, 1.0)
     assert objection == ("" if is_kept else "removes 3.0 % of the explainable error, and no drive held out meets it")
 
 

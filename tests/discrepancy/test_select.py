@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import evidence, judge, select, tries
+from ridecomfort.discrepancy import evidence, judge, probe, select, tries
 from ridecomfort.discrepancy.experiment import Size
+from ridecomfort.discrepancy.rung import begin
 from ridecomfort.errors import InputError
 
 from .coloured import coloured
@@ -329,3 +330,19 @@ def test_without_repeats_the_floor_is_the_noise_that_is_known_of_the_instruments
     assert any("assumed from the noise" in reason for reason in found.reasons)
     low, high = model.records[0].band
     assert selection.floor_squares.max() == pytest.approx(0.01 * (high - low))
+
+
+def test_what_was_probed_from_the_same_rung_is_not_probed_again():
+    rung = begin(Linear(1, {"effect_2.size": 1.5, "effect_4.size": 1.0}), {"stiffness": 0.0})
+    asked = []
+
+    def each(function, jobs):
+        jobs = list(jobs)
+        asked.extend(jobs if isinstance(function, probe.Probe) else ())
+        return map(function, jobs)
+
+    first = select.search(rung, each=each)
+    count = len(asked)
+    again = select.search(rung, each=each, probed=first.probed)
+    assert count == len(rung.experiment.candidates) and len(asked) == count
+    assert again.accepted == first.accepted and again.final.values == first.final.values

@@ -89,7 +89,7 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
     rung = _wide(selection, last, sizes, each)
     if rung is None:
         return None
-    gone = shares(selection, last, _state(rung), rung)
+    gone = shares(selection, last, State.of(rung, "", rung.fit, rung.check), rung)
     is_sure = rung.check_frame is None or refit.advantage(rung.check_frame, rung.check, selection.check)[1] > HELD_OUT_Z
     intervals = refit.intervals(rung.fit, rung.frame, sizes) if is_sure else {}
     parameters = _beyond(selection.frame.experiment, rung.experiment, rung.fit.values, intervals) if is_sure else ()
@@ -159,11 +159,7 @@ def _wide(selection: Selection, state: State, sizes: Sequence[Size], each: Calla
         rung = climb(replace(experiment, free=free), start, sizes, each)
     except (InputError, ValueError):  # a vehicle that cannot be driven
         return None
-    return rung if _is_enough(shares(selection, state, _state(rung), rung)) else None
-
-
-def _state(rung: Rung) -> State:
-    return State("", rung.fit, *rung.squares(rung.fit, rung.check))
+    return rung if _is_enough(shares(selection, state, State.of(rung, "", rung.fit, rung.check), rung)) else None
 
 
 def _beyond(before: Car, after: Car, values: Mapping[str, float], intervals: Mapping[str, tuple[float, float]]) -> tuple[Beyond, ...]:

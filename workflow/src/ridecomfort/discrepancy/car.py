@@ -6,11 +6,10 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-import xarray as xr
 
 from .. import simulate as simulator
 from ..calibrated import with_values
-from ..drive.replay import PATH_BANDWIDTH, Replay, Simulated, smooth
+from ..drive.replay import Following, Replay, Simulated, slowly
 from ..drive.sampling import rate_of
 from ..drive.steered import Steered
 from ..effects import library
@@ -19,7 +18,7 @@ from ..vocabulary import SIGNALS
 from . import nuisances
 from .experiment import Candidate, Record, Size, by_record
 
-ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.005}, 2
+ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
 """m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected while sizes are fitted, and how often
 that is done. What is missing of the path then is made good without driving again."""
 
@@ -58,32 +57,29 @@ class Car:
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """Simulated minus measured signals (6, sample) behind the run-in of the model."""
-        again, run, astray = self._driven(values, index, ASTRAY, CORRECTED)
-        return self._residual(index, again, again.sample(run), astray)
+        found = self._following(values, index, ASTRAY, CORRECTED)
+        return self._on_path(index, found, found.replay.sample(found.run)) + self.exactness.get(index, 0.0)
 
-    def _residual(self, index: int, again: Replay, simulated: Simulated, astray: Mapping[str, np.ndarray]) -> np.ndarray:
-        return self._on_path(index, again, simulated, astray) + self.exactness.get(index, 0.0)
-
-    def _on_path(self, index: int, again: Replay, simulated: Simulated, astray: Mapping[str, np.ndarray]) -> np.ndarray:
+    def _on_path(self, index: int, found: Following, simulated: Simulated) -> np.ndarray:
         """A residual (6, sample) as it would be had the driver kept to the measured path to the last millimetre."""
-        residual, steered = again.residual(simulated)[:, again.compared], self.steered.get(index)
-        return residual if steered is None else residual + steered.made_good(astray["lateral"])
+        residual, steered = found.replay.residual(simulated)[:, found.replay.compared], self.steered.get(index)
+        return residual if steered is None else residual + steered.made_good(found.astray["lateral"])
 
     def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
         """What the model does on a drive."""
         known, simulated = self.driven.get(index, (None, None))
         if known == dict(values):
             return simulated
-        again, run, _ = self._driven(values, index, ASTRAY, CORRECTED)
-        return again.sample(run)
+        found = self._following(values, index, ASTRAY, CORRECTED)
+        return found.replay.sample(found.run)
 
-    def _driven(self, values: Mapping[str, float], index: int, *limits) -> tuple[Replay, xr.Dataset, dict[str, np.ndarray]]:
-        """A drive along the measured path at the measured speed, the replay whose driver did so, and what he was still off by.
+    def _following(self, values: Mapping[str, float], index: int, *limits) -> Following:
+        """A drive along the measured path at the measured speed.
 
         An effect that moves a vehicle aside makes it meet another road, unless its driver makes up for it as the measured one did.
         """
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        return self.replays[index].driven(vehicle, {**self.quiet, **effects}, *limits)
+        return self.replays[index].following(vehicle, {**self.quiet, **effects}, *limits)
 
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """What alignment and the road's file leave open of a record, (direction, 6, sample)."""
@@ -116,9 +112,9 @@ class Car:
         """
 
         def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float]:
-            again, run, astray = self._driven(values, index)
-            simulated = again.sample(run)
-            residual = self._on_path(index, again, simulated, astray)
+            following = self._following(values, index)
+            again, simulated = following.replay, following.replay.sample(following.run)
+            residual = self._on_path(index, following, simulated)
             return again, simulated, residual, self._missing(values, index, again, residual) if exactly else self.exactness.get(index, 0.0)
 
         found = by_record(self, driven, indices)
@@ -136,8 +132,8 @@ class Car:
         if fine is again:
             return 0.0
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        run = fine.run(vehicle, {**self.quiet, **effects})
-        return 4.0 / 3.0 * (self._on_path(index, fine, fine.sample(run), fine.astray(run)) - residual)
+        found = fine.following(vehicle, {**self.quiet, **effects}, corrections=0)
+        return 4.0 / 3.0 * (self._on_path(index, found, fine.sample(found.run)) - residual)
 
     def taking(self, other: Car, indices: Collection[int]) -> Car:
         """The same with these records as ``other`` has them."""
@@ -174,7 +170,7 @@ class Car:
             aside = np.interp(again.time, again.time[kept], left)
             drive = again.drive.assign(e=again.drive["e"] - aside)
             nearer = replace(again, drive=drive, place=place)
-            replays[index] = nearer.corrected({"lateral": -smooth(aside, rate_of(again.time), PATH_BANDWIDTH)})
+            replays[index] = nearer.corrected({"lateral": -slowly(aside, rate_of(again.time))})
             records[index] = replace(records[index], place=place[kept])
         driven = {index: known for index, known in self.driven.items() if index not in amounts}
         return replace(self, replays=replays, records=records, driven=driven)

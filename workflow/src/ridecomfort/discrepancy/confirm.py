@@ -43,7 +43,7 @@ EQUAL = 0.02
 
 
 @dataclass(frozen=True)
-class Confirmed:
+class Confirmation:
     """Judges refits of ``candidates`` (by name) from a ``rung``. ``first``: the model before any effect, whose explainable error shares are of;
     ``rare``: names that act at few places; ``certain``: those that the fitted drives leave no doubt of; ``is_first``: whether none is
     accepted yet."""
@@ -80,7 +80,7 @@ class Confirmed:
             before=before, after=now,
         )  # fmt: skip
         left = floor.explained_share(before.squares, rung.floor_squares, first.squares, rung.floor_squares)
-        return replace(trial, objection=self._objection(trial, candidate, is_weak, left))
+        return replace(trial, objection=objection(trial, candidate, is_weak, left))
 
     def _held_out_gain(self, name: str, held: Mapping[int, np.ndarray]) -> tuple[float, float, bool]:
         """What residuals of the drives held out gain against those of the rung, the z of that, and whether it is too weak to reach HELD_OUT_Z
@@ -104,19 +104,22 @@ class Confirmed:
             powers.append(np.sum(frame.flat({i: with_it[i] - without[i] for i in indices}) ** 2) / len(indices))
         return powers[1] > MET * powers[0]
 
-    def _objection(self, trial: Trial, candidate: Candidate, is_weak: bool, left: float) -> str:
-        outside = implausible(candidate, trial.fit.values)
-        if outside:
-            return outside
-        if trial.bic <= 0:
-            return "not worth its sizes (BIC)"
-        if np.isfinite(trial.held_out_gain):
-            enough = trial.held_out_z > 0 and not trial.held_out_share <= 0 if is_weak else trial.held_out_z > HELD_OUT_Z
-            if not (trial.held_out_gain > 0 and enough):
-                return "not surely better on drives held out"
-        if trial.share < (LEAST_SHARE if trial.met else LEAST_UNMET) and not trial.share > MOST_OF_REST * left:
-            return f"removes {100 * trial.share:.1f} % of the explainable error" + ("" if trial.met else ", and no drive held out meets it")
-        return ""
+
+def objection(trial: Trial, candidate: Candidate, is_weak: bool, left: float) -> str:
+    """What speaks against a trial, in words; empty where nothing does. ``is_weak``: whether drives held out that are not sure confirm it;
+    ``left``: share of the explainable error that is left before it."""
+    outside = implausible(candidate, trial.fit.values)
+    if outside:
+        return outside
+    if trial.bic <= 0:
+        return "not worth its sizes (BIC)"
+    if np.isfinite(trial.held_out_gain):
+        enough = trial.held_out_z > 0 and not trial.held_out_share <= 0 if is_weak else trial.held_out_z > HELD_OUT_Z
+        if not (trial.held_out_gain > 0 and enough):
+            return "not surely better on drives held out"
+    if trial.share < (LEAST_SHARE if trial.met else LEAST_UNMET) and not trial.share > MOST_OF_REST * left:
+        return f"removes {100 * trial.share:.1f} % of the explainable error" + ("" if trial.met else ", and no drive held out meets it")
+    return ""
 
 
 def best(trials: Sequence[Trial], simpler: Collection[str] = ()) -> Trial | None:

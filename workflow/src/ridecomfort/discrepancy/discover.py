@@ -130,7 +130,8 @@ def discovered(
             rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
             say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed,
         )  # fmt: skip
-    return replace(proposed(selection, name, known), evidence=dataset(rung.experiment, selection))
+    evidence = dataset(rung.experiment, selection)
+    return replace(proposed(replace(selection, probed={}), name, known), evidence=evidence)  # columns of all terms are large
 
 
 def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Discovery:

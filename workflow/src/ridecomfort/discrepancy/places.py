@@ -11,7 +11,8 @@ import numpy as np
 
 from ..effects.contract import Parameter
 from .terms import (
-    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, TURNING, WHOLE, State, Term, below, beyond, on_spring, setting, sliding, swinging,
+    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, TURNING, WHOLE, State, Term, acting_beyond, below, on_spring, shape_setting, sliding,
+    swinging,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -63,12 +64,12 @@ PLACES: Mapping[str, Place] = {
             "deflection_cube": Term("deflection**3", "N/m3", beside="deflection"),
             "deflection_size_times_velocity": Term("abs(deflection) * velocity", "N s/m2", beside="velocity"),
             "deflection_times_velocity": Term("deflection * velocity", "N s/m2", beside="velocity"),
-            "bump_beyond": beyond("max(deflection - clearance, 0.0)", 0.02, 0.005, 0.06),
-            "rebound_beyond": beyond("min(deflection + clearance, 0.0)", 0.02, 0.005, 0.06),
-            "bump_damping_beyond": beyond(
+            "bump_beyond": acting_beyond("max(deflection - clearance, 0.0)", 0.02, 0.005, 0.06),
+            "rebound_beyond": acting_beyond("min(deflection + clearance, 0.0)", 0.02, 0.005, 0.06),
+            "bump_damping_beyond": acting_beyond(
                 "max(deflection - clearance, 0.0) * max(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity"
             ),
-            "rebound_damping_beyond": beyond(
+            "rebound_damping_beyond": acting_beyond(
                 "min(deflection + clearance, 0.0) * min(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity"
             ),
             "deflection_direction": Term("tanh(deflection / 0.002)", "N", beside="deflection"),
@@ -83,7 +84,7 @@ PLACES: Mapping[str, Place] = {
             "side_force_times_deflection": Term(f"deflection * force_y * {SIDE}", "1/m"),
             "velocity_times_recent": Term(
                 "recent * velocity", "N s2/m2", states=(State("recent", "(abs(velocity) - recent) / time", 0.1),),
-                settings=(setting("time", "s", 1.0, 0.1, 10.0, "time for which it remembers how fast it moved"),), beside="velocity",
+                settings=(shape_setting("time", "s", 1.0, 0.1, 10.0, "time for which it remembers how fast it moved"),), beside="velocity",
             ),
             "sliding_direction": sliding("strain", "N", "velocity"),
             "sliding_damping": sliding("abs(velocity) * strain", "N s/m", "velocity"),
@@ -99,7 +100,7 @@ PLACES: Mapping[str, Place] = {
         {
             "deflection_square": Term("(deflection - rest)**2", "N/m2", beside="deflection"),
             "deflection_cube": Term("(deflection - rest)**3", "N/m3", beside="deflection"),
-            "bump_beyond": beyond("max(deflection - rest - clearance, 0.0)", 0.006, 0.001, 0.03),
+            "bump_beyond": acting_beyond("max(deflection - rest - clearance, 0.0)", 0.006, 0.001, 0.03),
             "velocity_direction": Term("tanh(velocity / 0.02)", "N", beside="velocity"),
             "velocity_signed_square": Term("velocity * abs(velocity)", "N s2/m2", beside="velocity"),
             "deflection_times_velocity": Term("(deflection - rest) * velocity", "N s/m2", beside="velocity"),
@@ -134,11 +135,11 @@ PLACES: Mapping[str, Place] = {
             "side_slip_swinging": swinging("slip_y", 0.01, "way", "1", "slip_y", AXLES, "slip_y"),
             "side_slip_late": Term(
                 "late - slip_y", "1", "slip_y", states=(State("late", "speed * (slip_y - late) / length", 0.005),),
-                settings=(setting("length", "m", 0.5, 0.1, 3.0, "way over which the slip follows"),),
+                settings=(shape_setting("length", "m", 0.5, 0.1, 3.0, "way over which the slip follows"),),
             ),
             "side_slip_of_late_load": Term(
                 "slip_y * (late - load) / max(load, 400.0)", "1", "slip_y", states=(State("late", "speed * (load - late) / length", 3500.0),),
-                settings=(setting("length", "m", 0.5, 0.1, 3.0, "way over which the force follows the load"),),
+                settings=(shape_setting("length", "m", 0.5, 0.1, 3.0, "way over which the force follows the load"),),
             ),
             "side_slip_of_push": Term(f"force_x * {SIDE}", "1/N", "slip_y"),
         },
@@ -161,13 +162,13 @@ PLACES: Mapping[str, Place] = {
             "toe_late_on_sides": Term(
                 f"{2 * pi:.4f} * frequency * (deflection - slow) * {SIDE}", "rad s/m", "toe",
                 states=(State("slow", f"{2 * pi:.4f} * frequency * (deflection - slow)", 0.0107),),
-                settings=(setting("frequency", "Hz", 15.0, 3.0, 60.0, "frequency up to which it goes by the speed of travel"),),
+                settings=(shape_setting("frequency", "Hz", 15.0, 3.0, 60.0, "frequency up to which it goes by the speed of travel"),),
                 beside=f"deflection * {SIDE}",
             ),
             "toe_dragged_on_sides": Term(
                 f"(deflection - held) * {SIDE}", "rad/m", "toe",
                 states=(State("held", "100.0 * (max(deflection - held - way, 0.0) + min(deflection - held + way, 0.0))", 0.008),),
-                settings=(setting("way", "m", 0.003, 0.0005, 0.01, "travel to either side until it slides"),),
+                settings=(shape_setting("way", "m", 0.003, 0.0005, 0.01, "travel to either side until it slides"),),
                 beside=f"deflection * {SIDE}",
             ),
         },
@@ -194,7 +195,7 @@ PLACES: Mapping[str, Place] = {
             "roll_sliding": Term(
                 "strain", "N m", "moment_x", WHOLE,
                 (State("strain", "(motion.roll_rate - abs(motion.roll_rate) * strain) / (grip + 0.003 * abs(motion.roll_rate))", 1.0),),
-                (setting("grip", "rad", 0.002, 0.0003, 0.02, "angle over which the direction turns"),), beside="motion.roll_rate",
+                (shape_setting("grip", "rad", 0.002, 0.0003, 0.02, "angle over which the direction turns"),), beside="motion.roll_rate",
             ),
             "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x", WHOLE),
             "roll_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_x", WHOLE),
@@ -230,12 +231,12 @@ PLACES: Mapping[str, Place] = {
         {
             "angle_late": Term(
                 "late - angle", "1", "angle", WHOLE, (State("late", "(angle - late) / time", 0.008),),
-                (setting("time", "s", 0.05, 0.01, 0.5, "time that it is late by"),),
+                (shape_setting("time", "s", 0.05, 0.01, 0.5, "time that it is late by"),),
             ),
             "angle_after_play": Term(
                 "held - angle", "1", "angle", WHOLE,
                 (State("held", "100.0 * (max(angle - held - play, 0.0) + min(angle - held + play, 0.0))", 0.008),),
-                (setting("play", "rad", 0.001, 0.0001, 0.01, "angle to either side by which it does not follow"),),
+                (shape_setting("play", "rad", 0.001, 0.0001, 0.01, "angle to either side by which it does not follow"),),
             ),
             "angle_of_force": Term("force_y", "rad/N", "angle", WHOLE),
             "angle_swinging_with_force": swinging("force_y", 1000.0, "way", "rad/N", "angle", WHOLE),

@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import InputError
 from . import cluster, event, probe, refit
 from . import experiment as exp
-from .confirm import LEAST_SHARE, Confirmed, best
+from .confirm import LEAST_SHARE, Confirmation, best
 from .consistency import birge_ratio
 from .experiment import Experiment, Frame
 from .probe import Job, Raw
@@ -184,7 +184,7 @@ class _Search:
             return Round.empty()
         columns = {job: self.columns[job] for job in jobs}
         found = propose(rung.frame, base.residuals, free, columns, self.by_name, [self.seed, number], self.few)
-        self.confirmed = Confirmed(rung, self.by_name, self.first, found.rare, found.certain(), not self.accepted)
+        self.confirmation = Confirmation(rung, self.by_name, self.first, found.rare, found.certain(), not self.accepted)
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         likely = refit.information(rung.frame, base.residuals)
@@ -259,4 +259,4 @@ class _FollowUp:
         tries = replace(self.search.tries, each=self.each)
         trial = tries.settled(trial) if trial.name in self.leading else trial
         trial = tries.shaped(trial) if trial.name in self.shaped else trial
-        return self.search.confirmed(trial)
+        return self.search.confirmation(trial)

@@ -28,7 +28,7 @@ LINEAR = Parameter("linear", "1", 0.0, 0.0, (-3.0, 3.0), "linear part beside it,
 """What lets a force take the place of a spring or damper of a vehicle, of which calibration changes no more than is plausible."""
 
 
-def setting(name: str, unit: str, typical: float, lower: float, upper: float, meaning: str) -> Parameter:
+def shape_setting(name: str, unit: str, typical: float, lower: float, upper: float, meaning: str) -> Parameter:
     """What shapes a term, from its ``typical`` value on."""
     return Parameter(name, unit, typical, typical, (lower, upper), meaning)
 
@@ -63,7 +63,7 @@ class Term:
 def below(expression: str, beside: str = "") -> Term:
     """Velocity through a low-pass of first order, ``slow``: what creeps beside a spring; without the velocity itself, what gives way in
     series with a damper."""
-    frequency = setting("frequency", "Hz", 10.0, 1.0, FASTEST, "frequency that it follows up to")
+    frequency = shape_setting("frequency", "Hz", 10.0, 1.0, FASTEST, "frequency that it follows up to")
     return Term(
         expression, "N s/m", states=(State("slow", f"{2 * pi:.4f} * frequency * (velocity - slow)", 0.1),), settings=(frequency,), beside=beside
     )
@@ -71,14 +71,14 @@ def below(expression: str, beside: str = "") -> Term:
 
 def sliding(expression: str, unit: str, beside: str) -> Term:
     """The direction of motion, which ``strain`` follows over some millimetres; no faster than the step of the kernel bears."""
-    presliding = setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")
+    presliding = shape_setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")
     strain = State("strain", "(velocity - abs(velocity) * strain) / (presliding + 0.003 * abs(velocity))", 1.0)
     return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
 
 
-def beyond(expression: str, *clearances: float, unit: str = "N/m", beside: str = "deflection") -> Term:
+def acting_beyond(expression: str, *clearances: float, unit: str = "N/m", beside: str = "deflection") -> Term:
     """What acts from a deflection on: a typical clearance, the least and the largest."""
-    clearance = setting("clearance", "m", *clearances, "deflection from which on it acts")
+    clearance = shape_setting("clearance", "m", *clearances, "deflection from which on it acts")
     return Term(expression, unit, settings=(clearance,), beside=beside)
 
 
@@ -87,8 +87,8 @@ def on_spring(
 ) -> Term:
     """A part of the sprung mass that moves on a spring of its own where the body has the acceleration ``base`` (typically ``typical``);
     ``frequencies``: the typical one, the least and the largest (Hz)."""
-    frequency = setting("frequency", "Hz", *frequencies, "frequency at which it swings")
-    damping = setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
+    frequency = shape_setting("frequency", "Hz", *frequencies, "frequency at which it swings")
+    damping = shape_setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
     turns = f"{2 * pi:.4f} * frequency"
     against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
     usual = 2 * pi * frequency.typical
@@ -98,17 +98,18 @@ def on_spring(
 
 def swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
     """What follows ``base`` (typically ``typical``) as a mass on a spring does: ``way``, in units of it."""
-    frequency = setting("frequency", "Hz", 8.0, 3.0, 25.0, "frequency at which it swings")
-    damping = setting("damping_ratio", "1", 0.2, 0.05, 0.8, "share of critical damping")
+    frequency = shape_setting("frequency", "Hz", 8.0, 3.0, 25.0, "frequency at which it swings")
+    damping = shape_setting("damping_ratio", "1", 0.2, 0.05, 0.8, "share of critical damping")
     turns = f"{2 * pi:.4f} * frequency"
     slope = f"({turns})**2 * ({base} - way) - 2.0 * damping_ratio * {turns} * rate"
     states = State("way", "rate", typical), State("rate", slope, 2 * pi * frequency.typical * typical)
     return Term(expression, unit, result, parts, states, (frequency, damping), beside=beside)
 
 
-KNEE = setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
+KNEE = shape_setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
 
-ANGLE = setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
+ANGLE = shape_setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
+"""What shapes a force that grows less and less with velocity, or a moment with the angle of roll."""
 
 OF_STRUCTURE = (18.0, 8.0, 40.0)
-"""Frequencies of a body that is not rigid, as for ``_on_spring``."""
+"""Frequencies of a body that is not rigid, as for ``on_spring``."""

@@ -6,7 +6,7 @@ again: what the vehicle and an error of the record can both explain is known of 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 
@@ -164,32 +164,25 @@ def moved(again: Replay, name: str, vehicle, effects, at: np.ndarray, base: Simu
     of it. Knots that are APART are moved together, since the vehicle forgets each before it comes to the next.
     """
     kept = again.compared
-    samples = kept.sum()
-    rows, columns, values = [], [], []
-    for asked, answers in moves(again, name, at):
-        difference = (asked(vehicle, effects).signals - base.signals)[:, kept] / MOVED[name]
-        seen = np.flatnonzero(answers[kept] >= 0)
-        for signal in range(6):
-            rows.append(signal * samples + seen)
-            columns.append(answers[kept][seen])
-            values.append(difference[signal, seen])
-    entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
-    return csr_array(coo_array(entries, shape=(6 * samples, len(at))))
-
-
-def moves(again: Replay, name: str, at: np.ndarray, apart: float = APART) -> Iterator[tuple[Replay, np.ndarray]]:
-    """The drive with knots ``at`` (m) moved by MOVED, those that are ``apart`` (m) at once, and the number of the knot that each instant
-    answers, (time,), -1 where it answers none."""
-    spacing = at[1] - at[0]
-    colours = min(int(np.ceil(apart / spacing)), len(at))
+    samples, spacing = kept.sum(), at[1] - at[0]
+    colours = min(int(np.ceil(APART / spacing)), len(at))
     # The driver answers a change before its knot, by as much as it is asked for early.
-    place = again.place + LOOK_AHEAD[name] * np.gradient(again.place, again.time).max()
+    place = again.place[kept] + LOOK_AHEAD[name] * np.gradient(again.place, again.time).max()
+    rows, columns, values = [], [], []
     for colour in range(colours):
         change = np.zeros(len(at))
         change[colour::colours] = MOVED[name]
         demand = {**again.demand, name: again.demand[name] + _asked(again, name, at, change)}
+        tried = replace(again, demand=demand)(vehicle, effects)
+        difference = (tried.signals - base.signals)[:, kept] / MOVED[name]
         knot = np.floor((place - at[0]) / spacing + 1 - colour).astype(int) // colours * colours + colour
-        yield replace(again, demand=demand), np.where(knot < len(at), np.maximum(knot, -1), -1)
+        seen = np.flatnonzero((knot >= 0) & (knot < len(at)))
+        for signal in range(6):
+            rows.append(signal * samples + seen)
+            columns.append(knot[seen])
+            values.append(difference[signal, seen])
+    entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
+    return csr_array(coo_array(entries, shape=(6 * samples, len(at))))
 
 
 def knots(again: Replay, spacing: float) -> np.ndarray:

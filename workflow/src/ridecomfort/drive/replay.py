@@ -38,13 +38,16 @@ CLOCK_LEFT = 1e-3
 """s that alignment may be off by. A model is compared at its best clock within it and not beyond: a delay of
 3 ms looks like a damping of the tyre, and a wrong damping like a delay."""
 
-SPEED_BANDWIDTH, PATH_BANDWIDTH = 0.4, 0.4
+DELAY_BANDWIDTH = 0.4
 """Hz up to which a driver model's delay is made up for. What is faster in a recorded speed is mostly noise, and in a path the
 vehicle does it by itself."""
 
 CLOSE, CORRECTIONS = {"speed": 0.0025, "lateral": 0.0004}, 6
 """m/s and m (rms) that a driver who is brought to the measured speed and path may miss them by, and how often at most he is
 corrected for that. A millimetre of path once in 2 s is as much side acceleration as the noise of an instrument."""
+
+HELPED = 0.5
+"""Share of what was missing that the right correction leaves at most."""
 
 SPEED_WINDOW, SPEED_NOISE = 10.0, (2.0, 0.1)
 """s of the spectra of a recorded speed, and from which Hz to which share of its rate it holds nothing of the driver."""
@@ -71,6 +74,29 @@ class Simulated:
     def slopes(self) -> np.ndarray:
         """Time derivatives of the signals, (6, time)."""
         return resampled_slopes(*self.source)[: len(SIGNALS)]
+
+
+@dataclass(frozen=True)
+class Following:
+    """A ``replay``, the ``run`` that its driver makes on its own clock, and by how much that is ``astray``."""
+
+    replay: Replay
+    run: xr.Dataset
+    astray: Mapping[str, np.ndarray]
+
+    def missed(self, name: str) -> float:
+        """What is missing of speed (m/s) or path (m), rms; inf where that is not told."""
+        return float(np.sqrt(np.mean(self.astray[name][self.replay.compared] ** 2))) if name in self.astray else np.inf
+
+    def without(self, name: str) -> Following:
+        """The same with nothing missing of one quantity."""
+        return replace(self, astray={other: missing for other, missing in self.astray.items() if other != name})
+
+    def nearer(self, vehicle, effects=()) -> Following:
+        """The same with its driver asked for what is missing."""
+        again = self.replay.corrected(self.astray)
+        run = again.run(vehicle, effects)
+        return Following(again, run, again.astray(run))
 
 
 @dataclass(frozen=True)
@@ -124,48 +150,42 @@ class Replay:
         A driver model follows what it is asked for with a delay of its own; half a percent of speed is
         half a percent of every frequency.
         """
-        return self.driven(vehicle, effects)[0]
+        return self.following(vehicle, effects).replay
 
-    def driven(
+    def following(
         self, vehicle, effects=(), allowed: Mapping[str, float] = CLOSE, corrections: int = CORRECTIONS
-    ) -> tuple[Replay, xr.Dataset, dict[str, np.ndarray]]:
-        """The same with its driver corrected, so many times at most, until he is off by less than is ``allowed`` (rms, by quantity), the
-        simulated drive on its own clock, and by how much he is still ``astray``."""
+    ) -> Following:
+        """The same with its driver corrected until he is off by less than is ``allowed`` (rms, by quantity): so many times at most, and not on
+        where that helps little.
+
+        Before that, a correction for a driver who is not late is tried. Raises InputError when the model cannot be driven.
+        """
         run = self.run(vehicle, effects)
-        found = self, run, self.astray(run)
+        found = Following(self, run, self.astray(run))
         for _ in range(corrections):
-            again, _, astray = found
-            if all(again._missed(astray, name) < allowed[name] for name in astray):
+            if all(found.missed(name) < allowed[name] for name in found.astray):
                 break
-            nearer = again._nearer(astray, vehicle, effects)
-            if "lateral" in astray and again._missed(nearer[2], "lateral") > again._missed(astray, "lateral"):
-                plainly = replace(again, is_late=False)._nearer(astray, vehicle, effects)
-                if again._missed(plainly[2], "lateral") > 0.5 * again._missed(astray, "lateral"):
-                    break
+            nearer = found.nearer(vehicle, effects)
+            helped = lambda one, share: one.missed("lateral") <= max(share * found.missed("lateral"), allowed["lateral"])
+            if "lateral" in found.astray and not helped(nearer, HELPED):
+                at_once = replace(found, replay=replace(found.replay, is_late=False))
+                plainly = at_once.nearer(vehicle, effects) if found.replay.is_late else nearer
+                if not helped(plainly, HELPED):
+                    return nearer if helped(nearer, 1.0) else found.without("lateral").nearer(vehicle, effects)
                 nearer = plainly
             found = nearer
         return found
-
-    def _nearer(self, astray: Mapping[str, np.ndarray], vehicle, effects) -> tuple[Replay, xr.Dataset, dict[str, np.ndarray]]:
-        again = self.corrected(astray)
-        run = again.run(vehicle, effects)
-        return again, run, again.astray(run)
-
-    def _missed(self, astray: Mapping[str, np.ndarray], name: str) -> float:
-        return float(np.sqrt(np.mean(astray[name][self.compared] ** 2)))
 
     def astray(self, run: xr.Dataset) -> dict[str, np.ndarray]:
         """By how much a simulated drive was too slow (m/s) and too far right (m) at the measured instants, slowly changing, (time,).
 
         By the quantity that is asked for; one that was not measured, or that the simulator does not tell, is left out.
         """
-        found = {}
-        rate = rate_of(self.time)
-        travelled = np.maximum.accumulate(run["s"].values)
-        for quantity, name, bandwidth in (("speed", "v_x", SPEED_BANDWIDTH), ("lateral", "e", PATH_BANDWIDTH)):
+        found, rate, travelled = {}, rate_of(self.time), np.maximum.accumulate(run["s"].values)
+        for quantity, name in (("speed", "v_x"), ("lateral", "e")):
             missing = self.drive[name].values - np.interp(self.place, travelled, run[name].values)
             if np.isfinite(missing).all():
-                found[quantity] = smooth(missing, rate, bandwidth, order=4)
+                found[quantity] = slowly(missing, rate)
         return found
 
     def corrected(self, missing: Mapping[str, np.ndarray]) -> Replay:
@@ -262,7 +282,7 @@ def replay(
     u = np.linspace(start, end, max(2, int(np.ceil((end - start) / SPACING)) + 1))
     lateral = np.nan_to_num(float(drive.attrs.get("lateral_position", 0.0))) + lateral_correction
     if np.isfinite(drive["e"].values).all():
-        offset = path_demand(smooth(drive["e"].values, rate, PATH_BANDWIDTH), 1 / rate, speed)
+        offset = path_demand(slowly(drive["e"].values, rate), 1 / rate, speed)
         lateral = xr.DataArray(np.interp(u, place, offset + lateral_correction), {"u": u}, "u")
     demand = {
         "speed": xr.DataArray(_continued(u, place, speed, rate), {"u": u}, "u"),
@@ -295,6 +315,12 @@ def _continued(u: np.ndarray, place: np.ndarray, speed: np.ndarray, rate: float)
     return np.clip(target, 0.8 * speed.min(), 1.2 * speed.max())
 
 
+def slowly(values: np.ndarray, rate: float) -> np.ndarray:
+    """What a driver model's delay is made up for: little of it is faster than DELAY_BANDWIDTH, since the noise of a recorded path that is
+    driven rolls the vehicle."""
+    return smooth(values, rate, DELAY_BANDWIDTH, order=4)
+
+
 def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH, order: int = 2) -> np.ndarray:
     """Low-passed without delay (Butterworth, forwards and backwards)."""
     return sosfiltfilt(_low_pass(bandwidth, rate, order), values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
@@ -306,7 +332,7 @@ def _low_pass(bandwidth: float, rate: float, order: int) -> np.ndarray:
 
 
 def speed_bandwidth(speed: np.ndarray, rate: float) -> float:
-    """Hz up to which a recorded speed tells more of the driver than of its own noise, SPEED_BANDWIDTH to DRIVER_BANDWIDTH.
+    """Hz up to which a recorded speed tells more of the driver than of its own noise, DELAY_BANDWIDTH to DRIVER_BANDWIDTH.
 
     The model drives whatever it is asked for and shakes by it: what its springs and tyres make of noise that the vehicle
     never drove is a difference that stiffer ones would make smaller (at 1 Hz and 14 mm/s, by 0.2 percent). Noise is taken
@@ -316,7 +342,7 @@ def speed_bandwidth(speed: np.ndarray, rate: float) -> float:
     frequency, density = welch(np.diff(speed) * rate, rate, nperseg=length)  # of its slope: so slow changes do not leak
     frequency, density = frequency[1:], density[1:] / (2 * rate * np.sin(np.pi * frequency[1:] / rate)) ** 2
     noise = np.median(density[(frequency >= SPEED_NOISE[0]) & (frequency <= SPEED_NOISE[1] * rate)])
-    drowned = frequency[(density < 2 * noise) & (frequency > SPEED_BANDWIDTH)]
+    drowned = frequency[(density < 2 * noise) & (frequency > DELAY_BANDWIDTH)]
     return float(min(drowned[0], DRIVER_BANDWIDTH)) if drowned.size else DRIVER_BANDWIDTH
 
 
