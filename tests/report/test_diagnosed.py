@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 from ridecomfort import config as configuration
-from ridecomfort.discrepancy import select, tries
+from ridecomfort.discrepancy import confirm, select, tries
 from ridecomfort.discrepancy.ranking import FORMS
 from ridecomfort.discrepancy.score import score
 from ridecomfort.discrepancy.verdict import SAID
@@ -310,7 +310,7 @@ def test_a_round_with_nothing_left_to_test_is_drawn_and_told():
 
 
 def test_what_the_figure_shortens_is_what_the_search_says():
-    source = inspect.getsource(select) + inspect.getsource(tries)
+    source = "".join(inspect.getsource(module) for module in (confirm, select, tries))
     assert all(part in source for part in evidence.OBJECTIONS)
 
 
