@@ -63,7 +63,7 @@ class Car:
     def _on_path(self, index: int, found: Following, simulated: Simulated) -> np.ndarray:
         """A residual (6, sample) as it would be had the driver kept to the measured path to the last millimetre."""
         residual, steered = found.replay.residual(simulated)[:, found.replay.compared], self.steered.get(index)
-        return residual if steered is None else residual + steered.made_good(found.astray["lateral"])
+        return residual + steered.made_good(found.astray["lateral"]) if steered and "lateral" in found.astray else residual
 
     def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
         """What the model does on a drive."""
