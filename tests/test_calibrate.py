@@ -96,6 +96,12 @@ def test_steps_are_those_of_the_paper_and_the_joint_fit_is_at_least_as_good(fitt
     assert "below 0.0001" in fitted.attrs["stopping_rule"]
 
 
+def test_drives_side_by_side_give_the_same_fit(road, nominal, fitted):
+    drives = measured(road, nominal.replace(**TRUTH))
+    again = calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, restarts=1, workers=2)
+    xr.testing.assert_identical(again, fitted)
+
+
 def test_cost_is_half_the_mean_over_drives_of_the_sum_of_squared_nrmse(fitted):
     expected = 0.5 * (fitted["step_nrmse"] ** 2).sum("signal").mean("drive")
     np.testing.assert_allclose(fitted["cost"], expected, rtol=1e-9)

@@ -55,7 +55,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     entries = [ENTRY | {"name": name, "role": name} for name in ("fit", "check")]
     common = {"road": files / "road.nc", "vehicle": car_file}
     config = {"site": "here", "drives": entries, "simulation": SIMULATION, "alignment": {"search": 0.5}}
-    measured.main(**common, drives=[files / "fit.csv", files / "check.csv"], config=config, output=files / "measured.nc")
+    measured.main(**common, drives=[files / "fit.csv", files / "check.csv"], config=config, workers=2, output=files / "measured.nc")
     drives = store.read(files / "measured.nc")
     assert list(drives["drive"].values) == ["fit", "check"]
     assert drives["clock_offset"].attrs["units"] == "s" and (abs(drives["clock_offset"]) < 5e-4).all()
@@ -64,7 +64,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     settings = {"bounds": {}, "signals": list(SIGNALS), "tolerance": 1e-4, "restarts": 0, "seed": 1, "applied": "joint"}
     common["measured"] = files / "measured.nc"
     settings["profiles"] = ["top_mount.stiffness_front"]  # of an effect that this model has not
-    calibrate.main(**common, config=model | {"calibration": settings}, output=files / "calibration.nc")
+    calibrate.main(**common, config=model | {"calibration": settings}, workers=2, output=files / "calibration.nc")
     found = store.read(files / "calibration.nc")
     assert "profile" not in found.dims
     assert list(found["parameter"].values) == list(CALIBRATED) and found.attrs["calibrated_on"] == "here"
@@ -115,7 +115,7 @@ def test_a_bad_record_ends_the_step_with_one_line_and_no_file(files, car_file, t
     config = {"site": "here", "drives": [ENTRY], "simulation": SIMULATION, "alignment": {"search": 0.5}}
     output = tmp_path / "out" / "measured.nc"
     words = ["--road", files / "road.nc", "--vehicle", car_file, "--drives", tmp_path / "bad.csv", "--output", output]
-    command = [sys.executable, "-m", "ridecomfort.steps.measured", *map(str, words), "--config", json.dumps(config)]
+    command = [sys.executable, "-m", "ridecomfort.steps.measured", *map(str, words), "--config", json.dumps(config), "--workers", "2"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert done.returncode == 1
     (line,) = done.stderr.strip().splitlines()

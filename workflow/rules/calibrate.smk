@@ -15,6 +15,9 @@ rule calibrate:
     benchmark:
         "results/benchmarks/calibrate/{site}/{model}.tsv"
     priority: 20
+    threads: 2
+    # The step divides its work among as many; Snakemake would have each of them do linear algebra in two threads as well.
     shell:
-        "python -m ridecomfort.steps.calibrate --road {input.road:q} --measured {input.measured:q}"
-        " --vehicle {input.vehicle:q} --config {params.config:q} --output {output:q} 2> {log:q}"
+        "OPENBLAS_NUM_THREADS=1 python -m ridecomfort.steps.calibrate --road {input.road:q} --measured {input.measured:q}"
+        " --vehicle {input.vehicle:q} --config {params.config:q} --output {output:q} --workers {threads}"
+        " 2> {log:q}"

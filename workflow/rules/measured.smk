@@ -13,6 +13,8 @@ rule measured:
         "results/logs/measured/{site}.log",
     benchmark:
         "results/benchmarks/measured/{site}.tsv"
+    threads: 2
+    # The step divides its work among as many; Snakemake would have each of them do linear algebra in two threads as well.
     shell:
-        "python -m ridecomfort.steps.measured --road {input.road:q} --vehicle {input.vehicle:q}"
-        " --drives {input.drives:q} --config {params.config:q} --output {output:q} 2> {log:q}"
+        "OPENBLAS_NUM_THREADS=1 python -m ridecomfort.steps.measured --road {input.road:q} --vehicle {input.vehicle:q}"
+        " --drives {input.drives:q} --config {params.config:q} --output {output:q} --workers {threads} 2> {log:q}"

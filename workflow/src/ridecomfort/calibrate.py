@@ -21,7 +21,7 @@ import numpy as np
 import xarray as xr
 from scipy.stats import qmc
 
-from . import identifiability
+from . import identifiability, pool
 from . import simulate as simulator
 from .descent import Descent, descend
 from .drive.record import unstack
@@ -72,15 +72,14 @@ def problem(
     signals: Sequence[str] = SIGNALS,
     options: Mapping | None = None,
     scales: Sequence[float] | None = None,
+    workers: int = 1,
 ) -> Problem:
     """The problem of fitting the drives whose role is "fit"; arguments as for ``calibrate``, ``scales`` as for ``Problem``."""
     drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
     roads = list(road) if isinstance(road, (list, tuple)) else [road] * len(drives)
-    replays = [
-        replay(drive, its_road, simulate, options=options).tuned(vehicle, effects or {})
-        for drive, its_road in zip(drives, roads, strict=True)
-        if drive.attrs.get("role", "fit") == "fit"
-    ]
+    each = pool.side_by_side(workers)
+    fitted = [pair for pair in zip(drives, roads, strict=True) if pair[0].attrs.get("role", "fit") == "fit"]
+    replays = list(each(lambda pair: replay(*pair, simulate, options=options).tuned(vehicle, effects or {}), fitted))
     if not replays:
         raise InputError("no drive has the role 'fit' (expected at least one)", place="drives")
     bounds = _bounds(vehicle, parameters, bounds or {})
@@ -88,7 +87,7 @@ def problem(
         if not (np.isfinite([lower, upper]).all() and lower < upper):
             raise InputError(f"bounds {lower:g} to {upper:g} (expected lower < upper)", place=name)
     lower, upper = np.array(list(bounds.values()), dtype=float).T
-    return Problem(replays, vehicle, tuple(bounds), lower, upper, effects or {}, tuple(signals), scales=scales)
+    return Problem(replays, vehicle, tuple(bounds), lower, upper, effects or {}, tuple(signals), scales=scales, each=each)
 
 
 def calibrate(
@@ -110,6 +109,7 @@ def calibrate(
     seed: int = 0,
     profiles: Sequence[str] = (),
     options: Mapping | None = None,
+    workers: int = 1,
 ) -> xr.Dataset:
     """Parameters of the vehicle, and of its effects, that bring the model closest to the aligned drives.
 
@@ -124,6 +124,7 @@ def calibrate(
     they end, from the further ones of ``start`` and from ``restarts`` random points (restart_cost, restart_value).
     ``applied`` says whose values are ``value``: "joint" (default) or "sequence", as in the paper; without
     ``sequence`` there is the joint fit alone and value_sequence is NaN. ``profiles`` names parameters whose profile of the cost is wanted.
+    So many drives are simulated side by side as there are ``workers``, which changes nothing else.
 
     Returns the Dataset of calibration.nc: over ``parameter`` value, initial, lower, upper, unit,
     interval_lower/upper (90 %), value_sequence, verdict and signal_share(parameter, signal);
@@ -137,7 +138,7 @@ def calibrate(
         raise InputError("sequence, which is left out (expected joint)", place="applied")
     task = problem(
         drives, road, vehicle, simulate=simulate, parameters=parameters, bounds=bounds, effects=effects, signals=signals,
-        options=options,
+        options=options, workers=workers,
     )  # fmt: skip
     unknown = [name for name in profiles if name not in task.parameters]
     if unknown:

@@ -31,7 +31,7 @@ def mapped(count: int) -> Callable[[Callable, Iterable], Iterator]:
         _shared.append(function)
         try:
             with multiprocessing.get_context("fork").Pool(min(count, len(jobs))) as pool:
-                return iter(pool.map(_call, jobs, chunksize=1))
+                return iter(list(pool.imap(_call, jobs)))  # of several that fail the first is told
         finally:
             _shared.pop()
 

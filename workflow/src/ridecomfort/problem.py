@@ -5,13 +5,13 @@ Points are in units of the bounds, 0 at the lower and 1 at the upper.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .calibrated import with_values
-from .drive.leftover import FLOOR, INDEPENDENT, corrected, leftover
+from .drive.leftover import FLOOR, INDEPENDENT, Projection, corrected, leftover
 from .drive.replay import CLOCK_LEFT, Replay
 from .drive.sampling import low_pass, low_pass_matrix
 from .errors import InputError
@@ -48,6 +48,8 @@ class Problem:
     uncorrected: Sequence[Replay] = ()
     """The drives as alignment left them, where ``replays`` have been corrected further. Path and speed are asked for
     again only then: what they change is seen from a vehicle that fits roughly."""
+    each: Callable = map
+    """A ``map`` that may simulate drives side by side (``pool.side_by_side``)."""
     scales: Sequence[float] | None = None
     """What each of SIGNALS is divided by, in its unit, if not by its measured range."""
 
@@ -57,28 +59,31 @@ class Problem:
             np.ptp(again.measured()[:, again.compared], axis=1) if self.scales is None else np.asarray(self.scales)
             for again in self.replays
         ]
-        self._known: dict[bytes, list[tuple[np.ndarray, np.ndarray]]] = {}
-        self._scale, self._left_over = [], []
-        for again, ranges in zip(self.replays, self._ranges):
-            span = np.where(ranges > 0, ranges, np.inf)[self._used]  # a signal that never changes has no NRMSE
-            self._scale.append(span * np.sqrt(again.compared.sum() * len(self.replays)))
-            share = INDEPENDENT / (again.time[1] - again.time[0]) * FLOOR**2 / (again.compared.sum() * len(self.replays))
-            interval = again.time[1] - again.time[0]
-            passing = low_pass_matrix(again.compared.sum(), interval, PASSED * float(again.drive.attrs["cut_off"]))
-            errors = leftover(again, self.vehicle, self.effects, driven=bool(self.uncorrected)).through(passing)
-            self._left_over.append(errors.scaled(self._used, self._scale[-1], share))
+        self._known: dict[bytes, list[tuple[np.ndarray, np.ndarray]] | InputError] = {}
+        self._scale = [
+            np.where(ranges > 0, ranges, np.inf)[self._used]  # a signal that never changes has no NRMSE
+            * np.sqrt(again.compared.sum() * len(self.replays))
+            for again, ranges in zip(self.replays, self._ranges)
+        ]
+        self._left_over = list(self.each(self._left, range(len(self.replays))))
+
+    def _left(self, i: int) -> Projection:
+        """What takes the errors of alignment out of the residual of a drive."""
+        again = self.replays[i]
+        interval, count = again.time[1] - again.time[0], again.compared.sum()
+        share = INDEPENDENT / interval * FLOOR**2 / (count * len(self.replays))
+        passing = low_pass_matrix(count, interval, PASSED * float(again.drive.attrs["cut_off"]))
+        errors = leftover(again, self.vehicle, self.effects, driven=bool(self.uncorrected)).through(passing)
+        return errors.scaled(self._used, self._scale[i], share)
 
     def about(self, point: np.ndarray) -> Problem:
         """The same problem with driver, path and speed, and what alignment may have left, seen from this point."""
         vehicle, effects = self._car(point)
-        replays = [again.tuned(vehicle, effects) for again in self.replays]
+        replays = list(self.each(lambda again: again.tuned(vehicle, effects), self.replays))
         nearer = replace(self, replays=replays, vehicle=vehicle, effects=effects, uncorrected=replays)
         for _ in range(ROUNDS):
-            pairs = [
-                corrected(again, projection, nearer._residual(again, i, vehicle, effects))
-                for i, (again, projection) in enumerate(zip(nearer.replays, nearer._left_over))
-            ]
-            nearer.replays, nearer._left_over = (list(rows) for rows in zip(*pairs))
+            as_asked = lambda i: corrected(nearer.replays[i], nearer._left_over[i], nearer._residual(nearer.replays[i], i, vehicle, effects))
+            nearer.replays, nearer._left_over = map(list, zip(*self.each(as_asked, range(len(replays)))))
         return nearer
 
     def point(self, values) -> np.ndarray:
@@ -94,16 +99,32 @@ class Problem:
         return [left for _, left in self._evaluated(point)]
 
     def _evaluated(self, point: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Per drive the residual and what the projection leaves of it; the last points are remembered."""
-        key = np.asarray(point, dtype=float).tobytes()
-        if key not in self._known:
+        """Per drive the residual and what the projection leaves of it. Raises InputError where a vehicle cannot be driven."""
+        self._evaluate([point])
+        found = self._known[_key(point)]
+        if isinstance(found, InputError):
+            raise found
+        return found
+
+    def _evaluate(self, points: Iterable[np.ndarray]) -> None:
+        """Simulate all drives at points, side by side; the last ones are remembered."""
+        new = {_key(point): self._car(point) for point in points if _key(point) not in self._known}
+        jobs = [(i, *car) for car in new.values() for i in range(len(self.replays))]
+        pieces = self.each(lambda job: self._piece(*job), jobs)
+        for key in new:
             if len(self._known) > 4 * len(self.parameters):
                 del self._known[next(iter(self._known))]
             self.evaluations += 1
-            vehicle, effects = self._car(point)
-            residuals = [self._residual(again, i, vehicle, effects) for i, again in enumerate(self.replays)]
-            self._known[key] = [(whole, projection(whole)) for whole, projection in zip(residuals, self._left_over)]
-        return self._known[key]
+            found = [next(pieces) for _ in self.replays]
+            self._known[key] = next((piece for piece in found if isinstance(piece, InputError)), found)
+
+    def _piece(self, i: int, vehicle, effects) -> tuple[np.ndarray, np.ndarray] | InputError:
+        """Residual of one drive and what the projection leaves of it, or why it cannot be driven."""
+        try:
+            whole = self._residual(self.replays[i], i, vehicle, effects)
+        except InputError as problem:
+            return problem
+        return whole, self._left_over[i](whole)
 
     def residuals_as_aligned(self, point: np.ndarray) -> list[np.ndarray]:
         """The same as ``residuals``, with all that alignment left in them."""
@@ -153,21 +174,26 @@ class Problem:
         beyond."""
         base = self.flat(point)
 
-        def column(index: int, step: float) -> np.ndarray:
-            moved = np.array(point, dtype=float)
-            moved[index] += step
-            return (self.flat(moved) - base) / step
+        def moved(index: int, step: float) -> np.ndarray:
+            there = np.array(point, dtype=float)
+            there[index] += step
+            return there
 
+        steps = {index: DIFFERENCE if point[index] + DIFFERENCE <= 1.0 else -DIFFERENCE for index in free}
+        self._evaluate([moved(index, step) for index, step in steps.items()])
         columns = []
-        for index in free:
-            step = DIFFERENCE if point[index] + DIFFERENCE <= 1.0 else -DIFFERENCE
+        for index, step in steps.items():
             try:
-                columns.append(column(index, step))
+                columns.append((self.flat(moved(index, step)) - base) / step)
             except InputError:
-                columns.append(column(index, -step))
+                columns.append((self.flat(moved(index, -step)) - base) / -step)
         return np.stack(columns, axis=1) if columns else np.zeros((base.size, 0))
 
     def nrmse(self, point: np.ndarray) -> np.ndarray:
         """RMSE over the measured range, (drive, signal)."""
         count = len(self.replays)
         return np.stack([np.sqrt(count * np.sum(residual**2, axis=1)) for residual in self.residuals(point)])
+
+
+def _key(point: np.ndarray) -> bytes:
+    return np.asarray(point, dtype=float).tobytes()

@@ -38,9 +38,10 @@ CLOCK_LEFT = 1e-3
 """s that alignment may be off by. A model is compared at its best clock within it and not beyond: a delay of
 3 ms looks like a damping of the tyre, and a wrong damping like a delay."""
 
-DELAY_BANDWIDTH = 0.4
-"""Hz up to which a driver model's delay is made up for. What is faster in a recorded speed is mostly noise, and in a path the
-vehicle does it by itself."""
+DELAY_BANDWIDTH, DELAY_ORDERS = 0.4, {"speed": 2, "lateral": 4}
+"""Hz up to which a driver model's delay is made up for, and how steeply the filter falls beyond. What is faster in a recorded speed
+is mostly noise, and in a path the vehicle does it by itself. Noise of a path that is driven rolls the vehicle: none of that is asked
+for; the changes of speed of a driver reach to 1 Hz."""
 
 CLOSE, CORRECTIONS = {"speed": 0.0025, "lateral": 0.0004}, 6
 """m/s and m (rms) that a driver who is brought to the measured speed and path may miss them by, and how often at most he is
@@ -185,7 +186,7 @@ class Replay:
         for quantity, name in (("speed", "v_x"), ("lateral", "e")):
             missing = self.drive[name].values - np.interp(self.place, travelled, run[name].values)
             if np.isfinite(missing).all():
-                found[quantity] = slowly(missing, rate)
+                found[quantity] = slowly(missing, rate, quantity)
         return found
 
     def corrected(self, missing: Mapping[str, np.ndarray]) -> Replay:
@@ -315,10 +316,9 @@ def _continued(u: np.ndarray, place: np.ndarray, speed: np.ndarray, rate: float)
     return np.clip(target, 0.8 * speed.min(), 1.2 * speed.max())
 
 
-def slowly(values: np.ndarray, rate: float) -> np.ndarray:
-    """What a driver model's delay is made up for: little of it is faster than DELAY_BANDWIDTH, since the noise of a recorded path that is
-    driven rolls the vehicle."""
-    return smooth(values, rate, DELAY_BANDWIDTH, order=4)
+def slowly(values: np.ndarray, rate: float, quantity: str = "lateral") -> np.ndarray:
+    """What a driver model's delay is made up for: little of it is faster than DELAY_BANDWIDTH."""
+    return smooth(values, rate, DELAY_BANDWIDTH, order=DELAY_ORDERS[quantity])
 
 
 def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH, order: int = 2) -> np.ndarray:

@@ -8,7 +8,7 @@ from ridecomfort.steps.command import Command, counted
 from ridecomfort.vehicle import parameters
 
 
-def main(road, measured, vehicle, config, output):
+def main(road, measured, vehicle, config, output, workers):
     chosen = library.choose(config["effects"], config["effects_folder"])
     settings = dict(config["calibration"])
     bounds, units = calibrate.effect_parameters(chosen, held=config["effects"])
@@ -23,6 +23,7 @@ def main(road, measured, vehicle, config, output):
         units=units,
         effects={entry.effect.name: sizes for entry, sizes in chosen},
         options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
+        workers=int(workers),
         **settings,
     )
     for step in result["step"].values:
@@ -36,4 +37,4 @@ def main(road, measured, vehicle, config, output):
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("road", "measured", "vehicle")).run()
+    Command(main, inputs=("road", "measured", "vehicle"), texts=("workers",)).run()

@@ -1,22 +1,22 @@
 """Read a site's measured drives and bring them into line with its road: clock, speed, path, mounting."""
 
-from ridecomfort import simulate, store
+from ridecomfort import pool, simulate, store
 from ridecomfort.drive import align, configured, record
 from ridecomfort.errors import InputError
 from ridecomfort.steps.command import Command
 from ridecomfort.vehicle import parameters
 
 
-def main(road, vehicle, drives, config, output):
+def main(road, vehicle, drives, config, output, workers):
     course = simulate.prepare(store.read(road))
     car = parameters.read(vehicle)
     rate, step = config["simulation"]["rate"], config["simulation"]["step"]
-    aligned = [
-        _aligned(path, configured.read(path, entry, car, rate=rate), course, car, {"step": step}, config["alignment"])
-        for path, entry in zip(drives, config["drives"], strict=True)
-    ]
+    read = [configured.read(path, entry, car, rate=rate) for path, entry in zip(drives, config["drives"], strict=True)]
+    aligned = pool.mapped(int(workers))(
+        lambda job: _aligned(*job, course, car, {"step": step}, config["alignment"]), zip(drives, read)
+    )
     store.write(
-        record.stack(aligned), output, title=f"Measured drives on {config['site']}", configuration=config
+        record.stack(list(aligned)), output, title=f"Measured drives on {config['site']}", configuration=config
     )
 
 
@@ -30,4 +30,4 @@ def _aligned(path, drive, course, car, options, settings):
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("road", "vehicle", "drives"), many=("drives",)).run()
+    Command(main, inputs=("road", "vehicle", "drives"), many=("drives",), texts=("workers",)).run()
