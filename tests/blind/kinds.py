@@ -141,6 +141,11 @@ def _wrong_file(rng, names, number) -> Draw:
     return Draw(hidden, float(rng.choice(STRONG)) if hidden else 0.0, frozenset(hidden), wrong=wrong)
 
 
+def _outside_wrong_file(rng, names, number) -> Draw:
+    """A force that the library never had, and one or two parameters that nothing calibrates far off."""
+    return Draw((str(rng.choice(MADE_UP)),), float(rng.choice(STRONG[1:])), frozenset(), wrong=_wrong_file(rng, names, 1).wrong)
+
+
 def _of_measurement(rng, names, number) -> Draw:
     name = OF_MEASUREMENT[number % len(OF_MEASUREMENT)]
     return Draw((name,), float(rng.choice(STRONG[:2])), frozenset({name}), spoilt={"aligned": True})
@@ -169,6 +174,7 @@ KINDS: Mapping[str, Callable] = {
     "wrong file": _wrong_file,
     "measurement": _of_measurement,
     "outside, beside the library": _outside_beside,
+    "outside, beside a wrong file": _outside_wrong_file,
 }
 
 SUSPECT = ("clock error, left", "gain error", "scanner noise")

@@ -113,7 +113,7 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     line(f"p of the whole library below {100 * LEVEL:.0f} %: all of these", of(*nulls), lambda row: row["p_value"] < LEVEL, "3-8 %")
     line("wrong effect named with confidence", rows, lambda row: row["wrong_named"], "at most 3 %")
     with_library = single("outside, beside the library", strong)
-    for kind in ("outside", "outside, messy", "outside, beside the library"):
+    for kind in ("outside", "outside, messy", "outside, beside the library", "outside, beside a wrong file"):
         said = f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3'
         line(said, single(kind, strong), lambda row: row["verdict"] == "outside", "80 %")
     placed = [row for kind in ("outside", "outside, messy") for row in single(kind, strong) if row["form_share"] != ""]
@@ -123,6 +123,9 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     line("effect of the library beside such a force named, and no other", with_library, lambda row: row["exact"])
     both = [row for row in with_library if row["form_share"] != ""]
     line(f"both together remove {100 * FORM:.0f} % of what the true ones do, held out", both, formed)
+    wrong = [row for row in single("outside, beside a wrong file", strong) if row["form_share"] != ""]
+    line(f"its form removes {100 * FORM:.0f} % of what the true one does, beside a wrong file, held out", wrong, formed)
+    line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %, beside such a force", wrong, lambda row: row["told"] == row["wrong"])
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"], "85 %")
     line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"], "70 %")
     beside = [row for row in of("wrong file") if row["hidden"] and reached[id(row)] >= 0.3]

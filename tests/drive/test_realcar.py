@@ -125,3 +125,13 @@ def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_fil
     beyond = {one.parameter: one.value for one in verdict.beyond_bounds.parameters}
     assert beyond["roll_inertia"] < 0.8 * car["roll_inertia"] and beyond["anti_roll_stiffness_rear"] > 2 * car["anti_roll_stiffness_rear"]
     assert verdict.beyond_bounds.held_out_share > 0.1
+
+
+@pytest.mark.slow
+def test_within_the_bounds_of_the_papers_car_the_verdict_says_that_its_tyres_damp_less(drives, road, car):
+    """Published tyres damp by 0 to 2000 N s/m, which tab:constraints (4000 to 7000) leaves out."""
+    bounds = BOUNDS | {"tyre_radial_stiffness": (250000.0, 400000.0), "tyre_radial_damping": (4000.0, 7000.0)}
+    _, verdict, _ = diagnose({"realcar": (road, drives)}, car, bounds=bounds, among=["damper_asymmetry", "top_mount"])
+    told = {one.parameter: one for one in verdict.beyond_bounds.parameters}
+    assert verdict.verdict == "outside" and told["tyre_radial_damping"].value < 2000.0
+    assert min(verdict.beyond_bounds.share, verdict.beyond_bounds.held_out_share) > 0.3

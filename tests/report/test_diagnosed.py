@@ -151,9 +151,9 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     inertia = {**bar, "parameter": "roll_inertia", "wider": [257.4, 1258.4], "value": 406.2}
     beyond = {"parameters": [inertia, bar], "share": 0.27, "held_out_share": 0.16, "is_first": True}
     said = words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": beyond}))["verdict"])
-    assert "let calibration: parameters in config/study.yaml hold roll_inertia, anti_roll_stiffness_rear, too" in said
+    assert "let calibration: parameters in config/study.yaml hold roll_inertia, anti_roll_stiffness_rear and calibration: bounds hold" in said
     # Half to twice what was found is within the bounds, too: a bar that ends where it was allowed to wants to go on.
-    assert "calibration: bounds roll_inertia: [203, 1260], anti_roll_stiffness_rear: [2830, 69000]" in said
+    assert "calibration: bounds hold roll_inertia: [203, 1260], anti_roll_stiffness_rear: [2830, 69000]" in said
     assert said.startswith("verdict No effect of the library is missing: parameters of the vehicle lie far from its file. (outside)")
     named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
     assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
@@ -169,7 +169,7 @@ def test_bounds_that_are_proposed_are_those_of_a_vehicle_and_read_as_numbers(pro
             "value": 155e3, "interval": [150e3, 160e3]}  # fmt: skip
     damper = {**tyre, "parameter": "damping_front", "unit": "N s/m", "wider": [700.0, 20000.0], "value": 18e3}
     said = advice.farther({"parameters": [tyre, damper]})
-    bounds = said.partition("calibration: bounds ")[2].partition(";")[0]
+    bounds = said.partition("calibration: bounds hold ")[2].partition(";")[0]
     assert bounds == "tyre_radial_stiffness: [80000, 1200000], damping_front: [700, 30000]"
     given = yaml.safe_load("{" + bounds + "}")
     names = ["tyre_radial_stiffness", "damping_front"]

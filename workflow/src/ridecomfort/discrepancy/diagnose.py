@@ -9,21 +9,24 @@ import xarray as xr
 
 from .. import pool
 from . import opening
-from .beyond import BeyondBounds, before_effects, beyond_bounds, ends_at_bounds, searched, without_effects
+from .beyond import beside, ends_at_bounds
 from .car import Car
 from .discover import Discovery, discovered
 from .explain import REPEATS
 from .judge import with_parameters
 from .rank import ranked
 from .ranking import with_forms
-from .reconsider import beside_a_force, heard, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better, with_reason
-from .rung import Rung, begin
-from .selection import Selection
+from .reconsider import beside_a_force, heard, is_doubtful, is_sure, left, named_all_the_same, reconsidered, surely_fits_better, with_reason
+from .righted import Search, is_better, searched_again
+from .rung import begin
 from .verdict import Verdict
 
 NEARLY_ALL = 0.98
 """Share of the explainable error removed above which no form is looked for in place of an error of the measurement, nor, as the mean of fitted
 drives and of those held out, a wrong file of the vehicle."""
+
+TRIED = "parameters of the vehicle beyond their bounds were tried, too: they explain no more"
+"""What is said where that is so."""
 
 
 def diagnose(
@@ -40,28 +43,26 @@ def diagnose(
     common = {"effects_folder": effects_folder, "seed": seed, "say": say}
     common["each"] = pool.mapped(pool.workers() if workers is None else workers)
     rung = begin(experiment, opening.start_values(experiment), common["each"])
-    table, verdict, selection = ranked(experiment, rung, signatures=signatures, **common)
-    found = None
-    is_explained = left(verdict) < 1.0 - NEARLY_ALL
-    if not table.attrs["suspected"] and verdict.verdict != "nothing" and not is_explained and ends_at_bounds(selection):
-        found, again = _with_vehicle_right(experiment, selection, signatures, common)
-        if again is not None:
-            table, verdict, selection, rung = again
-        elif found is None:
-            verdict = with_reason(verdict, verdict.verdict, "parameters of the vehicle beyond their bounds were tried, too: they explain no more")
-    verdict = heard(verdict, table.attrs["turns"], table.attrs["suspected"] == "road")
-    is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"]) and not table.attrs["turns"]
-    is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
-    is_road_alone = verdict.verdict == "suspect" and table.attrs["suspected"] == "road"
-    proposal = None
-    if is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone:
-        beside = experiment.candidates if verdict.verdict in ("named", "cluster", "outside") else ()
-        proposal = discovered(rung, name=name, known=beside, probed=selection.probed, **common)
-        table = with_forms(table, proposal.evidence)
-        verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, surely_fits_better(proposal, selection))
-        if not (table.attrs["turns"] or table.attrs["road"]):
-            verdict = named_all_the_same(verdict, proposal)
-        proposal = proposal if verdict.verdict == "outside" else None
+    search = Search(*ranked(experiment, rung, signatures=signatures, **common), rung)
+    found, again = None, None
+    is_explained = left(search.verdict) < 1.0 - NEARLY_ALL
+    if not search.table.attrs["suspected"] and search.verdict.verdict != "nothing" and not is_explained and ends_at_bounds(search.selection):
+        found, again = searched_again(experiment, search.selection, signatures, common)
+        if again is not None and again.leaves_nothing_out:
+            search, found, again = again, again.parameters, None
+        elif found is None and again is None:
+            search = replace(search, verdict=with_reason(search.verdict, search.verdict.verdict, TRIED))
+    table, verdict, proposal = _beside_a_force(search, experiment, name, common)
+    if again is not None and verdict.verdict == "outside":
+        say("looking at both: the vehicle as it is, and put right")
+        other = _beside_a_force(again, experiment, name, common)
+        theirs = search.removed(verdict, proposal)
+        if is_better(again.removed(*other[1:]), again.removed(other[1]), theirs):
+            (table, verdict, proposal), found = other, again.parameters
+            if proposal is not None and is_sure(proposal):
+                found = beside(found, search.selection, proposal.selection)
+        elif again.parameters.is_much_of(theirs):
+            found = replace(again.parameters, is_instead=True)
     if proposal is not None:
         if found is not None and not found.is_first and proposal.share > verdict.share + found.share:
             found = None
@@ -69,20 +70,20 @@ def diagnose(
     return table, with_parameters(verdict, found and found.of(vehicle)), proposal
 
 
-def _with_vehicle_right(
-    experiment: Car, selection: Selection, signatures: bool, common: Mapping
-) -> tuple[BeyondBounds | None, tuple[xr.Dataset, Verdict, Selection, Rung] | None]:
-    """Parameters of the vehicle beyond their bounds, if they explain more, and what a search finds that begins with them put right, with
-    the rung it begins at, if that is the better one and leaves nothing out, or sees that the data are wrong. ``experiment``: as its drives
-    came."""
-    common["say"]("trying parameters of the vehicle beyond their bounds")
-    found, wide = beyond_bounds(selection, common["each"]) or (None, None)
-    rung = without_effects(wide, common["each"]) if wide else before_effects(selection, common["each"])
-    if rung is None:
-        return found, None
-    common["say"]("searching again with those parameters put right")
-    came = replace(experiment, free=rung.experiment.free)
-    table, verdict, again = ranked(came, rung, signatures=signatures, **common)
-    first = searched(selection, again)
-    is_explained = verdict.verdict in ("named", "cluster", "nothing") or table.attrs["suspected"] == "data"
-    return (first, (table, verdict, again, rung)) if is_explained and first is not None else (found, None)
+def _beside_a_force(search: Search, experiment: Car, name: str, common: Mapping) -> tuple[xr.Dataset, Verdict, Discovery | None]:
+    """Evidence and verdict of a search in the light of what comes back with the way or the time, and of a force of any form where what was
+    found leaves one open; with that force where the verdict is "outside"."""
+    table = search.table
+    verdict = heard(search.verdict, table.attrs["turns"], table.attrs["suspected"] == "road")
+    is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"]) and not table.attrs["turns"]
+    is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
+    is_road_alone = verdict.verdict == "suspect" and table.attrs["suspected"] == "road"
+    if not (is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone):
+        return table, verdict, None
+    library = experiment.candidates if verdict.verdict in ("named", "cluster", "outside") else ()
+    proposal = discovered(search.rung, name=name, known=library, probed=search.selection.probed, **common)
+    table = with_forms(table, proposal.evidence)
+    verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, surely_fits_better(proposal, search.selection))
+    if not (table.attrs["turns"] or table.attrs["road"]):
+        verdict = named_all_the_same(verdict, proposal)
+    return table, verdict, proposal if verdict.verdict == "outside" else None

@@ -89,8 +89,8 @@ def farther(beyond: Mapping) -> str:
     names = ", ".join(one["parameter"] for one in beyond["parameters"])
     bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(as_written, _farther(one))) for one in beyond["parameters"])
     return (
-        f"First of all: if the vehicle's file may be that wrong, have it calibrated: let calibration: parameters in config/study.yaml hold {names}, "
-        f"too, and calibration: bounds {bounds}; then compare and diagnose again. If it cannot be, they stand in for something else."
+        f"First of all: if the vehicle's file may be that wrong, have it calibrated: let calibration: parameters in config/study.yaml hold {names} "
+        f"and calibration: bounds hold {bounds}; then compare and diagnose again. If it cannot be, they stand in for something else."
     )
 
 
