@@ -16,6 +16,9 @@ KAPPAS = (0.05, 0.1, 0.3, 1.0, 3.0)
 
 STRONG = (0.3, 1.0, 3.0)
 
+STRIDE = 13
+"""By how many effects the turn of a seed begins later than that of the seed before: one round is not always of the first of the library."""
+
 FAINT = ("aerodynamic_lift", "anti_dive", "anti_squat", "drivetrain_lag", "gear_shift", "rebound_stop", "steering_compliance",
          "wheel_compliance")  # fmt: skip
 """Effects whose plausible sizes come up to no kappa of 0.3 on such drives; they are drawn alone only."""
@@ -183,4 +186,4 @@ SUSPECT = ("clock error, left", "gain error", "scanner noise")
 
 def draw(kind: str, seed: int, number: int) -> Draw:
     """The trial ``number`` of its kind; effects take turns, the rest is drawn."""
-    return KINDS[kind](np.random.default_rng([seed, number, 9]), of_the_vehicle(), number)
+    return KINDS[kind](np.random.default_rng([seed, number, 9]), of_the_vehicle(), number + STRIDE * seed)
