@@ -47,7 +47,7 @@ def one(job: tuple[str, int, int]) -> dict:
     row |= {"place_right": "", "form_share": "", "wrong": len(draw.wrong), "told": score.told(draw, car, verdict)}
     ports = {place.port: name for name, place in PLACES.items()}
     place = ports.get(known[draw.hidden[0]].effect.port) if kind.startswith("outside") else None
-    fall = lambda first, last: score.against_oracle(trial, car, trials.SHAPES, first, last)
+    fall = lambda first, last: score.against_oracle(trial, true, trials.SHAPES, first, last)
     if place:
         states = proposal.selection.states if proposal else ()
         share = fall(states[0].held_out_squares, states[-1].held_out_squares) if states else float("nan")
