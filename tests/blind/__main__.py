@@ -53,7 +53,7 @@ def one(job: tuple[str, int, int]) -> dict:
         share = fall(states[0].held_out_squares, states[-1].held_out_squares) if states else float("nan")
         row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share}
     reached = table["held_out_mean_square"].values
-    oracle = fall(reached[0], reached[-1]) if draw.hidden and kind not in ("messy", "wrong file") else float("nan")
+    oracle = fall(reached[0], reached[-1]) if draw.hidden and kind != "messy" and not draw.wrong else float("nan")
     return {**row, "against_oracle": oracle, "cpu_seconds": seconds, "reasons": "; ".join(verdict.reasons)}
 
 
@@ -70,7 +70,7 @@ def jobs(rounds: int, seed: int, chosen: Collection[str] = tuple(SHARES)) -> lis
 
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m tests.blind", description=__doc__)
-    parser.add_argument("--rounds", type=int, default=8, help=f"rounds of {sum(SHARES.values())} trials (default 8)")
+    parser.add_argument("--rounds", type=int, default=8, help=f"rounds of {sum(SHARES.values())} trials of all kinds (default 8)")
     parser.add_argument("--seed", type=int, default=1, help="of the trials (default 1)")
     parser.add_argument("--kinds", nargs="+", choices=list(SHARES), default=list(SHARES), metavar="KIND", help="of these kinds alone")
     parser.add_argument("--workers", type=int, default=2, help="trials at a time (default 2)")

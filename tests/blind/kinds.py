@@ -17,7 +17,8 @@ KAPPAS = (0.05, 0.1, 0.3, 1.0, 3.0)
 STRONG = (0.3, 1.0, 3.0)
 
 STRIDE = 13
-"""By how many effects the turn of a seed begins later than that of the seed before: one round is not always of the first of the library."""
+"""By how many effects the turn of a seed begins later than that of the seed before: one round is not always of the first of the library. Odd,
+so that kinds by turns alternate between seeds, too."""
 
 FAINT = ("aerodynamic_lift", "anti_dive", "anti_squat", "drivetrain_lag", "gear_shift", "rebound_stop", "steering_compliance",
          "wheel_compliance")  # fmt: skip

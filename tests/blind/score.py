@@ -123,9 +123,10 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     line("effect of the library beside such a force named, and no other", with_library, lambda row: row["exact"])
     both = [row for row in with_library if row["form_share"] != ""]
     line(f"both together remove {100 * FORM:.0f} % of what the true ones do, held out", both, formed)
-    wrong = [row for row in single("outside, beside a wrong file", strong) if row["form_share"] != ""]
-    line(f"its form removes {100 * FORM:.0f} % of what the true one does, beside a wrong file, held out", wrong, formed)
+    wrong = single("outside, beside a wrong file", strong)
     line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %, beside such a force", wrong, lambda row: row["told"] == row["wrong"])
+    theirs = [row for row in wrong if row["form_share"] != ""]
+    line(f"its form removes {100 * FORM:.0f} % of what is left to who knows file and force, held out", theirs, formed)
     line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"], "85 %")
     line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"], "70 %")
     beside = [row for row in of("wrong file") if row["hidden"] and reached[id(row)] >= 0.3]

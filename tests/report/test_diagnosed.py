@@ -151,9 +151,9 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     inertia = {**bar, "parameter": "roll_inertia", "wider": [257.4, 1258.4], "value": 406.2}
     beyond = {"parameters": [inertia, bar], "share": 0.27, "held_out_share": 0.16, "is_first": True}
     said = words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": beyond}))["verdict"])
-    assert "let calibration: parameters in config/study.yaml hold roll_inertia, anti_roll_stiffness_rear and calibration: bounds hold" in said
+    assert "Add roll_inertia, anti_roll_stiffness_rear to calibration: parameters in config/study.yaml, unless they are there" in said
     # Half to twice what was found is within the bounds, too: a bar that ends where it was allowed to wants to go on.
-    assert "calibration: bounds hold roll_inertia: [203, 1260], anti_roll_stiffness_rear: [2830, 69000]" in said
+    assert "put roll_inertia: [203, 1260], anti_roll_stiffness_rear: [2830, 69000] into calibration: bounds" in said
     assert said.startswith("verdict No effect of the library is missing: parameters of the vehicle lie far from its file. (outside)")
     named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
     assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
@@ -163,13 +163,23 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     assert said.startswith("verdict Something is missing that is not in the library. (outside)") and "Nothing is to be switched on" not in said
 
 
+def test_parameters_that_are_another_explanation_come_last():
+    bar = {"parameter": "anti_roll_stiffness_rear", "unit": "N m/rad", "given": 10000.0, "bounds": [8500.0, 11500.0],
+           "wider": [2833.3, 34500.0], "value": 19900.0, "interval": [19000.0, 20800.0]}  # fmt: skip
+    beyond = {"parameters": [bar], "share": 0.27, "held_out_share": 0.16, "is_first": False, "is_instead": True}
+    told = rows(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": beyond}))["verdict"])
+    assert [row["what"] for row in told][-2:] == ["next", "or, the vehicle"]
+    assert told[-1]["in_words"].startswith("In place of that: if the vehicle's file may be that wrong")
+    assert told[0]["in_words"].startswith("Something is missing that is not in the library.")
+
+
 def test_bounds_that_are_proposed_are_those_of_a_vehicle_and_read_as_numbers(project):
     """What the verdict says, put into config/study.yaml as it stands, is taken."""
     tyre = {"parameter": "tyre_radial_stiffness", "unit": "N/m", "given": 320e3, "bounds": [250e3, 400e3], "wider": [83333.3, 1.2e6],
             "value": 155e3, "interval": [150e3, 160e3]}  # fmt: skip
     damper = {**tyre, "parameter": "damping_front", "unit": "N s/m", "wider": [700.0, 20000.0], "value": 18e3}
     said = advice.farther({"parameters": [tyre, damper]})
-    bounds = said.partition("calibration: bounds hold ")[2].partition(";")[0]
+    bounds = said.partition(" put ")[2].partition(" into ")[0]
     assert bounds == "tyre_radial_stiffness: [80000, 1200000], damping_front: [700, 30000]"
     given = yaml.safe_load("{" + bounds + "}")
     names = ["tyre_radial_stiffness", "damping_front"]

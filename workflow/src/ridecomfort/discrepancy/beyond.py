@@ -26,8 +26,9 @@ friction by what rubber does (one of 0.2 on a dry road is a tyre that is soft to
 ANY = 3.0
 """...and all else, stiffnesses, dampings and masses, by nothing but its effect."""
 
-HARDLY_KNOWN = {"tyre_radial_damping": 100.0}
-"""The same for single parameters: published dampings of tyres, 0 to 2000 N s/m, all lie below the bounds of the paper."""
+LOWER = {"tyre_radial_damping": 100.0}
+"""Factor that the lower bound of a single parameter is divided by: published dampings of tyres, 0 to 2000 N s/m, all lie below the bounds of
+the paper."""
 
 LEAST_SHARE = 0.05
 """Share of the explainable error that must go for them to be worth a word."""
@@ -54,8 +55,8 @@ class Beyond:
 @dataclass(frozen=True)
 class BeyondBounds:
     """``parameters`` that lie beyond their bounds, and the ``share`` of the explainable error that goes on fitted and on held-out drives
-    (nan without) when they may: beside effects that were found without, or, where ``is_first``, before any effect; ``is_instead``: which were
-    not looked for with them, since something else explains more."""
+    (nan where not known) when they may: beside effects that were found without; where ``is_first``, before any effect; where ``is_instead``,
+    alone, as another explanation, which removes less than that of the verdict."""
 
     parameters: tuple[Beyond, ...]
     share: float
@@ -65,28 +66,19 @@ class BeyondBounds:
 
     def words(self, is_more: bool) -> str:
         """What they are and what goes with them; ``is_more``: beside effects that were found."""
-        names = self.told()
-        held_out = f", {100 * self.held_out_share:.0f} % on drives held out," if np.isfinite(self.held_out_share) else ""
+        names = ", ".join(
+            f"{one.parameter} {_rounded(one.value):g} {one.unit}".removesuffix(" 1") + f" for {_rounded(one.given):g}" for one in self.parameters
+        )
+        checked = f", {100 * self.held_out_share:.0f} % on drives held out" if np.isfinite(self.held_out_share) else ""
+        gone = f"{100 * self.share:.0f} % of the explainable error{checked}"
         if self.is_instead:
-            whole = f"{100 * self.share:.0f} % of the explainable error{held_out}"
-            return f"in place of that, parameters of the vehicle beyond their bounds would remove {whole}: {names}".replace(",:", ":")
-        share = f"{100 * self.share:.0f} % of the explainable error{held_out} goes with parameters of the vehicle beyond their bounds: {names}"
+            return f"another explanation, which removes less, {gone}: parameters of the vehicle beyond their bounds, {names}"
+        share = f"{gone}{',' if checked else ''} goes with parameters of the vehicle beyond their bounds: {names}"
         if self.is_first and not _is_enough((self.share, self.held_out_share)):
             return f"beside what is missing, parameters of the vehicle lie beyond their bounds: {names}; shares are of what they leave"
         if self.is_first:
             return f"{share}; other shares are of what they leave"
         return f"another {share}" if is_more else share
-
-    def told(self) -> str:
-        """The parameters with the values that they have, and were given with."""
-        return ", ".join(
-            f"{one.parameter} {_rounded(one.value):g} {one.unit}".removesuffix(" 1") + f" for {_rounded(one.given):g}" for one in self.parameters
-        )
-
-    def is_much_of(self, whole: tuple[float, float]) -> bool:
-        """Whether they remove CLOSER of what another explanation does, on fitted drives and on those held out."""
-        pairs = zip((self.share, self.held_out_share), whole)
-        return all(own >= CLOSER * other for own, other in pairs if np.isfinite(own) and np.isfinite(other))
 
     def of(self, vehicle) -> BeyondBounds:
         """The same with the values that this vehicle has as given: what it was calibrated to is no value of its file."""
@@ -154,13 +146,11 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     return BeyondBounds(parameters, *alone, is_first=True) if parameters else None
 
 
-def beside(found: BeyondBounds, before: Selection, after: Selection) -> BeyondBounds | None:
-    """What was ``found`` before any effect, as it is beside those of the search ``after``, which allowed it, for which some of it may have stood
-    in; None where nothing of it is left beyond the bounds of the search ``before``."""
-    names = {one.parameter for one in found.parameters}
+def still_beyond(before: Selection, after: Selection) -> BeyondBounds | None:
+    """Parameters that lie beyond the bounds of the search ``before`` beside all that the search ``after`` found, which allowed it; None where
+    there are none. How much goes with them alone is not known."""
     parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
-    kept = tuple(one for one in parameters if one.parameter in names)
-    return replace(found, parameters=kept) if kept else None
+    return BeyondBounds(parameters, float("nan"), float("nan"), is_first=True) if parameters else None
 
 
 def _wider(selection: Selection, state: State) -> list[Size]:
@@ -212,8 +202,9 @@ def _rounded(value: float) -> float:
 
 def _with_wider_bounds(size: Size) -> Size:
     """With bounds WIDER than its own."""
-    span, times = PARAMETERS[size.key], HARDLY_KNOWN.get(size.key, WIDER.get(size.unit, ANY))
-    return replace(size, lower=max(min(size.lower, size.lower / times), span.lower), upper=min(max(size.upper, size.upper * times), span.upper))
+    span, times = PARAMETERS[size.key], WIDER.get(size.unit, ANY)
+    lower = min(size.lower, size.lower / LOWER.get(size.key, times))
+    return replace(size, lower=max(lower, span.lower), upper=min(max(size.upper, size.upper * times), span.upper))
 
 
 def _calibrated(selection: Selection, state: State, sizes: Sequence[Size]) -> dict[str, float]:

@@ -1,27 +1,38 @@
-"""A second search, which begins with parameters of the vehicle put right that lie beyond their bounds."""
+"""A search that begins with parameters of the vehicle put right, beyond their bounds, beside one that keeps to these."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
 
-from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, without_effects
+from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, still_beyond, without_effects
 from .car import Car
 from .confirm import EQUAL
 from .discover import Discovery
 from .rank import ranked
-from .reconsider import MOST_LEFT, left
+from .reconsider import MOST_LEFT, beside_a_force, is_sure, with_reason
 from .rung import Rung
-from .selection import Selection
+from .selection import Selection, shares
 from .verdict import Verdict
+
+MUCH = 0.5
+"""Share of what another explanation removes from which on parameters alone are told beside it."""
+
+TRIED = "parameters of the vehicle beyond their bounds were tried, too: they are no better explanation"
+
+WITHIN = "the vehicle's parameters were free beyond their bounds, and lie within them beside the form: shares are of what they leave"
+
+Shares = tuple[float, float]
+"""Of the explainable error, on fitted drives and on those held out (nan without)."""
 
 
 @dataclass(frozen=True)
-class Search:
-    """What a search for missing effects came to from a ``rung``; ``parameters`` of the vehicle, if it began with these put right."""
+class Ranked:
+    """What a search for missing effects came to from a ``rung``; ``parameters`` of the vehicle that its last model has beyond their bounds, if
+    it was free to go there."""
 
     table: xr.Dataset
     verdict: Verdict
@@ -34,17 +45,22 @@ class Search:
         """Whether it explains the drives, or sees that the data are wrong."""
         return self.verdict.verdict in ("named", "cluster", "nothing") or self.table.attrs["suspected"] == "data"
 
-    def removed(self, verdict: Verdict, proposal: Discovery | None = None) -> tuple[float, float]:
-        """Shares of the explainable error that go with its parameters and, beside them, the better of what a verdict found and a proposed
-        form, on fitted drives and on those held out (nan without)."""
-        best = min((one for one in (verdict, proposal) if one is not None and np.isfinite(one.share)), key=left)
-        if self.parameters is None:
-            return best.share, best.held_out_share
-        pairs = (self.parameters.share, best.share), (self.parameters.held_out_share, best.held_out_share)
-        return tuple(first + (1.0 - first) * then for first, then in pairs)
+
+@dataclass(frozen=True)
+class Outcome:
+    """Evidence and verdict of a search in the light of a force of any form, which is ``proposed`` where the verdict is "outside"."""
+
+    table: xr.Dataset
+    verdict: Verdict
+    proposed: Discovery | None
+
+    @property
+    def sure(self) -> Discovery | None:
+        """What is proposed, if it is more than chance."""
+        return self.proposed if self.proposed is not None and is_sure(self.proposed) else None
 
 
-def searched_again(experiment: Car, before: Selection, signatures: bool, common: Mapping) -> tuple[BeyondBounds | None, Search | None]:
+def searched_again(experiment: Car, before: Selection, signatures: bool, common: Mapping) -> tuple[BeyondBounds | None, Ranked | None]:
     """Parameters of the vehicle beyond their bounds, if they explain more beside the effects of the search ``before``; and a search that
     begins with such parameters put right, if its model is the better one.
 
@@ -59,14 +75,67 @@ def searched_again(experiment: Car, before: Selection, signatures: bool, common:
     came = replace(experiment, free=rung.experiment.free)
     table, verdict, after = ranked(came, rung, signatures=signatures, **common)
     parameters = searched(before, after)
-    if parameters is None:
-        return found, None
-    return found, Search(table, verdict, after, rung, parameters)
+    return found, Ranked(table, verdict, after, rung, parameters) if parameters is not None else None
 
 
-def is_better(ours: tuple[float, float], of_these: tuple[float, float], theirs: tuple[float, float]) -> bool:
-    """Whether what removes ``ours``, ``of_these`` by no force of a form, is a better explanation than what removes ``theirs`` (shares of the
-    explainable error on fitted drives and on those held out): it leaves MOST_LEFT, at most, of what that leaves, or needs no form for as much."""
-    known = [(own, plain, other) for own, plain, other in zip(ours, of_these, theirs) if np.isfinite(own) and np.isfinite(other)]
-    leaves_less = all(1.0 - own <= MOST_LEFT * (1.0 - other) for own, _, other in known)
-    return leaves_less or all(plain > other - EQUAL for _, plain, other in known)
+def beside_the_vehicle(
+    first: Ranked, outcome: Outcome, found: BeyondBounds | None, second: Ranked | None, outcome_of: Callable[[Ranked], Outcome]
+) -> tuple[Outcome, BeyondBounds | None]:
+    """The better of two explanations, and the parameters of the vehicle to tell with it.
+
+    ``first`` keeps to the bounds, with its ``outcome`` and the parameters ``found`` beside its effects; ``second`` does not, and leaves
+    something out. It is asked for its outcome where that of the first is "outside": only there is something left to explain.
+    """
+    if second is not None and outcome.verdict.verdict == "outside":
+        other = outcome_of(second)
+        theirs, plain = _removed(first, first, outcome.sure), _removed(first, second, None)
+        if found is not None:
+            beside = np.add(_removed(first, first, None), (found.share, found.held_out_share))
+            theirs = max(theirs, tuple(beside), key=_mean)
+        if other.verdict.verdict != "suspect" and is_better(_removed(first, second, other.sure), plain, theirs):
+            return _put_right(first, second, other)
+        if found is None and is_much((second.parameters.share, second.parameters.held_out_share), theirs):
+            found = replace(second.parameters, is_first=False, is_instead=True)
+    if found is None:
+        outcome = replace(outcome, verdict=with_reason(outcome.verdict, outcome.verdict.verdict, TRIED))
+    return outcome, found
+
+
+def is_better(ours: Shares, without_a_form: Shares, theirs: Shares) -> bool:
+    """Whether what removes ``ours``, and without a form that much of it, is a better explanation than what removes ``theirs``: it leaves
+    MOST_LEFT, at most, of what that leaves, on fitted drives and on those held out, or needs no form for as much."""
+    leaves_less = _all_known(lambda own, other: 1.0 - own <= MOST_LEFT * (1.0 - other), ours, theirs)
+    return leaves_less or _all_known(lambda own, other: own > other - EQUAL, without_a_form, theirs)
+
+
+def is_much(alone: Shares, theirs: Shares) -> bool:
+    """Whether what removes ``alone`` removes MUCH of what another explanation does, on fitted drives and on those held out."""
+    return _all_known(lambda own, other: own >= MUCH * other, alone, theirs)
+
+
+def _all_known(holds: Callable[[float, float], bool], ours: Shares, theirs: Shares) -> bool:
+    """Whether something holds of all pairs of shares that are known, and one is."""
+    known = [pair for pair in zip(ours, theirs) if np.isfinite(pair).all()]
+    return bool(known) and all(holds(*pair) for pair in known)
+
+
+def _removed(first: Ranked, search: Ranked, sure: Discovery | None) -> Shares:
+    """What the last model of a search removes of what was explainable at the beginning of the ``first``, or that with a ``sure`` form, if more."""
+    ends = [search.selection, *([sure.selection] if sure else [])]
+    return max((shares(first.selection, first.selection.states[0], end.states[-1], end) for end in ends), key=_mean)
+
+
+def _mean(found: Shares) -> float:
+    known = [share for share in found if np.isfinite(share)]
+    return float(np.mean(known)) if known else -np.inf
+
+
+def _put_right(first: Ranked, second: Ranked, outcome: Outcome) -> tuple[Outcome, BeyondBounds | None]:
+    """The outcome of the second search with its parameters; beside a sure form those that lie beyond the bounds still, for which what has that
+    form may have stood in."""
+    if outcome.sure is None or beside_a_force(outcome.verdict, outcome.sure) is outcome.verdict:
+        return outcome, second.parameters
+    found = still_beyond(first.selection, outcome.sure.selection)
+    if found is None:
+        outcome = replace(outcome, verdict=with_reason(outcome.verdict, outcome.verdict.verdict, WITHIN))
+    return outcome, found

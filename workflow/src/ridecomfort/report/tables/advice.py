@@ -88,9 +88,10 @@ def farther(beyond: Mapping) -> str:
     """What to do where parameters of the vehicle want to lie beyond their bounds."""
     names = ", ".join(one["parameter"] for one in beyond["parameters"])
     bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(as_written, _farther(one))) for one in beyond["parameters"])
+    begin = "In place of that" if beyond.get("is_instead") else "First of all"
     return (
-        f"First of all: if the vehicle's file may be that wrong, have it calibrated: let calibration: parameters in config/study.yaml hold {names} "
-        f"and calibration: bounds hold {bounds}; then compare and diagnose again. If it cannot be, they stand in for something else."
+        f"{begin}: if the vehicle's file may be that wrong, have it calibrated. Add {names} to calibration: parameters in config/study.yaml, unless "
+        f"they are there, and put {bounds} into calibration: bounds; then compare and diagnose again. If it cannot be, they stand in for something else."
     )
 
 
