@@ -16,6 +16,7 @@ from pathlib import Path
 from ridecomfort import discrepancy
 from ridecomfort.discrepancy.places import PLACES
 from ridecomfort.effects import library
+from ridecomfort.errors import InputError
 from ridecomfort.vehicle import parameters
 
 from . import kinds, score, trials
@@ -29,15 +30,18 @@ SHARES = {"clean": 8, "messy": 4, "another shape": 1, "another setting": 2, "two
 """Trials of each kind in a round."""
 
 
-def one(job: tuple[str, int, int]) -> dict:
-    """A trial (kind, seed, number of its kind) as a row of trials.csv."""
+def one(job: tuple[str, int, int]) -> dict | None:
+    """A trial (kind, seed, number of its kind) as a row of trials.csv; None where so much is hidden that the car does not arrive."""
     kind, seed, number = job
     car = parameters.read(REPOSITORY / "config" / "vehicles" / "midsize.yaml")
     draw = kinds.draw(kind, seed, number)
     known = library.find(trials.SHAPES)
     hidden = {name: known[name].effect.values(draw.settings.get(name)) for name in draw.hidden}
     true = car.replace(**{name: factor * car[name] for name, factor in draw.wrong.items()})
-    trial = trials.make(100000 * seed + number + 1000 * list(kinds.KINDS).index(kind), true, hidden, draw.kappa, **draw.spoilt)
+    try:
+        trial = trials.make(100000 * seed + number + 1000 * list(kinds.KINDS).index(kind), true, hidden, draw.kappa, **draw.spoilt)
+    except InputError:
+        return None
     among = [name for name in library.find() if name not in draw.missing]
     start = time.process_time()
     table, verdict, proposal = discrepancy.diagnose(trial.measured, car, among=among, seed=number, workers=1)
@@ -80,6 +84,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     rows: list[dict] = []
     with ProcessPoolExecutor(options.workers) as pool:
         for row in pool.map(one, jobs(options.rounds, options.seed, options.kinds)):
+            if row is None:
+                continue
             rows.append(row)
             print(*(f"{row[key]}" for key in ("kind", "hidden", "kappa", "verdict", "found", "cpu_seconds")), sep=" | ", flush=True)
             with open(options.output / "trials.csv", "w", newline="", encoding="utf-8") as file:
