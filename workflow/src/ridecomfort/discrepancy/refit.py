@@ -143,6 +143,16 @@ def refit_sooner(
     return refit(experiment, frame, values, sizes, columns, residuals=residuals, **settings)
 
 
+def stepped(values: Mapping[str, float], sizes: Sequence[Size], matrix: np.ndarray, flat: np.ndarray) -> dict[str, float]:
+    """``values`` with these sizes moved to where the rows of ``matrix`` (white change per probe) foresee the least, within their bounds."""
+    now = np.array([values.get(size.key, size.neutral) for size in sizes])
+    probe = np.array([size.probe for size in sizes])
+    bounds = np.array([limits(size, 0.0) for size in sizes])
+    room = np.sort((bounds - now[:, None]) / probe[:, None], axis=1) + np.array([-1e-9, 1e-9])
+    reached = np.clip(now + _step(matrix, flat, room) * probe, np.minimum(now, bounds[:, 0]), np.maximum(now, bounds[:, 1]))
+    return {**values, **{size.key: float(value) for size, value in zip(sizes, reached)}}
+
+
 def _step(matrix: np.ndarray, flat: np.ndarray, room: np.ndarray) -> np.ndarray:
     """Amounts of the rows of ``matrix`` within ``room`` (row, 2) that bring ``flat`` nearest to nothing.
 

@@ -71,9 +71,27 @@ class Tries:
                 before = float(np.sum(rung.frame.flat(base.residuals) ** 2))
                 does = inside.loss - fit.loss < CHANCE or before - inside.loss > CONTENT * (before - fit.loss)
                 fit = inside if does else fit
+            fit = self._begun(fit, [size for size in candidate.sizes if size.key in columns], columns)
             return self._trial(candidate, shape, self._lengthened(fit, sizes))
         except (InputError, ValueError):
             return None
+
+    def _begun(self, fit: Fit, own: Sequence[Size], columns: Mapping[str, np.ndarray]) -> Fit:
+        """A fit that ended where it began, with the candidate's ``own`` sizes taken as far as their columns foresee, all others as they were,
+        where that is likelier and the error falls.
+
+        Where nearly all of a signal is explained the white loss weighs most: a step of all sizes together, some of whose columns bend, makes
+        it larger there, though the candidate takes away what is large elsewhere.
+        """
+        frame, before = self.rung.frame, self.rung.fit
+        flat = frame.flat(before.residuals)
+        if float(flat @ flat) - fit.loss > refit.WORTHWHILE:
+            return fit
+        reached = refit.stepped(fit.values, own, np.stack([columns[size.key] for size in own]), flat)
+        residuals = exp.simulate(self.rung.experiment, reached, frame.indices)
+        if refit.information(frame, residuals) < self.likely + refit.WORTHWHILE or self._error(residuals) > self._error(before.residuals):
+            return fit
+        return replace(fit, values=reached, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
 
     def _lengthened(self, fit: Fit, sizes: Sequence[Size]) -> Fit:
         """A fit whose way from the rung is doubled while that is foreseen to be more likely, is so, and the error falls.
