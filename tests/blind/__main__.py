@@ -40,7 +40,8 @@ def one(job: tuple[str, int, int]) -> dict | None:
     true = car.replace(**{name: factor * car[name] for name, factor in draw.wrong.items()})
     try:
         trial = trials.make(100000 * seed + number + 1000 * list(kinds.KINDS).index(kind), true, hidden, draw.kappa, **draw.spoilt)
-    except InputError:
+    except InputError as problem:
+        print(kind, "+".join(draw.hidden), f"no trial: {problem}", sep=" | ", flush=True)
         return None
     among = [name for name in library.find() if name not in draw.missing]
     start = time.process_time()

@@ -83,16 +83,11 @@ def refit(
     loss = float(flat @ flat)
     matrix = np.stack([columns[size.key] for size in sizes])
     for _ in range(iterations):
-        now = np.array([values.get(size.key, size.neutral) for size in sizes])
-        probe = np.array([size.probe for size in sizes])
         bounds = np.array([limits(size, 0.0 if size.key in free else beyond) for size in sizes])
-        room = np.sort((bounds - now[:, None]) / probe[:, None], axis=1)
-        room = room + np.array([-1e-9, 1e-9])
-        step = _step(matrix, flat, room)
+        step = _step(matrix, flat, _room(values, sizes, bounds))
         improved = False
         for _ in range(4):
-            reached = np.clip(now + step * probe, np.minimum(now, bounds[:, 0]), np.maximum(now, bounds[:, 1]))
-            trial = {**values, **{size.key: float(v) for size, v in zip(sizes, reached)}}
+            trial = _moved(values, sizes, bounds, step)
             try:
                 found = exp.simulate(experiment, trial, frame.indices)
             except (InputError, ValueError):
@@ -145,11 +140,25 @@ def refit_sooner(
 
 def stepped(values: Mapping[str, float], sizes: Sequence[Size], matrix: np.ndarray, flat: np.ndarray) -> dict[str, float]:
     """``values`` with these sizes moved to where the rows of ``matrix`` (white change per probe) foresee the least, within their bounds."""
-    now = np.array([values.get(size.key, size.neutral) for size in sizes])
-    probe = np.array([size.probe for size in sizes])
-    bounds = np.array([limits(size, 0.0) for size in sizes])
-    room = np.sort((bounds - now[:, None]) / probe[:, None], axis=1) + np.array([-1e-9, 1e-9])
-    reached = np.clip(now + _step(matrix, flat, room) * probe, np.minimum(now, bounds[:, 0]), np.maximum(now, bounds[:, 1]))
+    bounds = np.array([limits(size) for size in sizes])
+    return _moved(values, sizes, bounds, _step(matrix, flat, _room(values, sizes, bounds)))
+
+
+def _now(values: Mapping[str, float], sizes: Sequence[Size]) -> tuple[np.ndarray, np.ndarray]:
+    """Values of ``sizes``, and their probes."""
+    return np.array([values.get(size.key, size.neutral) for size in sizes]), np.array([size.probe for size in sizes])
+
+
+def _room(values: Mapping[str, float], sizes: Sequence[Size], bounds: np.ndarray) -> np.ndarray:
+    """Probes (size, 2) by which ``sizes`` may move down and up within ``bounds`` (size, 2)."""
+    now, probe = _now(values, sizes)
+    return np.sort((bounds - now[:, None]) / probe[:, None], axis=1) + np.array([-1e-9, 1e-9])
+
+
+def _moved(values: Mapping[str, float], sizes: Sequence[Size], bounds: np.ndarray, step: np.ndarray) -> dict[str, float]:
+    """``values`` with ``sizes`` moved by a ``step`` (probes), no farther out than ``bounds`` or where they are."""
+    now, probe = _now(values, sizes)
+    reached = np.clip(now + step * probe, np.minimum(now, bounds[:, 0]), np.maximum(now, bounds[:, 1]))
     return {**values, **{size.key: float(value) for size, value in zip(sizes, reached)}}
 
 

@@ -84,10 +84,9 @@ class Tries:
         it larger there, though the candidate takes away what is large elsewhere.
         """
         frame, before = self.rung.frame, self.rung.fit
-        flat = frame.flat(before.residuals)
-        if float(flat @ flat) - fit.loss > refit.WORTHWHILE:
+        if before.loss - fit.loss > refit.WORTHWHILE:
             return fit
-        reached = refit.stepped(fit.values, own, np.stack([columns[size.key] for size in own]), flat)
+        reached = refit.stepped(fit.values, own, np.stack([columns[size.key] for size in own]), frame.flat(before.residuals))
         residuals = exp.simulate(self.rung.experiment, reached, frame.indices)
         if refit.information(frame, residuals) < self.likely + refit.WORTHWHILE or self._error(residuals) > self._error(before.residuals):
             return fit

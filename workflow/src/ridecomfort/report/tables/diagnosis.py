@@ -58,8 +58,8 @@ def verdict(found: Diagnosis) -> Table:
     first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names)
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [("reason", sentence(reason)) for reason in said["reasons"]]
-    is_first = bool(beyond) and not beyond.get("is_instead")
-    if is_first:
+    comes_first = bool(beyond) and not beyond.get("is_instead")
+    if comes_first:
         rows.append(("the vehicle", advice.farther(beyond)))
     if advice.library_helps(said):
         held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
@@ -73,8 +73,8 @@ def verdict(found: Diagnosis) -> Table:
         rows.append(("such as", sentence(proposal["such_as"])))
         beside = proposal.get("beside")
         rows.append((f"with {', '.join(map(words, beside))} it removes" if beside else "it removes", _promise(proposal)))
-    rows.append(("next, after the vehicle" if is_first else "next", advice.next_step(found)))
-    if beyond and not is_first:
+    rows.append(("next, after the vehicle" if comes_first else "next", advice.next_step(found)))
+    if beyond and not comes_first:
         rows.append(("or, the vehicle", advice.farther(beyond)))
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
