@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import beyond, diagnose, opening, rung, select
+from ridecomfort.discrepancy import beyond, diagnose, opening, refit, rung, select
+from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
@@ -90,8 +92,23 @@ def test_a_wrong_file_is_told_of_which_fewer_effects_leave_half(monkeypatch, alo
     )
     damping = beyond.Beyond("damping_rear", "N s/m", 2230.0, (1895.5, 2564.5), (631.8, 7693.5), 1193.0, (1182.0, 1204.0))
     monkeypatch.setattr(beyond, "shares", lambda selection, first, last, *others: (last - first, last - first))
-    monkeypatch.setattr(beyond, "_beyond", lambda *found: (damping,))
+    monkeypatch.setattr(beyond, "_beyond", lambda *found, is_first: beyond.BeyondBounds((damping,), *found[-2:], is_first))
     told = beyond.searched(before, after)
     assert (told is not None) is is_told
     if told is not None and alone < 0.0:
         assert told.words(True).startswith("beside what is missing, parameters of the vehicle lie beyond their bounds: damping_rear 1190 N s/m for 2230")
+
+
+def test_what_lies_beyond_but_not_surely_is_told_apart_if_it_does_as_much():
+    """In bounds of 0.9 to 1.1 times the file, by 0.4, 0.4, 0.4 and 0 of it; the third parameter changes the signals a tenth as much."""
+    names = "roll_inertia", "pitch_inertia", "yaw_inertia", "damping_front"
+    free = tuple(Size(name, "kg m2", 1.0, 0.9, 1.1, 0.1) for name in names)
+    before = SimpleNamespace(free=free, vehicle=dict.fromkeys(names, 1.0))
+    fit = refit.Fit(dict(zip(names, (1.5, 1.5, 1.5, 1.0))), {}, names, np.array([[1.0, 1.0], [0.0, 1.0], [0.1, 0.0], [1.0, 0.0]]), 0.0)
+    intervals = dict(zip(names, ((1.4, 1.6), (0.8, 2.2), (0.8, 2.2), (0.5, 1.5))))
+    told = beyond._beyond(before, SimpleNamespace(free=free), fit, intervals, 0.4, 0.3)
+    assert [one.parameter for one in told.parameters] == ["roll_inertia"]
+    assert [one.parameter for one in told.less_sure] == ["pitch_inertia"]
+    assert "roll_inertia 1.5 kg m2 for 1, less surely pitch_inertia 1.5 kg m2 for 1, of which" in told.words(is_more=False)
+    unsure = {**intervals, "roll_inertia": (0.8, 2.2)}
+    assert beyond._beyond(before, SimpleNamespace(free=free), fit, unsure, 0.4, 0.3) is None

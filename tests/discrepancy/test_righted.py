@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import beyond, righted
+from ridecomfort.discrepancy.refit import Fit
 from ridecomfort.discrepancy.verdict import Verdict
 
 NAN = float("nan")
@@ -119,7 +121,8 @@ def test_shares_that_are_not_known_decide_nothing(ours, theirs, better):
 
 def test_what_lies_beyond_its_bounds_still_is_that_of_the_last_fit():
     before, after = (SimpleNamespace(frame=SimpleNamespace(experiment=experiment)) for experiment in (free(8500.0, 11500.0), free(2833.0, 34500.0)))
-    after.final, after.intervals = SimpleNamespace(values={BAR.parameter: 19900.0}), {BAR.parameter: (19000.0, 20800.0)}
+    after.final = Fit({BAR.parameter: 19900.0}, {}, (BAR.parameter,), np.ones((1, 2)), 0.0)
+    after.intervals = {BAR.parameter: (19000.0, 20800.0)}
     assert beyond.still_beyond(before, after).parameters == (BAR,)
     after.intervals = {BAR.parameter: (11000.0, 28000.0)}
     assert beyond.still_beyond(before, after) is None
@@ -127,5 +130,5 @@ def test_what_lies_beyond_its_bounds_still_is_that_of_the_last_fit():
 
 def free(lower, upper):
     """An experiment whose rear bar is free within bounds."""
-    size = SimpleNamespace(key=BAR.parameter, unit=BAR.unit, lower=lower, upper=upper)
+    size = SimpleNamespace(key=BAR.parameter, unit=BAR.unit, lower=lower, upper=upper, probe=300.0)
     return SimpleNamespace(free=(size,), vehicle={BAR.parameter: 10000.0})

@@ -155,6 +155,8 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     # Half to twice what was found is within the bounds, too: a bar that ends where it was allowed to wants to go on.
     assert "put roll_inertia: [203, 1260], anti_roll_stiffness_rear: [2830, 69000] into calibration: bounds" in said
     assert said.startswith("verdict No effect of the library is missing: parameters of the vehicle lie far from its file. (outside)")
+    less_sure = beyond | {"parameters": [inertia], "less_sure": [bar]}
+    assert words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": less_sure}))["verdict"]) == said
     named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
     assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
     # Beside an error that nothing explains, a few percent that go with the file are not all that is missing.

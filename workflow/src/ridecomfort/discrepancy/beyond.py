@@ -16,6 +16,7 @@ from . import refit
 from .car import Car
 from .experiment import Size
 from .propose import HELD_OUT_Z
+from .refit import Fit
 from .rung import Rung, climb
 from .selection import Selection, State, shares
 
@@ -32,6 +33,10 @@ the paper."""
 
 LEAST_SHARE = 0.05
 """Share of the explainable error that must go for them to be worth a word."""
+
+LEAST_POWER = 0.05
+"""White power of what a parameter does beyond its bound, against the most that any does there, from which on it is told, too, though its
+interval reaches back into them: what goes with all of them is not the work of those alone that are sure."""
 
 LEFT, CLOSER = 0.75, 0.5
 """Shares of what effects leave of the explainable error that parameters alone, and parameters with fewer effects, may leave at most to take
@@ -56,19 +61,21 @@ class Beyond:
 class BeyondBounds:
     """``parameters`` that lie beyond their bounds, and the ``share`` of the explainable error that goes on fitted and on held-out drives
     (nan where not known) when they may: beside effects that were found without; where ``is_first``, before any effect; where ``is_instead``,
-    alone, as another explanation, which removes less than that of the verdict."""
+    alone, as another explanation, which removes less than that of the verdict. ``less_sure``: parameters whose values lie beyond their bounds, too, and do
+    much there, but whose intervals reach back into them."""
 
     parameters: tuple[Beyond, ...]
     share: float
     held_out_share: float
     is_first: bool = False
     is_instead: bool = False
+    less_sure: tuple[Beyond, ...] = ()
 
     def words(self, is_more: bool) -> str:
         """What they are and what goes with them; ``is_more``: beside effects that were found."""
-        names = ", ".join(
-            f"{one.parameter} {_rounded(one.value):g} {one.unit}".removesuffix(" 1") + f" for {_rounded(one.given):g}" for one in self.parameters
-        )
+        names = _told(self.parameters)
+        if self.less_sure:
+            names += f", less surely {_told(self.less_sure)}, of which one may stand in for another"
         checked = f", {100 * self.held_out_share:.0f} % on drives held out" if np.isfinite(self.held_out_share) else ""
         gone = f"{100 * self.share:.0f} % of the explainable error{checked}"
         if self.is_instead:
@@ -82,7 +89,8 @@ class BeyondBounds:
 
     def of(self, vehicle) -> BeyondBounds:
         """The same with the values that this vehicle has as given: what it was calibrated to is no value of its file."""
-        return replace(self, parameters=tuple(replace(one, given=float(vehicle[one.parameter])) for one in self.parameters))
+        given = lambda those: tuple(replace(one, given=float(vehicle[one.parameter])) for one in those)
+        return replace(self, parameters=given(self.parameters), less_sure=given(self.less_sure))
 
 
 def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBounds | None, Rung] | None:
@@ -101,8 +109,8 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
     gone = shares(selection, last, State.of(rung, "", rung.fit, rung.check), rung)
     is_sure = rung.check_frame is None or refit.advantage(rung.check_frame, rung.check, selection.check)[1] > HELD_OUT_Z
     intervals = refit.intervals(rung.fit, rung.frame, sizes) if is_sure else {}
-    parameters = _beyond(selection.frame.experiment, rung.experiment, rung.fit.values, intervals) if is_sure else ()
-    return (BeyondBounds(parameters, *gone) if parameters else None), rung
+    found = _beyond(selection.frame.experiment, rung.experiment, rung.fit, intervals, *gone) if is_sure else None
+    return found, rung
 
 
 def ends_at_bounds(selection: Selection) -> bool:
@@ -142,15 +150,14 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     is_better = _is_enough(alone) and (_is_enough(gained) or leaves(alone, LEFT))
     if not (is_better or is_fewer and leaves(whole, CLOSER)):
         return None
-    parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
-    return BeyondBounds(parameters, *alone, is_first=True) if parameters else None
+    return _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *alone, is_first=True)
 
 
 def still_beyond(before: Selection, after: Selection) -> BeyondBounds | None:
     """Parameters that lie beyond the bounds of the search ``before`` beside all that the search ``after`` found, which allowed it; None where
     there are none. How much goes with them alone is not known."""
-    parameters = _beyond(before.frame.experiment, after.frame.experiment, after.final.values, after.intervals)
-    return BeyondBounds(parameters, float("nan"), float("nan"), is_first=True) if parameters else None
+    unknown = float("nan"), float("nan")
+    return _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *unknown, is_first=True)
 
 
 def _wider(selection: Selection, state: State) -> list[Size]:
@@ -178,17 +185,32 @@ def _wide(selection: Selection, state: State, sizes: Sequence[Size], each: Calla
     return rung if _is_enough(shares(selection, state, State.of(rung, "", rung.fit, rung.check), rung)) else None
 
 
-def _beyond(before: Car, after: Car, values: Mapping[str, float], intervals: Mapping[str, tuple[float, float]]) -> tuple[Beyond, ...]:
-    """What lies beyond the bounds of ``before`` with its whole interval."""
+def _beyond(
+    before: Car, after: Car, fit: Fit, intervals: Mapping[str, tuple[float, float]], share: float, held_out_share: float, is_first: bool = False
+) -> BeyondBounds | None:
+    """What lies beyond the bounds of ``before`` in a fit within those of ``after``; None unless something does with its whole interval."""
     wider = {size.key: (size.lower, size.upper) for size in after.free}
-    return tuple(
-        Beyond(
-            size.key, size.unit, float(before.vehicle[size.key]), (size.lower, size.upper), wider[size.key], values[size.key],
-            intervals[size.key],
+    power, sure, less_sure = {}, [], []
+    for size in before.free:
+        value = fit.values[size.key]
+        off = abs(value - np.clip(value, size.lower, size.upper))
+        if size.key not in PARAMETERS or off <= refit.AT_BOUND * (size.upper - size.lower):
+            continue
+        power[size.key] = float(np.sum((off / size.probe * fit.columns[fit.keys.index(size.key)]) ** 2))
+        lower, upper = intervals[size.key]
+        told = Beyond(
+            size.key, size.unit, float(before.vehicle[size.key]), (size.lower, size.upper), wider[size.key], value, (lower, upper)
         )
-        for size in before.free
-        if size.key in PARAMETERS and not (intervals[size.key][0] <= size.upper and intervals[size.key][1] >= size.lower)
-    )  # fmt: skip
+        (less_sure if lower <= size.upper and upper >= size.lower else sure).append(told)
+    least = LEAST_POWER * max(power.values(), default=0.0)
+    much = tuple(one for one in less_sure if power[one.parameter] >= least)
+    return BeyondBounds(tuple(sure), share, held_out_share, is_first, less_sure=much) if sure else None
+
+
+def _told(those: Sequence[Beyond]) -> str:
+    """Their values beside those that the vehicle was given with, in words."""
+    words = lambda one: f"{one.parameter} {_rounded(one.value):g} {one.unit}".removesuffix(" 1") + f" for {_rounded(one.given):g}"
+    return ", ".join(map(words, those))
 
 
 def _is_enough(shares: Sequence[float]) -> bool:

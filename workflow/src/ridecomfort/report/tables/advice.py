@@ -86,8 +86,9 @@ def library_helps(verdict: Mapping) -> bool:
 
 def farther(beyond: Mapping) -> str:
     """What to do where parameters of the vehicle want to lie beyond their bounds."""
-    names = ", ".join(one["parameter"] for one in beyond["parameters"])
-    bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(as_written, _farther(one))) for one in beyond["parameters"])
+    those = [*beyond["parameters"], *beyond.get("less_sure", ())]
+    names = ", ".join(one["parameter"] for one in those)
+    bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(as_written, _farther(one))) for one in those)
     begin = "In place of that" if beyond.get("is_instead") else "First of all"
     return (
         f"{begin}: if the vehicle's file may be that wrong, have it calibrated. Add {names} to calibration: parameters in config/study.yaml, unless "
