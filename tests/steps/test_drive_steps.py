@@ -70,6 +70,11 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     assert list(found["parameter"].values) == list(CALIBRATED) and found.attrs["calibrated_on"] == "here"
     assert float(found["value"][0]) == pytest.approx(22000.0, rel=0.03)
 
+    # With an effect more there is a further start, from the calibration without it.
+    lag = model | {"effects": {"steering_lag": {}}, "calibration": settings | {"sequence": False, "profiles": [], "bounds": {}}}
+    calibrate.main(**common, config=lag, workers=2, output=files / "lag.nc", below=files / "calibration.nc")
+    assert store.read(files / "lag.nc").sizes["restart"] == 2
+
     model |= {"noise_density": {}}
     compare.main(**common, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc")
     compared = store.read(files / "comparison.nc")

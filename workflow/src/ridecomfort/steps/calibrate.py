@@ -8,7 +8,7 @@ from ridecomfort.steps.command import Command, counted
 from ridecomfort.vehicle import parameters
 
 
-def main(road, measured, vehicle, config, output, workers):
+def main(road, measured, vehicle, config, output, workers, below=None):
     chosen = library.choose(config["effects"], config["effects_folder"])
     settings = dict(config["calibration"])
     bounds, units = calibrate.effect_parameters(chosen, held=config["effects"])
@@ -22,6 +22,7 @@ def main(road, measured, vehicle, config, output, workers):
         bounds={**settings.pop("bounds"), **bounds},
         units=units,
         effects={entry.effect.name: sizes for entry, sizes in chosen},
+        below=None if below is None else calibrate.values_below(store.read(below), chosen, config["effects"]),
         options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
         workers=int(workers),
         **settings,
@@ -37,4 +38,4 @@ def main(road, measured, vehicle, config, output, workers):
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("road", "measured", "vehicle"), texts=("workers",)).run()
+    Command(main, inputs=("road", "measured", "vehicle"), optional=("below",), texts=("workers",)).run()
