@@ -74,6 +74,13 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     lag = model | {"effects": {"steering_lag": {}}, "calibration": settings | {"sequence": False, "profiles": [], "bounds": {}}}
     calibrate.main(**common, config=lag, workers=2, output=files / "lag.nc", below=files / "calibration.nc")
     assert store.read(files / "lag.nc").sizes["restart"] == 2
+    assert NOTE not in capsys.readouterr().err
+
+    # Starts that disagree are for the person who waits, too, and for the ladder.
+    astray = lag["calibration"] | {"start": [{}, {"spring_stiffness_front": 15000.0}], "tolerance": 0.5}
+    calibrate.main(**common, config=lag | {"calibration": astray}, workers=2, output=files / "astray.nc")
+    starts = store.read(files / "astray.nc").attrs["starts"]
+    assert starts.startswith("starts disagree") and f"{NOTE}{starts}" in capsys.readouterr().err
 
     model |= {"noise_density": {}}
     compare.main(**common, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc")
@@ -81,6 +88,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     nrmse = compared["nrmse"].sel(signal="pitch_rate")
     assert (nrmse.sel(state="calibrated") < 0.3 * nrmse.sel(state="reference")).all()
     assert compared.attrs["located_state"] == "calibrated" and "words" in compared.attrs
+    assert compared.attrs["starts"] == found.attrs["starts"] == "agree"
 
     # Without a calibration the effects of a model are compared as they are, beside the vehicle without them.
     friction = model | {"effects": {"suspension_friction": {}}}

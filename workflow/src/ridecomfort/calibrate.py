@@ -50,6 +50,9 @@ nominal vehicle where the data are silent."""
 DISAGREE = 0.01
 """Relative difference of cost from which on two fits are different ones, and which is said."""
 
+AGREE = "agree"
+"""What there is to be said of starts that neither led nowhere nor disagree."""
+
 PROFILE_PLACES = 9
 """Places of a profile of the cost."""
 
@@ -133,7 +136,8 @@ def calibrate(
     interval_lower/upper (90 %), value_sequence, verdict and signal_share(parameter, signal);
     over ``step`` cost, iterations, evaluations, step_value, step_nrmse, stopped; over ``iteration`` the way there.
     Where asked for, over ``profile`` and ``place``: profile_value and profile_cost, the least cost with the parameter held
-    there, up to twice its interval to either side. Attributes: stopping rule, remarks in words. Raises InputError.
+    there, up to twice its interval to either side. Attributes: stopping rule, remarks in words, and of these what
+    is to be said of the ``starts`` (AGREE where nothing is). Raises InputError.
     """
     if applied not in ("joint", "sequence"):
         raise InputError(f"{applied!r} (expected joint or sequence)", place="applied")
@@ -171,9 +175,10 @@ def calibrate(
     result["restart_cost"] = "restart", np.array([fit.cost for fit in fits])
     result["restart_value"] = ("restart", "parameter"), np.stack([task.values(fit.point) for fit in fits])
     result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
+    of_starts = _of_starts(task, fits, best, refused)
     remarks = [
         *_clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge), *_of_clocks(result),
-        *_of_starts(task, fits, best, refused),
+        *of_starts,
     ]  # fmt: skip
     result.attrs.update(
         applied=applied,
@@ -183,6 +188,7 @@ def calibrate(
         stopping_rule=f"relative change of cost or step below {tolerance:g} (scipy least_squares, trf: ftol, xtol)",
         drives=", ".join(again.drive.attrs["name"] for again in task.replays),
         remarks="; ".join(remarks) or "none",
+        starts="; ".join(of_starts) or AGREE,
     )
     return result
 

@@ -4,7 +4,7 @@ import sys
 
 from ridecomfort import calibrate, simulate, store
 from ridecomfort.effects import library
-from ridecomfort.steps.command import Command, counted
+from ridecomfort.steps.command import Command, counted, note
 from ridecomfort.vehicle import parameters
 
 
@@ -31,6 +31,8 @@ def main(road, measured, vehicle, config, output, workers, below=None):
         block = result.sel(step=step)
         print(f"{step}: cost {float(block['cost']):.6g} after {int(block['iterations'])} iterations", file=sys.stderr)
     print(result.attrs["remarks"], file=sys.stderr)
+    if result.attrs["starts"] != calibrate.AGREE:
+        note(result.attrs["starts"])
     result.attrs["calibrated_on"] = config["site"]
     store.write(
         result, output, title=f"Calibration on {config['site']}", configuration=config, seed=settings["seed"]

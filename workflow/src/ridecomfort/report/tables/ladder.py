@@ -62,6 +62,7 @@ def error_ladder(study: Difference) -> Table:
         "other shares: it takes all sites together and aligns their drives for every model. With other parameters calibrated the base "
         "model is another, and so are its 100 %: across such a change compare the RMSE.",
         "; ".join(floors) + ".",
+        *(f"{catalogue.label(site)}: {words}." for site, words in (*rungs.risen(study.ladder), *rungs.disagreeing(study.ladder))),
     )
     return _table(study, "error_ladder", columns, rows, sources, notes, breaks[1:], frozenset(bold))
 
