@@ -121,7 +121,8 @@ def risen(found: xr.Dataset) -> list[tuple[str, str]]:
 def disagreeing(found: xr.Dataset) -> list[tuple[str, str]]:
     """Site and words for every model of a ladder whose calibration has something to say of its starts."""
     said = found["starts"].stack(model=("site", "rung"))
-    return [(site, f"{rung}: {words}") for (site, rung), words in zip(said["model"].values, said.values.tolist()) if words not in ("", AGREE)]
+    texts = zip(said["model"].values, said.values.tolist())
+    return [(site, f"{rung}: {words}") for (site, rung), words in texts if words not in ("", AGREE)]
 
 
 COUNTS = ("compared", "critical_simulated", "critical_measured", "agreeing", "changed")
