@@ -163,6 +163,40 @@ def test_chosen_starts_lead_to_the_same_fit_and_are_kept(road, nominal):
         assert abs(value(found, name) - value(usual, name)) < 0.1 * width
 
 
+def humming(road, vehicle, *, effects=(), **how):
+    """The tiny simulator with a hum of the road whose size has a valley of its own at 1, where there is as much of it as at 0.3."""
+    run = quarter_cars.run(road, vehicle, **how)
+    size = dict(effects).get("hum", {}).get("size", 0.0)
+    return run.assign(a_z=run["a_z"] + (4.0 * size**3 - 9.0 * size**2 + 6.0 * size) * np.sin(3.0 * run["s"]))
+
+
+def test_with_an_effect_whose_own_start_goes_astray_a_fit_ends_no_higher_than_without_it(road, nominal):
+    drives = measured(road, nominal.replace(**TRUTH), count=1)
+    common = dict(simulate=humming, parameters=list(TRUTH), restarts=0)
+    without = calibrate.calibrate(drives, road, nominal, **common)
+    common |= {"bounds": {"hum.size": (-0.5, 1.5)}, "effects": {"hum": {"size": 0.95}}}
+    cost = lambda found: float(found["cost"].sel(step="joint"))
+    assert cost(calibrate.calibrate(drives, road, nominal, **common)) > 2.0 * cost(without)
+    below = {**dict(zip(without["parameter"].values.tolist(), without["value"].values.tolist())), "hum.size": 0.0}
+    found = calibrate.calibrate(drives, road, nominal, **common, below=below)
+    assert cost(found) < cost(without) * (1.0 + calibrate.EQUAL) and found.sizes["restart"] == 2
+    assert value(found, "hum.size") == pytest.approx(0.0, abs=0.01) and value(found, "hum.size", "initial") == 0.95
+    for name in TRUTH:
+        assert value(found, name) == pytest.approx(value(without, name), rel=0.01)
+
+
+def test_the_model_below_is_that_of_its_joint_fit_with_neutral_effects_that_it_has_not():
+    steps = (("step", "parameter"), [[1.0, 2.0], [3.0, 4.0]])
+    names = ["damping_front", "suspension_friction.front"]
+    calibration = xr.Dataset({"step_value": steps}, {"step": ["OP_1", "joint"], "parameter": names})
+    chosen = library.choose({"suspension_friction": {}, "damper_asymmetry": {}})
+    found = calibrate.values_below(calibration, chosen, {"suspension_friction": {}, "damper_asymmetry": {"rear": 0.2}})
+    # What is held of an effect is not calibrated; what only shapes one has no neutral value of its own.
+    rest = {"suspension_friction.rear": 0.0, "damper_asymmetry.front": 0.0}
+    rest["suspension_friction.presliding"] = library.find()["suspension_friction"].effect.neutral["presliding"]
+    assert found == {"damping_front": 3.0, "suspension_friction.front": 4.0, **rest}
+
+
 def test_a_search_that_carries_its_jacobian_ends_where_one_that_makes_it_anew_does(road, nominal):
     drives = measured(road, nominal.replace(**TRUTH), count=1)
     task = calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, parameters=tuple(TRUTH))

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort.discrepancy import critical
-from ridecomfort.discrepancy.ladder import Measured, ladder
+from ridecomfort.discrepancy.ladder import Measured, disagreeing, ladder, risen
 
 
 def comparison(*squares, floor=1.0, states=("reference", "calibrated")):
@@ -103,3 +103,18 @@ def test_repeats_say_how_well_a_perfect_model_could_agree():
     same = comparison(9.0, 5.0).assign(role=("drive", ["fit", "fit"]))
     found = ladder({"ts1": Measured({"base": same}, {"base": one}, True)}, ["base"], [])
     assert found["repeats_agreeing"].sel(site="ts1", group="fitted").values == pytest.approx([0.75, 1.0])
+
+
+def test_a_model_that_leaves_more_than_the_one_before_it_is_named_and_so_is_one_whose_starts_disagree():
+    squares = {"base": (9.0, 5.0), "one": (9.0, 3.0), "one+two": (9.0, 4.0)}
+    starts = {"base": "agree", "one": "starts disagree: so far", "one+two": "agree"}
+    models = {name: comparison(*each).assign_attrs(starts=starts[name]) for name, each in squares.items()}
+    graded = {name: sections((0, 0, 0, 0), (0, 0, 0, 0)) for name in models}
+    found = ladder({"ts1": Measured(models, graded, True), "ts2": Measured(models, graded, False)}, list(models), ["+ one", "+ two"])
+    # Of the 4 above the floor the first effect leaves 2, the second 3; on ts2 nothing was fitted, and the calibration is that of ts1.
+    assert risen(found) == [("ts1", "+ two leaves 75 % on the fitted drives, more than the 50 % without it")]
+    assert disagreeing(found) == [("ts1", "+ one: starts disagree: so far")]
+
+
+def test_a_ladder_that_falls_has_nothing_to_say(found):
+    assert risen(found) == [] and disagreeing(found) == []

@@ -90,6 +90,19 @@ def test_the_ladder_begins_with_everything_and_ends_at_the_floor(tables, study):
     assert found[3]["a_z_left_pct"] == 0 < found[3]["a_z_rmse_m_per_s2"] < found[2]["a_z_rmse_m_per_s2"]
 
 
+def test_below_the_ladder_stands_what_its_100_percent_are_made_of_what_rises_and_whose_starts_disagree(tables, study):
+    notes = tables["error_ladder"].notes
+    assert any(note.startswith("100 % are what the base model leaves with spring_stiffness_front calibrated.") for note in notes)
+    assert not any("without it" in note or "disagree" in note for note in notes)
+    found = study.ladder.copy(deep=True)
+    found["left_overall"][2] = 1.5
+    found["starts"] = found["starts"].astype(object)
+    found["starts"][2, 0] = "starts disagree: so far"
+    notes = differing.tables(replace(study, ladder=found))["error_ladder"].notes
+    assert "Ts1: + suspension_friction leaves 150 % on the fitted drives, more than the 100 % without it." in notes
+    assert "Ts1: + suspension_friction: starts disagree: so far." in notes
+
+
 def test_fitted_and_held_out_drives_stand_apart(tables):
     groups = {(row["site"], row["drives"]) for row in rows(tables["error_ladder"])}
     assert groups == {("Ts1", "fitted"), ("Ts1", "held out"), ("Ts2", "held out")}

@@ -70,12 +70,25 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     assert list(found["parameter"].values) == list(CALIBRATED) and found.attrs["calibrated_on"] == "here"
     assert float(found["value"][0]) == pytest.approx(22000.0, rel=0.03)
 
+    # With an effect more there is a further start, from the calibration without it.
+    lag = model | {"effects": {"steering_lag": {}}, "calibration": settings | {"sequence": False, "profiles": [], "bounds": {}}}
+    calibrate.main(**common, config=lag, workers=2, output=files / "lag.nc", below=files / "calibration.nc")
+    assert store.read(files / "lag.nc").sizes["restart"] == 2
+    assert NOTE not in capsys.readouterr().err
+
+    # Starts that disagree are for the person who waits, too, and for the ladder.
+    astray = lag["calibration"] | {"start": [{}, {"spring_stiffness_front": 15000.0}], "tolerance": 0.5}
+    calibrate.main(**common, config=lag | {"calibration": astray}, workers=2, output=files / "astray.nc")
+    starts = store.read(files / "astray.nc").attrs["starts"]
+    assert starts.startswith("starts disagree") and f"{NOTE}{starts}" in capsys.readouterr().err
+
     model |= {"noise_density": {}}
     compare.main(**common, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc")
     compared = store.read(files / "comparison.nc")
     nrmse = compared["nrmse"].sel(signal="pitch_rate")
     assert (nrmse.sel(state="calibrated") < 0.3 * nrmse.sel(state="reference")).all()
     assert compared.attrs["located_state"] == "calibrated" and "words" in compared.attrs
+    assert compared.attrs["starts"] == found.attrs["starts"] == "agree"
 
     # Without a calibration the effects of a model are compared as they are, beside the vehicle without them.
     friction = model | {"effects": {"suspension_friction": {}}}

@@ -8,6 +8,7 @@ import pytest
 
 from ridecomfort import store
 from ridecomfort.steps import critical, ladder, standin_score
+from ridecomfort.steps.command import NOTE
 from tests.report import differing as made_up
 
 MODELS = {"base": (0.5, 0.4), "suspension_friction": (0.5, 0.1)}
@@ -22,7 +23,7 @@ def folder(tmp_path_factory):
     return folder
 
 
-def test_comparisons_become_graded_sections_and_these_a_ladder(folder):
+def test_comparisons_become_graded_sections_and_these_a_ladder(folder, capsys):
     config = {"site": "home", "spacing": 0.5, "critical_length": 5, "thresholds": None, "iso2631": {"time_constant": 1}}
     for model in MODELS:
         critical.main(folder / model / "comparison.nc", config, folder / model / "critical.nc")
@@ -33,6 +34,10 @@ def test_comparisons_become_graded_sections_and_these_a_ladder(folder):
     left = found["left_overall"].sel(site="home", group="fitted").values
     assert left[1] == pytest.approx(1.0) and left[0] > 1.0 > left[2]
     assert found["agreeing"].attrs["units"] == "1" and found.attrs["configuration_hash"]
+    # The other way round the error rises, which is for the person who waits, too.
+    assert NOTE not in capsys.readouterr().err
+    ladder.main(*(each[::-1] for each in files), config | {"models": list(MODELS)[::-1]}, folder / "turned.nc")
+    assert f"{NOTE}home: + suspension_friction leaves " in capsys.readouterr().err
 
 
 def test_the_score_is_written_as_data_and_as_a_table(folder):

@@ -64,6 +64,19 @@ def test_the_verdict_on_disk_is_followed_unless_the_study_does_not_go_forward(st
     assert models.known(study()).models == ("base",)
 
 
+def test_a_model_begins_from_the_one_before_it_in_the_chain(study, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    own = study(effects=["suspension_friction", "damper_asymmetry"])
+    assert models.below(own, "base") is None and models.below(own, "suspension_friction") == "base"
+    assert models.below(own, own.model) == "suspension_friction"
+    assert models.below(study(effects=["damper_asymmetry", "suspension_friction"]), own.model) == "damper_asymmetry"
+    assert models.below(study(), own.model) == "base"  # asked for by its name alone
+    file = tmp_path / models.verdict_file(study())
+    file.parent.mkdir(parents=True)
+    file.write_text(json.dumps(NAMED))
+    assert models.below(study(), own.model) == "suspension_friction"
+
+
 def test_files_are_those_of_the_measured_sites_model_by_model(study):
     files = models.chain(study(sites=["ts1", "ts2"], effects=["payload"])).files(study(sites=["ts1", "ts2"]), "comparison.nc")
     assert files == [f"results/{site}/{model}/comparison.nc" for site in ("ts1", "ts2") for model in ("base", "payload")]

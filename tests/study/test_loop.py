@@ -46,6 +46,13 @@ def test_an_effect_that_is_switched_on_is_a_rung_more(plan):
         assert f"calibrate ts1 {model}" in jobs and f"comparison ts2 {model}" in jobs and f"critical ts3 {model}" in jobs
 
 
+def test_a_calibration_begins_from_that_of_the_model_with_an_effect_less(plan):
+    target = "results/ts1/damper_asymmetry+suspension_friction/calibration.nc"
+    jobs = plan(target, "--config", "effects=[suspension_friction, damper_asymmetry]")
+    models = {job.removeprefix("calibrate ts1 ") for job in jobs if job.startswith("calibrate")}
+    assert models == {"base", "suspension_friction", "damper_asymmetry+suspension_friction"}
+
+
 def test_compare_goes_on_with_a_verdict_that_is_there(plan):
     assert "comparison ts1 suspension_friction" in plan("compare", verdict=NAMED)
 

@@ -1,4 +1,4 @@
-# The vehicle's parameters that fit the drives measured on a site.
+# The vehicle's parameters that fit the drives measured on a site. With an effect more, one search begins from the fit without it.
 rule calibrate:
     input:
         code=modules.of_step("calibrate"),
@@ -6,6 +6,9 @@ rule calibrate:
         road="results/{site}/road.nc",
         measured="results/{site}/measured.nc",
         vehicle=lambda wildcards: study.vehicle(wildcards.site),
+        below=lambda wildcards: expand(
+            "results/{site}/{model}/calibration.nc", site=wildcards.site, model=models.below(study, wildcards.model) or []
+        ),
     output:
         "results/{site}/{model}/calibration.nc",
     params:
@@ -19,5 +22,5 @@ rule calibrate:
     # The step divides its work among as many; Snakemake would have each of them do linear algebra in two threads as well.
     shell:
         "OPENBLAS_NUM_THREADS=1 python -m ridecomfort.steps.calibrate --road {input.road:q} --measured {input.measured:q}"
-        " --vehicle {input.vehicle:q} --config {params.config:q} --output {output:q} --workers {threads}"
+        " --vehicle {input.vehicle:q} --below {input.below:q} --config {params.config:q} --output {output:q} --workers {threads}"
         " 2> {log:q}"

@@ -50,6 +50,9 @@ nominal vehicle where the data are silent."""
 DISAGREE = 0.01
 """Relative difference of cost from which on two fits are different ones, and which is said."""
 
+AGREE = "agree"
+"""What there is to be said of starts that neither led nowhere nor disagree."""
+
 PROFILE_PLACES = 9
 """Places of a profile of the cost."""
 
@@ -104,6 +107,7 @@ def calibrate(
     applied: str = "joint",
     sequence: bool = True,
     start: Sequence[Mapping[str, float]] = (),
+    below: Mapping[str, float] | None = None,
     restarts: int = 2,
     tolerance: float = 1e-4,
     seed: int = 0,
@@ -122,6 +126,8 @@ def calibrate(
     vehicle, clipped into the bounds, with the values of the first of ``start``, mappings of parameter to value in SI units.
     OP_1 ... OP_5 fit one parameter after the other (fig:optichain), an effect's after them; the joint fit starts where
     they end, from the further ones of ``start`` and from ``restarts`` random points (restart_cost, restart_value).
+    ``below`` are the values (SI) of the calibrated model with fewer effects (``values_below``): a further start, which keeps the fit
+    with an effect from ending above the one without it where all others go astray.
     ``applied`` says whose values are ``value``: "joint" (default) or "sequence", as in the paper; without
     ``sequence`` there is the joint fit alone and value_sequence is NaN. ``profiles`` names parameters whose profile of the cost is wanted.
     So many drives are simulated side by side as there are ``workers``, which changes nothing else.
@@ -130,7 +136,8 @@ def calibrate(
     interval_lower/upper (90 %), value_sequence, verdict and signal_share(parameter, signal);
     over ``step`` cost, iterations, evaluations, step_value, step_nrmse, stopped; over ``iteration`` the way there.
     Where asked for, over ``profile`` and ``place``: profile_value and profile_cost, the least cost with the parameter held
-    there, up to twice its interval to either side. Attributes: stopping rule, remarks in words. Raises InputError.
+    there, up to twice its interval to either side. Attributes: stopping rule, remarks in words, and of these what
+    is to be said of the ``starts`` (AGREE where nothing is). Raises InputError.
     """
     if applied not in ("joint", "sequence"):
         raise InputError(f"{applied!r} (expected joint or sequence)", place="applied")
@@ -146,13 +153,18 @@ def calibrate(
     nominal = {name: _nominal(vehicle, effects or {}, name) for name in task.parameters}
     starts = [_started(task, nominal, given) for given in start or [{}]]
     everything = list(range(len(task.parameters)))
+    further = starts[1:] if below is None else [task.point([{**nominal, **below}[name] for name in nominal]), *starts[1:]]
     first = descend(task, starts[0], everything, COARSE)
+    if below is not None:
+        # What alignment left is seen from the better of two rough fits: about one that went astray no other is good.
+        rough, _ = _from_elsewhere(task, first, further[:1], COARSE)
+        first = rough[_least(rough)]
     task = task.about(first.point)
     steps, columns = _one_after_the_other(task, starts[0], tolerance) if sequence else ({}, None)
     in_sequence = list(steps.values())[-1].point if sequence else np.full_like(first.point, np.nan)
     best = descend(task, in_sequence if sequence else first.point, everything, tolerance, known=columns, exact=True)
     random = qmc.LatinHypercube(len(everything), rng=np.random.default_rng(seed)).random(restarts)
-    fits, refused = _from_elsewhere(task, best, [*starts[1:], *random], tolerance)
+    fits, refused = _from_elsewhere(task, best, [*further, *random], tolerance)
     best = fits[_least(fits)]
     chosen = best.point if applied == "joint" else in_sequence
     jacobian = best.jacobian if applied == "joint" else task.jacobian(chosen, everything)
@@ -163,9 +175,10 @@ def calibrate(
     result["restart_cost"] = "restart", np.array([fit.cost for fit in fits])
     result["restart_value"] = ("restart", "parameter"), np.stack([task.values(fit.point) for fit in fits])
     result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
+    of_starts = _of_starts(task, fits, best, refused)
     remarks = [
         *_clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge), *_of_clocks(result),
-        *_of_starts(task, fits, best, refused),
+        *of_starts,
     ]  # fmt: skip
     result.attrs.update(
         applied=applied,
@@ -175,6 +188,7 @@ def calibrate(
         stopping_rule=f"relative change of cost or step below {tolerance:g} (scipy least_squares, trf: ftol, xtol)",
         drives=", ".join(again.drive.attrs["name"] for again in task.replays),
         remarks="; ".join(remarks) or "none",
+        starts="; ".join(of_starts) or AGREE,
     )
     return result
 
@@ -253,6 +267,17 @@ def effect_parameters(chosen, held: Mapping[str, Mapping[str, float]]) -> tuple[
                 name = f"{entry.effect.name}.{parameter.name}"
                 bounds[name], units[name] = parameter.plausible, parameter.unit
     return bounds, units
+
+
+def values_below(calibration: xr.Dataset, chosen, held: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
+    """The values (SI) of all that is calibrated at which a model with effects is one with fewer, as ``calibration`` left that.
+
+    Those of its joint fit, and neutral ones of the effects that it has not; ``chosen`` and ``held`` as for ``effect_parameters``.
+    """
+    neutral = {f"{entry.effect.name}.{name}": value for entry, _ in chosen for name, value in entry.effect.neutral.items()}
+    joint = calibration["step_value"].sel(step="joint")
+    known = dict(zip(joint["parameter"].values.tolist(), joint.values.tolist()))
+    return {**{name: neutral[name] for name in effect_parameters(chosen, held)[0]}, **known}
 
 
 def profile(

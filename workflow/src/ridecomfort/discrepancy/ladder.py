@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from ..calibrate import AGREE
 from . import critical
 
 UNCALIBRATED, CALIBRATED = "uncalibrated", "calibrated"
@@ -18,6 +19,10 @@ FITTED, HELD_OUT = "fitted", "held out"
 
 VISIBLE = 0.05
 """Share of the mean square error above the floor below which a signal has nothing left to explain."""
+
+
+RISEN = 0.01
+"""By how much more of what the reference leaves a model may leave on fitted drives than the one before it until that is said."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +44,8 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     ``left_overall`` weighs each of these signals by what was explainable of its own error. Over ``method`` in place of signal: numbers
     of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
     ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
-    Nan where there is no such drive, rung or repeat.
+    Nan where there is no such drive, rung or repeat. ``starts`` (rung, site): what calibration says of its starts, where a site's own
+    drives were fitted.
     """
     first = next(iter(sites.values())).comparisons[models[0]]
     signals = [str(name) for name in first["signal"].values]
@@ -47,9 +53,13 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     sizes = len(rungs), len(sites), 2
     squares, relative = np.full((2, *sizes, len(signals)), np.nan)
     floor_squares = np.full((len(sites), 2, len(signals)), np.nan)
+    starts = np.full(sizes[:2], "", dtype=object)
     counts = {name: np.full((*sizes, len(critical.METHODS)), np.nan) for name in COUNTS}
     repeated = np.full((len(sites), 2, len(critical.METHODS)), np.nan)
     for k, site in enumerate(sites.values()):
+        for r, (model, state) in enumerate(_rungs(site, models)):
+            if r and state is not None and site.fitted:
+                starts[r, k] = site.comparisons[model].attrs.get("starts", "")
         for g, drives in enumerate(_groups(site, models[0])):
             if not drives.any():
                 continue
@@ -83,6 +93,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
             "left_overall": (over, overall),
             **{name: ((*over, "method"), values) for name, values in counts.items()},
             "repeats_agreeing": (("site", "group", "method"), repeated),
+            "starts": (("rung", "site"), starts.astype(str)),
             "floor_known": ("site", np.array([site.comparisons[models[0]].attrs["floor"] for site in sites.values()])),
         },
         {
@@ -94,6 +105,24 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
         },
         {"reference": rungs[reference], "models": " ".join(models)},
     )
+
+
+def risen(found: xr.Dataset) -> list[tuple[str, str]]:
+    """Site and words for every model of a ladder that leaves more on the fitted drives than the one before it."""
+    said = []
+    for site in found["site"].values:
+        left = 100 * found["left_overall"].sel(site=site, group=FITTED).values
+        for rung, before, now in zip(found["rung"].values[2:], left[1:], left[2:]):
+            if now > before + 100 * RISEN:
+                said.append((str(site), f"{rung} leaves {now:.0f} % on the fitted drives, more than the {before:.0f} % without it"))
+    return said
+
+
+def disagreeing(found: xr.Dataset) -> list[tuple[str, str]]:
+    """Site and words for every model of a ladder whose calibration has something to say of its starts."""
+    said = found["starts"].stack(model=("site", "rung"))
+    texts = zip(said["model"].values, said.values.tolist())
+    return [(site, f"{rung}: {words}") for (site, rung), words in texts if words not in ("", AGREE)]
 
 
 COUNTS = ("compared", "critical_simulated", "critical_measured", "agreeing", "changed")

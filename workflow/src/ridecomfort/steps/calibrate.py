@@ -4,11 +4,11 @@ import sys
 
 from ridecomfort import calibrate, simulate, store
 from ridecomfort.effects import library
-from ridecomfort.steps.command import Command, counted
+from ridecomfort.steps.command import Command, counted, note
 from ridecomfort.vehicle import parameters
 
 
-def main(road, measured, vehicle, config, output, workers):
+def main(road, measured, vehicle, config, output, workers, below=None):
     chosen = library.choose(config["effects"], config["effects_folder"])
     settings = dict(config["calibration"])
     bounds, units = calibrate.effect_parameters(chosen, held=config["effects"])
@@ -22,6 +22,7 @@ def main(road, measured, vehicle, config, output, workers):
         bounds={**settings.pop("bounds"), **bounds},
         units=units,
         effects={entry.effect.name: sizes for entry, sizes in chosen},
+        below=None if below is None else calibrate.values_below(store.read(below), chosen, config["effects"]),
         options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
         workers=int(workers),
         **settings,
@@ -30,6 +31,8 @@ def main(road, measured, vehicle, config, output, workers):
         block = result.sel(step=step)
         print(f"{step}: cost {float(block['cost']):.6g} after {int(block['iterations'])} iterations", file=sys.stderr)
     print(result.attrs["remarks"], file=sys.stderr)
+    if result.attrs["starts"] != calibrate.AGREE:
+        note(result.attrs["starts"])
     result.attrs["calibrated_on"] = config["site"]
     store.write(
         result, output, title=f"Calibration on {config['site']}", configuration=config, seed=settings["seed"]
@@ -37,4 +40,4 @@ def main(road, measured, vehicle, config, output, workers):
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("road", "measured", "vehicle"), texts=("workers",)).run()
+    Command(main, inputs=("road", "measured", "vehicle"), optional=("below",), texts=("workers",)).run()

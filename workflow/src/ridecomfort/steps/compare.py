@@ -12,7 +12,8 @@ def main(road, measured, vehicle, calibration, config, output):
     car = parameters.read(vehicle)
     states = {"reference": (car, {})}
     if calibration is not None:
-        states["calibrated"] = calibrated.apply(store.read(calibration), car, config["effects"])
+        calibration = store.read(calibration)
+        states["calibrated"] = calibrated.apply(calibration, car, config["effects"])
     elif config["effects"]:
         states["with_effects"] = (car, config["effects"])
     result = compare.compare(
@@ -26,6 +27,8 @@ def main(road, measured, vehicle, calibration, config, output):
     located = locate.locate(result)
     words, doubts = findings.words(located), findings.doubts(located)
     result = result.merge(located).assign_attrs(**located.attrs, words="\n".join(words))
+    if calibration is not None:
+        result.attrs["starts"] = calibration.attrs["starts"]
     store.write(
         result, output, title=f"Simulated against measured drives on {config['site']}", configuration=config
     )

@@ -2,7 +2,7 @@
 
 from ridecomfort import store
 from ridecomfort.discrepancy import ladder
-from ridecomfort.steps.command import Command
+from ridecomfort.steps.command import Command, note
 
 NEEDED = ("nrmse", "explainable_rmse", "floor_rmse", "role")
 
@@ -19,6 +19,8 @@ def main(comparisons, sections, config, output):
         for site, fitted in sites.items()
     }
     found = ladder.ladder(measured, models, config["titles"])
+    for site, words in ladder.risen(found):
+        note(f"{site}: {words}")
     store.write(found, output, title="Error ladder", configuration=config)
 
 

@@ -55,6 +55,17 @@ def known(study: Study) -> Chain:
     return chain(study, verdict if verdict and verdict.get("sites", ())[:1] == study.diagnosed[:1] else None)
 
 
+def below(study: Study, model: str) -> str | None:
+    """The model from whose calibration that of ``model`` begins a search: the one before it in the chain, None for base.
+
+    A model that is not in the chain begins from base.
+    """
+    if model == BASE:
+        return None
+    models = known(study).models
+    return models[models.index(model) - 1] if model in models else BASE
+
+
 def verdict_file(study: Study) -> str:
     """Where the verdict on the study's model lies, from the project folder."""
     return f"results/diagnosis/{study.model}/verdict.json"

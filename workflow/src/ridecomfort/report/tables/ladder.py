@@ -59,9 +59,10 @@ def error_ladder(study: Difference) -> Table:
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
         "much as there was to explain of its own error. The lowest floor is the least that any rung shown reaches, so it lies below that "
         "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it. The diagnosis tells "
-        "other shares: it takes all sites together and aligns their drives for every model. With other parameters calibrated the base "
-        "model is another, and so are its 100 %: across such a change compare the RMSE.",
+        "other shares: it takes all sites together and aligns their drives for every model.",
+        *_of_reference(study),
         "; ".join(floors) + ".",
+        *(f"{catalogue.label(site)}: {words}." for site, words in (*rungs.risen(study.ladder), *rungs.disagreeing(study.ladder))),
     )
     return _table(study, "error_ladder", columns, rows, sources, notes, breaks[1:], frozenset(bold))
 
@@ -111,6 +112,17 @@ def error_ladder_sections(study: Difference) -> Table:
 def _reference(study: Difference) -> str:
     reference = study.ladder.attrs["reference"]
     return {rungs.CALIBRATED: "the calibrated base model", rungs.UNCALIBRATED: "the uncalibrated base model"}[reference]
+
+
+def _of_reference(study: Difference) -> list[str]:
+    """What the 100 % of a calibrated base model are made of."""
+    if study.ladder.attrs["reference"] != rungs.CALIBRATED:
+        return []
+    names = dict.fromkeys(name for each in study.calibrations.values() for name in each["parameter"].values.tolist() if "." not in name)
+    return [
+        f"100 % are what the base model leaves with {', '.join(names)} calibrated. With others calibrated they are other 100 %: "
+        "compare such ladders by their RMSE."
+    ]
 
 
 def _groups(found: xr.Dataset):
