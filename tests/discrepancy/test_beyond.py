@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -100,7 +101,9 @@ def test_a_spring_that_ends_at_a_bound_is_told_where_fitted_drives_tell_it(value
         intervals={spring: (value - half, value + half), size.key: (-1.0, 1.0)}, birge_ratio=birge,
     )  # fmt: skip
     bound = {"lower": 15000.0, "upper": 40000.0, None: None}[end]
-    assert beyond.at_bounds(selection) == (() if end is None else (beyond.AtBound(spring, "N/m", value, bound, end),))
+    assert beyond.at_bounds(selection, free) == (() if end is None else (beyond.AtBound(spring, "N/m", value, bound, end),))
+    narrower = (replace(free[0], lower=20000.0, upper=35000.0), size)
+    assert all(one.is_wider and one.words().endswith(" that was tried beyond its bounds") for one in beyond.at_bounds(selection, narrower))
 
 
 @pytest.mark.parametrize(

@@ -221,7 +221,10 @@ def test_a_spring_that_ends_at_its_bound_is_a_reason_more_with_what_to_do():
     assert said.verdict == "nothing" and said.reasons[:-1] == NOTHING.reasons
     assert said.reasons[-1].startswith("spring_stiffness_rear at 15000 N/m, its lower bound; tyre_friction at 1.4, its upper bound: ")
     assert "calibration: parameters, bounds" in said.reasons[-1]
-    assert said.json()["at_bounds"][0] == {"parameter": "spring_stiffness_rear", "unit": "N/m", "value": 15000.0, "bound": 15000.0, "end": "lower"}
+    of_spring = {"parameter": "spring_stiffness_rear", "unit": "N/m", "value": 15000.0, "bound": 15000.0, "end": "lower", "is_wider": False}
+    assert said.json()["at_bounds"][0] == of_spring
+    tried = AtBound("anti_roll_stiffness_front", "N m/rad", 7083.333, 7083.333, "lower", True)
+    assert with_bounds(NOTHING, (tried,)).reasons[-1].startswith("anti_roll_stiffness_front at 7080 N m/rad, the least that was tried beyond ")
     assert with_bounds(NOTHING, ()).reasons == NOTHING.reasons
 
 

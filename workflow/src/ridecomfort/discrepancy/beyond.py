@@ -56,19 +56,22 @@ class Beyond:
 
 @dataclass(frozen=True)
 class AtBound:
-    """A parameter of the vehicle that ended at a bound: its ``value`` in ``unit``, the ``bound``, and whether that is the ``upper`` or
-    the ``lower`` ``end``."""
+    """A parameter of the vehicle that ended at a bound: its ``value`` in ``unit``, the ``bound``, whether that is the ``upper`` or the
+    ``lower`` ``end``, and whether it is one WIDER than the parameter's own, which were given."""
 
     parameter: str
     unit: str
     value: float
     bound: float
     end: str
+    is_wider: bool = False
 
     def words(self) -> str:
         """Such as "spring_stiffness_rear at 15000 N/m, its lower bound"."""
-        bound = f"{self.bound:g} {self.unit}".removesuffix(" 1")
-        return f"{self.parameter} at {bound}, its {self.end} bound"
+        bound = f"{_rounded(self.bound) if self.is_wider else self.bound:g} {self.unit}".removesuffix(" 1")
+        tried = {"lower": "the least", "upper": "the most"}[self.end]
+        which = f"{tried} that was tried beyond its bounds" if self.is_wider else f"its {self.end} bound"
+        return f"{self.parameter} at {bound}, {which}"
 
 
 @dataclass(frozen=True)
@@ -129,24 +132,25 @@ def ends_at_bounds(selection: Selection) -> bool:
     return any(_wider(selection, state) for state in (selection.states[0], selection.states[-1]))
 
 
-def at_bounds(selection: Selection) -> tuple[AtBound, ...]:
-    """Parameters of the vehicle that end at a bound in the last fit of a selection; without those that its fitted drives do not tell."""
-    values = selection.final.values
+def at_bounds(selection: Selection, given: Sequence[Size]) -> tuple[AtBound, ...]:
+    """Parameters of the vehicle that end at a bound in the last fit of a selection; without those that its fitted drives do not tell.
+    ``given``: the parameters with the bounds that they have of their own."""
+    values, own = selection.final.values, {size.key: (size.lower, size.upper) for size in given}
     return tuple(
-        _at_bound(size, values[size.key])
+        _at_bound(size, values[size.key], own[size.key])
         for size in selection.frame.experiment.free
         if size.key in PARAMETERS and not refit.is_within(size, values) and _is_told(size, selection)
     )
 
 
-def _at_bound(size: Size, value: float) -> AtBound:
+def _at_bound(size: Size, value: float, own: tuple[float, float]) -> AtBound:
     end, bound = min((("lower", size.lower), ("upper", size.upper)), key=lambda one: abs(value - one[1]))
-    return AtBound(size.key, size.unit, float(value), float(bound), end)
+    return AtBound(size.key, size.unit, float(value), float(bound), end, bound not in own)
 
 
 def _is_told(size: Size, selection: Selection) -> bool:
-    """Whether the fitted drives tell a parameter (``identifiability.UNIDENTIFIED``): its interval holds what its bounds say as well, as if it
-    were as likely anywhere within them, and what drives held out widened it by."""
+    """Whether the fitted drives tell a parameter (``identifiability.UNIDENTIFIED``): its interval holds what its bounds say as well, as if
+    it were as likely anywhere within them, and what drives held out widened it by."""
     lower, upper = selection.intervals[size.key]
     of_bounds = norm.ppf(0.5 + CONFIDENCE / 2) / np.sqrt(12.0)
     least = 1.0 / np.hypot(1.0 / UNIDENTIFIED, 1.0 / of_bounds)

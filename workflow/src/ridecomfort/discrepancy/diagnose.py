@@ -57,7 +57,7 @@ def diagnose(
         if is_beside and proposal.share > verdict.share + found.share:
             found = None
         verdict = beside_a_force(verdict, proposal)
-    verdict = with_bounds(with_parameters(verdict, found and found.of(vehicle)), at_bounds(outcome.stands_on))
+    verdict = with_bounds(with_parameters(verdict, found and found.of(vehicle)), at_bounds(outcome.stands_on, experiment.free))
     return outcome.table, verdict, proposal
 
 

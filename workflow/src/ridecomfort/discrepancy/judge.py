@@ -22,7 +22,10 @@ MOST = 0.8
 TOLD, LEAST_TOLD = 3, 0.001
 """Signals of which it is told what is left, and share of their power below which it is not."""
 
-DRIVEN = "something that is missing may drive it there; if the car may lie beyond, have it calibrated in wider bounds (calibration: parameters, bounds)"
+DRIVEN = (
+    "something that is missing may drive it there; if the car may lie beyond, have it calibrated in wider bounds "
+    "(calibration: parameters, bounds)"
+)
 """What is said of parameters of the vehicle that end at their bounds."""
 
 ANOTHER_SHAPE = 0.05
@@ -114,8 +117,8 @@ def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
 
 
 def with_bounds(verdict: Verdict, found: Sequence[AtBound]) -> Verdict:
-    """A verdict with the parameters of the vehicle that end at their bounds, but those of which it says already that they lie beyond: a reason
-    more, unless the data are suspect, which comes first."""
+    """A verdict with the parameters of the vehicle that end at their bounds, but those of which it says already that they lie beyond: a
+    reason more, unless the data are suspect, which comes first."""
     beyond = {one.parameter for one in verdict.beyond_bounds.parameters} if verdict.beyond_bounds else set()
     kept = tuple(one for one in found if one.parameter not in beyond)
     told = kept if verdict.verdict != "suspect" else ()

@@ -80,8 +80,8 @@ def against(measured: np.ndarray, simulated: np.ndarray, rate: float, signals: S
 
 
 def doubt(name: str, turned: float, found: float, times: float) -> str:
-    """What is said of a signal ``turned`` round (``against``), or with this correlation with the model and so many times its rms; empty where
-    nothing is."""
+    """What is said of a signal ``turned`` round (``against``), or with this correlation with the model and so many times its rms; empty
+    where nothing is."""
     if turned < 0.0:
         return f"{name} runs against the model (correlation {turned:.2f}): is its sign right?"
     if found > ALIKE and not 1.0 / TIMES < times < TIMES:

@@ -184,7 +184,9 @@ def forms(found: Diagnosis) -> Table:
         for number, (name, one) in enumerate(told.items()):
             place, form = name.split(":") if ":" in name else (OF_THE_LIBRARY, name)
             if number < STRONGEST or place not in places:
-                expression, such_a = ("", "") if place == OF_THE_LIBRARY else (formula(PLACES[place].terms[form].expression), such_as(place, [form]))
+                expression = such_a = ""
+                if place != OF_THE_LIBRARY:
+                    expression, such_a = formula(PLACES[place].terms[form].expression), such_as(place, [form])
                 rows.append((turn, place, words(form), expression, *one, such_a))
             places.add(place)
     notes = (
