@@ -51,7 +51,13 @@ if "diagnose" in asked and not study.diagnosed:
     sites = ", ".join(study.measured)
     sys.exit(f"error: all drives of {sites} are held out, so that there is nothing to diagnose on (expected drives with role: fit)")
 
-progress.follow(workflow)
+followed = progress.follow(workflow)
+
+
+onerror:
+    if followed is not None:
+        followed.left_undone()
+
 
 settings = partial(stepsettings.as_json, study)
 

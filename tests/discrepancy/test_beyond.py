@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -49,6 +50,13 @@ def test_nothing_is_told_of_a_car_that_is_within_its_bounds(car):
     assert not beyond.ends_at_bounds(selection) and beyond.beyond_bounds(selection) is None
 
 
+def test_a_damper_that_ends_at_its_bound_is_told_where_nothing_is_missing(car):
+    _, verdict, _ = diagnose(measured(car, {"damping_front": 1.17}), car, among=["crosswind"], workers=1)
+    (damper,) = verdict.at_bounds
+    assert verdict.verdict == "nothing" and (damper.parameter, damper.end) == ("damping_front", "upper")
+    assert verdict.reasons[-1].startswith("damping_front at 2415 N s/m, its upper bound: ")
+
+
 def test_a_bar_of_half_the_stiffness_takes_the_place_of_an_effect_that_stands_in_for_it(car):
     stand_in = selected(measured(car, {"anti_roll_stiffness_front": 0.54}), car, "tyre_pressure_loss")
     assert stand_in.accepted
@@ -77,6 +85,26 @@ def test_an_effect_that_is_missing_beside_a_wrong_file_is_named_alone(car):
     (damping,) = verdict.beyond_bounds.parameters
     assert damping.parameter == "damping_front" and holds(damping, 1.45 * car["damping_front"])
     assert any("other shares are of what they leave" in reason for reason in verdict.reasons)
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "birge", "end"),
+    [(15000.0, 3000.0, 1.0, "lower"), (39990.0, 3000.0, 1.0, "upper"), (15100.0, 3000.0, 1.0, None), (15000.0, 11000.0, 1.0, None),
+     (15000.0, 11000.0, 1.5, "lower")],
+)  # fmt: skip
+def test_a_spring_that_ends_at_a_bound_is_told_where_fitted_drives_tell_it(value, half, birge, end):
+    """Told is one that is known to an eighth of the bounds to either side, not one known hardly better than they say themselves; what
+    drives held out widened its interval by does not count."""
+    spring, size = "spring_stiffness_rear", Size("suspension_friction.front", "N", 0.0, 0.0, 300.0, 10.0)
+    free = (Size(spring, "N/m", 31800.0, 15000.0, 40000.0, 500.0), size)
+    selection = SimpleNamespace(
+        frame=SimpleNamespace(experiment=SimpleNamespace(free=free)), final=SimpleNamespace(values={spring: value, size.key: 0.0}),
+        intervals={spring: (value - half, value + half), size.key: (-1.0, 1.0)}, birge_ratio=birge,
+    )  # fmt: skip
+    bound = {"lower": 15000.0, "upper": 40000.0, None: None}[end]
+    assert beyond.at_bounds(selection, free) == (() if end is None else (beyond.AtBound(spring, "N/m", value, bound, end),))
+    narrower = (replace(free[0], lower=20000.0, upper=35000.0), size)
+    assert all(one.is_wider and one.words().endswith(" that was tried beyond its bounds") for one in beyond.at_bounds(selection, narrower))
 
 
 @pytest.mark.parametrize(

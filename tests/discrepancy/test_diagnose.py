@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from ridecomfort.discrepancy.beyond import Beyond, BeyondBounds
+from ridecomfort.discrepancy.beyond import AtBound, Beyond, BeyondBounds
 from ridecomfort.discrepancy.discover import Discovery
-from ridecomfort.discrepancy.judge import with_parameters, with_remainder
+from ridecomfort.discrepancy.judge import with_bounds, with_parameters, with_remainder
 from ridecomfort.discrepancy.reconsider import beside_a_force, named_all_the_same, reconsidered
 from ridecomfort.discrepancy.verdict import Named, Verdict
 
@@ -212,6 +212,28 @@ def test_an_effect_beside_them_that_drives_held_out_hardly_confirm_may_be_what_t
     unknown = replace(named, held_out_share=float("nan"))
     for other in (with_parameters(named, beyond()), with_parameters(unknown, beyond(is_first=True))):
         assert other.verdict == "named" and other.effects == (FOUND,)
+
+
+def test_a_spring_that_ends_at_its_bound_is_a_reason_more_with_what_to_do():
+    spring = AtBound("spring_stiffness_rear", "N/m", 15000.0, 15000.0, "lower")
+    grip = AtBound("tyre_friction", "1", 1.4, 1.4, "upper")
+    said = with_bounds(NOTHING, (spring, grip))
+    assert said.verdict == "nothing" and said.reasons[:-1] == NOTHING.reasons
+    assert said.reasons[-1].startswith("spring_stiffness_rear at 15000 N/m, its lower bound; tyre_friction at 1.4, its upper bound: ")
+    assert "calibration: parameters, bounds" in said.reasons[-1]
+    of_spring = {"parameter": "spring_stiffness_rear", "unit": "N/m", "value": 15000.0, "bound": 15000.0, "end": "lower", "is_wider": False}
+    assert said.json()["at_bounds"][0] == of_spring
+    tried = AtBound("anti_roll_stiffness_front", "N m/rad", 7083.333, 7083.333, "lower", True)
+    assert with_bounds(NOTHING, (tried,)).reasons[-1].startswith("anti_roll_stiffness_front at 7080 N m/rad, the least that was tried beyond ")
+    assert with_bounds(NOTHING, ()).reasons == NOTHING.reasons
+
+
+def test_one_that_lies_beyond_its_bounds_is_not_told_twice_and_suspect_data_come_first():
+    inertia, spring = AtBound("roll_inertia", "kg m2", 257.0, 257.0, "lower"), AtBound("spring_stiffness_rear", "N/m", 15000.0, 15000.0, "lower")
+    put_right = with_parameters(replace(NOTHING, verdict="outside"), beyond(is_first=True))
+    said = with_bounds(put_right, (inertia, spring))
+    assert said.at_bounds == (spring,) and "roll_inertia" not in said.reasons[-1]
+    assert with_bounds(replace(NOTHING, verdict="suspect"), (spring,)).reasons == NOTHING.reasons
 
 
 FOUND = Named("friction", (), "", 0.001, 0.3, 0.3, 0.0, (), {})

@@ -28,7 +28,7 @@ def search(*removed, kind="outside", suspected="", parameters=None):
 
 def outcome(kind="outside", form=None, is_sure=True):
     proposed = None if form is None else SimpleNamespace(selection=ends(*form), is_sure=is_sure)
-    return righted.Outcome(None, Verdict(kind, (), (), 0.0, 0.0), proposed)
+    return righted.Outcome(None, Verdict(kind, (), (), 0.0, 0.0), proposed, ends(0.0, 0.0))
 
 
 @pytest.fixture(autouse=True)
@@ -80,6 +80,13 @@ def test_a_form_that_may_be_chance_speaks_for_neither():
     assert chosen(search(0.2, 0.3), outcome(form=(0.9, 0.9), is_sure=False), search(0.5, 0.6, parameters=ALONE), other)[0] is other
     its = outcome()
     assert chosen(search(0.4, 0.4), its, search(0.3, 0.3, parameters=ALONE), outcome(form=(0.9, 0.9), is_sure=False))[0].proposed is its.proposed
+
+
+def test_a_verdict_stands_on_the_model_with_a_form_where_that_is_sure():
+    with_form = outcome(form=(0.9, 0.9))
+    assert with_form.stands_on is with_form.proposed.selection
+    for one in (outcome(), outcome(form=(0.9, 0.9), is_sure=False)):
+        assert one.stands_on is one.selection
 
 
 def test_parameters_that_do_little_are_not_told_but_that_they_were_tried_is():

@@ -58,6 +58,18 @@ def test_a_gyroscope_of_which_all_rates_are_too_large_has_a_gain(monkeypatch, be
     assert "gain of 1.030 of the gyroscope" in reason
 
 
+def test_of_a_drive_the_sign_of_what_runs_against_the_model_by_itself_is_asked_for_and_of_what_hands_move_not():
+    random, names = np.random.default_rng(5), list(SIGNALS)
+    simulated = random.standard_normal((6, 3000))
+    measured = simulated + 0.1 * random.standard_normal(simulated.shape)
+    measured[names.index("a_y")] *= -1.0
+    measured[names.index("yaw_rate")] = random.standard_normal(3000) - 0.5 * simulated[names.index("yaw_rate")]
+    again = SimpleNamespace(measured=lambda: measured, compared=np.ones(3000, bool))
+    came = SimpleNamespace(records=[SimpleNamespace(name="first", rate=100.0)], replays=[again], channels=names)
+    (reason,) = suspect.of_signals(came, {0: simulated - measured})
+    assert reason.startswith("first: a_y runs against the model")
+
+
 def test_a_vehicle_that_rolls_less_is_no_gyroscope_with_a_gain(monkeypatch):
     assert fitted(monkeypatch, {"roll_rate": 0.90}, np.nan) == []
 

@@ -13,6 +13,7 @@ from matplotlib.text import Text
 
 from ridecomfort import config as configuration
 from ridecomfort.discrepancy import confirm, select, tries
+from ridecomfort.discrepancy.form import in_words
 from ridecomfort.discrepancy.ranking import FORMS
 from ridecomfort.discrepancy.score import score
 from ridecomfort.discrepancy.verdict import SAID
@@ -62,9 +63,19 @@ def test_a_proposed_form_is_shown():
     verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"name": "discovered_2"}}
     found = replace(made_up.diagnosis(verdict), model="discovered")
     said = words(diagnosed.tables(found)["verdict"])
-    assert "80 N tanh(velocity / 0.005) (at the strut)" in said and "positive in compression" in said and "Friction of seals." in said
+    assert "At the strut: 80 N tanh(velocity / 0.005)." in said and "positive in compression" in said and "Friction of seals." in said
     assert "84 % of the explainable error on the fitted drives, 92 % on drives held out (p = 0.0015)" in said
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
+
+
+def test_a_form_is_written_in_usual_notation_and_says_what_a_side_is():
+    form = in_words("contact", {"slip_of_load": {"front": -2.4e-06}, "side_slip_of_sides": {"front": 0.0076}}, {"slip_of_load": {"linear": 0.14}})
+    verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"form": form, "place": "contact", "port": "tyre_planar"}}
+    (row,) = [row for row in rows(diagnosed.tables(made_up.diagnosis(verdict))["verdict"]) if row["what"] == "proposed form"]
+    assert row["in_words"] == (
+        "At the contact: slip_x → slip_x + (−2.4e−06 1/N front) (load + linear · 1.333e+06 · slip_x), linear = 0.14; "
+        "slip_y → slip_y + (0.0076 front) side; side is +1 on the left, −1 on the right."
+    )
 
 
 def test_effects_beside_a_proposed_form_are_switched_on_together_with_it():

@@ -10,7 +10,7 @@ from matplotlib.text import Text
 
 from ridecomfort.discrepancy import findings
 from ridecomfort.report import catalogue, differing, style, table
-from ridecomfort.report.figures import conditions, located
+from ridecomfort.report.figures import conditions, ladder, located
 from ridecomfort.report.study import Compared, Difference
 from tests.report import differing as made_up
 
@@ -199,7 +199,20 @@ def test_what_lies_beyond_the_axis_of_the_ladder_is_said_with_its_signal(study):
     with style.styled():
         made = differing.figures(replace(study, ladder=far))["error_ladder"]()
     said = [text.get_text() for text in made.findobj(Text)]
-    assert "beyond, up to:\nroll rate 900 %\n$a_x$ 300 %" in said and "400 ↑" in said
+    assert "above the axis (at its top), up to:\nroll rate 900 %\n$a_x$ 300 %" in said and "400 ↑" in said
+    at_top = [line for line in made.axes[0].lines if list(line.get_ydata()) == [1.0] and not line.get_clip_on()]
+    assert {(line.get_color(), line.get_marker()) for line in at_top} == {style.SIGNAL_LINES[name] for name in ("a_x", "roll_rate")}
+    assert [line.get_xdata()[0] for line in at_top] == [0, 0]
+    left, right = sorted(line.get_transform().transform((0.0, 1.0))[0] for line in at_top)
+    assert right - left > 0.5 * at_top[0].get_markersize()
+
+
+def test_repeats_of_both_methods_that_coincide_are_a_dashed_line_still():
+    """A fifth of the way, at least, neither line covers."""
+    way, covered = np.linspace(0.0, 1000.0, 20001), False
+    for offset, (dash, gap) in ladder.DASHES.values():
+        covered = covered | ((way + offset) % (dash + gap) < dash)
+    assert 0.2 < 1.0 - covered.mean() < 0.6
 
 
 def test_every_line_of_the_ladder_has_a_key(drawn):

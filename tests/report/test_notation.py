@@ -1,7 +1,11 @@
 """Marked-up text in its three forms."""
 
+import re
+
 import pytest
 
+from ridecomfort.discrepancy.places import PLACES
+from ridecomfort.discrepancy.terms import SIDE
 from ridecomfort.report import notation
 
 
@@ -13,6 +17,7 @@ from ridecomfort.report import notation
         (r"$\Phi$-rate", "Φ-rate", "<i>Φ</i>-rate", r"$\Phi$-rate"),
         ("road_friction < 1", "road_friction < 1", "road_friction &lt; 1", r"road\_friction $<$ 1"),
         ("m/s² & −1", "m/s² & −1", "m/s² &amp; −1", r"m/s$^2$ \& $-$1"),
+        ("2π · a", "2π · a", "2π · a", r"2$\pi$ $\cdot$ a"),
     ],
 )
 def test_forms(text, plain, html, latex):
@@ -27,3 +32,12 @@ def test_symbols_and_units_of_the_vocabulary():
     assert notation.signal("a_z") == "$a_z$" and notation.signal("pitch_rate") == "pitch rate"
     assert notation.unit("m/s2") == "m/s²"
     assert notation.unit("m/km") == "m/km"
+
+
+def test_every_term_of_a_force_is_written_without_python():
+    for place in PLACES.values():
+        for term in place.terms.values():
+            written = [notation.formula(text) for text in (term.expression, term.turn, *(state.slope for state in term.states))]
+            assert not re.search(r"\*|%|motion|\d\.0\b|\+=", " ".join(written)), written
+    assert notation.formula(f"-6.2832 * way + motion.speed**2 * {SIDE}") == "−2π · way + speed² · side"
+    assert notation.formula("(60 N front_left_cosine)") == "(60 N front left cosine)"

@@ -154,6 +154,36 @@ def test_earlier_runs_give_a_first_guess(tmp_path, clock):
     assert handler.time_left() == pytest.approx(50.0)
 
 
+@pytest.mark.parametrize(("rule", "is_done", "is_there", "said"), [
+    ("diagnosis", False, True, True), ("measured", False, True, True), ("report", True, True, False), ("diagnosis", False, False, False),
+])  # fmt: skip
+def test_a_run_that_ends_before_its_diagnosis_says_that_the_verdict_there_is_older(watched, tmp_path, monkeypatch, rule, is_done, is_there, said):
+    monkeypatch.chdir(tmp_path)
+    verdict = tmp_path / progress.VERDICT
+    verdict.parent.mkdir(parents=True)
+    if is_there:
+        verdict.write_text("| verdict |")
+    log(watched, "run_info", stats={rule: 1, "diagnosed": 1, "total": 2})
+    if is_done:
+        start(watched, 1, "diagnosed")
+        log(watched, "job_finished", job_id=1)
+    start(watched, 2, rule)
+    log(watched, "job_error", jobid=2, rule_name=rule, log=[])
+    watched.left_undone()
+    assert (progress.VERDICT in watched.said()[-1] and "earlier diagnosis" in watched.said()[-1]) is said
+
+
+def test_a_run_without_a_diagnosis_says_nothing_of_a_verdict(watched, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / progress.VERDICT).parent.mkdir(parents=True)
+    (tmp_path / progress.VERDICT).write_text("| verdict |")
+    log(watched, "run_info", stats={"comparison": 1, "compared": 1, "total": 2})
+    start(watched, 1, "comparison")
+    log(watched, "job_error", jobid=1, rule_name="comparison", log=[])
+    watched.left_undone()
+    assert "verdict" not in " ".join(watched.said())
+
+
 def test_a_users_mistake_is_one_line(watched, tmp_path):
     (tmp_path / "road.log").write_text("error: data/a/road.crg: 3e38 m, expected less\n")
     start(watched, 1, "road", site="a")

@@ -2,6 +2,8 @@
 
 import pytest
 
+from ridecomfort.vocabulary import SIGNALS
+
 pytestmark = pytest.mark.slow
 
 
@@ -66,3 +68,18 @@ def test_a_truncated_result(project):
     answer = project.snakemake("-j1", "results/one/base/drives/0000-0003.nc", "--rerun-triggers", "mtime")
     assert_refused(answer, "results/one/road.nc: not a readable NetCDF file")
     assert project.files() == before
+
+
+def test_a_diagnosis_that_fails_says_that_the_verdict_there_is_of_an_earlier_one(project):
+    verdict = project.folder / "results" / "tables" / "verdict.md"
+    verdict.parent.mkdir(parents=True)
+    verdict.write_text("| verdict | Missing: suspension friction. |")
+    units = {"time": "s", "v_x": "m/s", **dict.fromkeys(SIGNALS[:3], "m/s2"), **dict.fromkeys(SIGNALS[3:], "rad/s")}
+    (project.folder / "drive.csv").write_text(f"{','.join(units)}\n0.0{',none' * (len(units) - 1)}\n")
+    columns = {name: {"column": name, "unit": unit} for name, unit in units.items()}
+    project.site("one", drives=[{"file": "drive.csv", "columns": columns, "sensor": {"behind_front_axle": 1.4, "left": 0.0, "above_wheel_centres": 0.4}}])
+    told = "results/tables/verdict.md and what stands beside it are of an earlier diagnosis"
+    answer = project.snakemake("-j1", "diagnose", "--config", "sites=[one]")
+    assert_refused(answer, "drive.csv")
+    assert answer.text.count(told) == 1 and verdict.is_file()
+    assert told not in project.snakemake("-j1", "compare", "--config", "sites=[one]").text

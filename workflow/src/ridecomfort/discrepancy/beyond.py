@@ -6,11 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.stats import norm
 
 from .. import calibrate
 from ..calibrated import with_values
 from ..descent import descend
 from ..errors import InputError
+from ..identifiability import CONFIDENCE, UNIDENTIFIED
 from ..vehicle.parameters import PARAMETERS
 from . import refit
 from .car import Car
@@ -55,6 +57,26 @@ class Beyond:
     wider: tuple[float, float]
     value: float
     interval: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class AtBound:
+    """A parameter of the vehicle that ended at a bound: its ``value`` in ``unit``, the ``bound``, whether that is the ``upper`` or the
+    ``lower`` ``end``, and whether it is one WIDER than the parameter's own, which were given."""
+
+    parameter: str
+    unit: str
+    value: float
+    bound: float
+    end: str
+    is_wider: bool = False
+
+    def words(self) -> str:
+        """Such as "spring_stiffness_rear at 15000 N/m, its lower bound"."""
+        bound = f"{_rounded(self.bound) if self.is_wider else self.bound:g} {self.unit}".removesuffix(" 1")
+        tried = {"lower": "the least", "upper": "the most"}[self.end]
+        which = f"{tried} that was tried beyond its bounds" if self.is_wider else f"its {self.end} bound"
+        return f"{self.parameter} at {bound}, {which}"
 
 
 @dataclass(frozen=True)
@@ -116,6 +138,31 @@ def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBou
 def ends_at_bounds(selection: Selection) -> bool:
     """Whether a parameter of the vehicle ends at a bound in the first model of a selection or in the last: else none wants to go beyond."""
     return any(_wider(selection, state) for state in (selection.states[0], selection.states[-1]))
+
+
+def at_bounds(selection: Selection, given: Sequence[Size]) -> tuple[AtBound, ...]:
+    """Parameters of the vehicle that end at a bound in the last fit of a selection; without those that its fitted drives do not tell.
+    ``given``: the parameters with the bounds that they have of their own."""
+    values, own = selection.final.values, {size.key: (size.lower, size.upper) for size in given}
+    return tuple(
+        _at_bound(size, values[size.key], own[size.key])
+        for size in selection.frame.experiment.free
+        if size.key in PARAMETERS and not refit.is_within(size, values) and _is_told(size, selection)
+    )
+
+
+def _at_bound(size: Size, value: float, own: tuple[float, float]) -> AtBound:
+    end, bound = min((("lower", size.lower), ("upper", size.upper)), key=lambda one: abs(value - one[1]))
+    return AtBound(size.key, size.unit, float(value), float(bound), end, bound not in own)
+
+
+def _is_told(size: Size, selection: Selection) -> bool:
+    """Whether the fitted drives tell a parameter (``identifiability.UNIDENTIFIED``): its interval holds what its bounds say as well, as if
+    it were as likely anywhere within them, and what drives held out widened it by."""
+    lower, upper = selection.intervals[size.key]
+    of_bounds = norm.ppf(0.5 + CONFIDENCE / 2) / np.sqrt(12.0)
+    least = 1.0 / np.hypot(1.0 / UNIDENTIFIED, 1.0 / of_bounds)
+    return (upper - lower) / 2 < least * selection.birge_ratio * (size.upper - size.lower)
 
 
 def before_effects(selection: Selection, each: Callable = map) -> Rung | None:

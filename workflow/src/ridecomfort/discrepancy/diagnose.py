@@ -8,11 +8,11 @@ import xarray as xr
 
 from .. import pool
 from . import opening
-from .beyond import ends_at_bounds
+from .beyond import at_bounds, ends_at_bounds
 from .car import Car
 from .discover import Discovery, discovered
 from .explain import REPEATS
-from .judge import with_parameters
+from .judge import with_bounds, with_parameters
 from .rank import ranked
 from .ranking import with_forms
 from .reconsider import beside_a_force, heard, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
@@ -57,7 +57,8 @@ def diagnose(
         if is_beside and proposal.share > verdict.share + found.share:
             found = None
         verdict = beside_a_force(verdict, proposal)
-    return outcome.table, with_parameters(verdict, found and found.of(vehicle)), proposal
+    verdict = with_bounds(with_parameters(verdict, found and found.of(vehicle)), at_bounds(outcome.stands_on, experiment.free))
+    return outcome.table, verdict, proposal
 
 
 def _may_lie_beyond(first: Ranked) -> bool:
@@ -74,11 +75,11 @@ def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Out
     is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
     is_road_alone = verdict.verdict == "suspect" and table.attrs["suspected"] == "road"
     if not (is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone):
-        return Outcome(table, verdict, None)
+        return Outcome(table, verdict, None, search.selection)
     library = experiment.candidates if verdict.verdict in ("named", "cluster", "outside") else ()
     proposal = discovered(search.rung, name=name, known=library, probed=search.selection.probed, **common)
     table = with_forms(table, proposal.evidence)
     verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, surely_fits_better(proposal, search.selection))
     if not (table.attrs["turns"] or table.attrs["road"]):
         verdict = named_all_the_same(verdict, proposal)
-    return Outcome(table, verdict, proposal if verdict.verdict == "outside" else None)
+    return Outcome(table, verdict, proposal if verdict.verdict == "outside" else None, search.selection)

@@ -120,8 +120,8 @@ def are_small(found: Sequence[Finding]) -> bool:
 
 def doubts(located: xr.Dataset) -> list[str]:
     """Signals whose sign or unit is in doubt, in words: what else is found of them means nothing then."""
-    found = zip(*(located[name].values for name in ("signal", "correlation", "ratio")))
-    return [said for name, correlation, ratio in found if (said := doubt(str(name), float(correlation), float(ratio)))]
+    found = zip(*(located[name].values for name in ("signal", "against", "correlation", "ratio")))
+    return [said for name, *of_it in found if (said := doubt(str(name), *map(float, of_it)))]
 
 
 def words(located: xr.Dataset, count: int = 5) -> list[str]:

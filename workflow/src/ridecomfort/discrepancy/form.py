@@ -35,7 +35,7 @@ def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
         said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
         by_result.setdefault(term.result, []).append(f"({size}) {written}{at}{slopes}{said}")
     sign = lambda result: "+=" if result in PLACES[place].arguments else "="
-    return ", ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
+    return "; ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
 
 
 def _factor(key: str, term: Term) -> str:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced
-from .beyond import BeyondBounds
+from .beyond import AtBound, BeyondBounds
 from .cluster import SAME_PORT
 from .experiment import Candidate, Size
 from .propose import LEVEL, SURE
@@ -21,6 +21,12 @@ MOST = 0.8
 
 TOLD, LEAST_TOLD = 3, 0.001
 """Signals of which it is told what is left, and share of their power below which it is not."""
+
+DRIVEN = (
+    "something that is missing may drive it there; if the car may lie beyond, have it calibrated in wider bounds "
+    "(calibration: parameters, bounds)"
+)
+"""What is said of parameters of the vehicle that end at their bounds."""
 
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
@@ -108,6 +114,17 @@ def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
         return replace(verdict, verdict="outside", effects=(), reasons=reasons, share=0.0, held_out_share=0.0, beyond_bounds=found)
     kind = "outside" if found.is_first and verdict.verdict == "nothing" else verdict.verdict
     return replace(verdict, verdict=kind, reasons=reasons, beyond_bounds=found)
+
+
+def with_bounds(verdict: Verdict, found: Sequence[AtBound]) -> Verdict:
+    """A verdict with the parameters of the vehicle that end at their bounds, but those of which it says already that they lie beyond: a
+    reason more, unless the data are suspect, which comes first."""
+    beyond = verdict.beyond_bounds
+    known = {one.parameter for one in (*beyond.parameters, *beyond.less_sure)} if beyond else set()
+    kept = tuple(one for one in found if one.parameter not in known)
+    told = kept if verdict.verdict != "suspect" else ()
+    reasons = (f"{'; '.join(one.words() for one in told)}: {DRIVEN}",) if told else ()
+    return replace(verdict, reasons=(*verdict.reasons, *reasons), at_bounds=kept)
 
 
 def _removed(balance: Balance) -> list[str]:

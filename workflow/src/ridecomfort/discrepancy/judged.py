@@ -6,6 +6,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from scipy.fft import dct, idct
+from scipy.signal import csd, welch
+
+from .response import SEGMENT
 
 LOWEST = 0.8
 """Hz; slower errors are drifts of instruments and what the driver makes of the path."""
@@ -27,8 +30,13 @@ def judged(series: np.ndarray, rate: float, signals: Sequence[str]) -> np.ndarra
     return _kept(series, rate, lambda frequency: frequency >= lowest(signals)[:, None])
 
 
-AGAINST = -0.3
-"""Correlation with the model below which a signal is taken for one of the wrong sign."""
+AGAINST, SURELY_AGAINST = -0.3, -(0.5**0.5)
+"""Correlation with the model below which a signal is taken for one of the wrong sign: where COHERENT of its power answers to what the model
+does, and anyway, since turned round it would be more than half what the model says."""
+
+COHERENT = 0.8
+"""Share of the power of a signal that must be coherent with the model for its sign to be told: what else moves it (hands, noise, links that
+steer) may run against the model, too."""
 
 TIMES, ALIKE = 5.0, 0.5
 """Times by which the rms of a signal may differ from that of a model which it goes with (correlation above ALIKE): degrees are 57 radians."""
@@ -47,10 +55,35 @@ def ratio(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.sqrt(np.where(are_there, powers[0], 1.0) / np.where(are_there, powers[1], 1.0))
 
 
-def doubt(name: str, found: float, times: float) -> str:
-    """What is said of a signal with this correlation with the model and so many times its rms; empty where nothing is."""
-    if found < AGAINST:
-        return f"{name} runs against the model (correlation {found:.2f}): is its sign right?"
+def coherence(one: np.ndarray, other: np.ndarray, rate: float) -> np.ndarray:
+    """Share (signal,) of the power of a series (signal, sample) at ``rate`` Hz that is coherent with another, whatever filter lies between."""
+    length = min(int(SEGMENT * rate), one.shape[-1] // 4)
+    common = {"fs": rate, "nperseg": length, "detrend": False}
+    powers = [welch(each, **common)[1] for each in (one, other)]
+    product = powers[0] * powers[1]
+    found = np.abs(csd(one, other, **common)[1]) ** 2 / np.where(product > 0, product, 1.0)
+    count = 2 * one.shape[-1] // length - 1  # segments overlap by half; of nothing in common one of them would show all, some a part of it
+    found = np.maximum((count * found - 1.0) / (count - 1.0), 0.0)
+    return np.sum(found * powers[0], axis=-1) / np.maximum(np.sum(powers[0], axis=-1), np.finfo(float).tiny)
+
+
+def against(measured: np.ndarray, simulated: np.ndarray, rate: float, signals: Sequence[str]) -> np.ndarray:
+    """Correlation (signal,) of series (signal, sample) at ``rate`` Hz that speaks most for a wrong sign, of what is judged of them or of all
+    but their means, which tells a sign in bends; 0 where none does."""
+    pair = np.stack([measured, simulated])
+    found = np.zeros(len(signals))
+    for own in (judged(pair, rate, signals), pair - pair.mean(axis=-1, keepdims=True)):
+        alike = correlation(*own)
+        is_told = (alike < AGAINST) & (coherence(*own, rate) > COHERENT) | (alike < SURELY_AGAINST)
+        found = np.minimum(found, np.where(is_told, alike, 0.0))
+    return found
+
+
+def doubt(name: str, turned: float, found: float, times: float) -> str:
+    """What is said of a signal ``turned`` round (``against``), or with this correlation with the model and so many times its rms; empty
+    where nothing is."""
+    if turned < 0.0:
+        return f"{name} runs against the model (correlation {turned:.2f}): is its sign right?"
     if found > ALIKE and not 1.0 / TIMES < times < TIMES:
         return f"{name} is {times:.3g} times what the model does: is its unit right?"
     return ""

@@ -48,16 +48,23 @@ class Ranked:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Evidence and verdict of a search in the light of a force of any form, which is ``proposed`` where the verdict is "outside"."""
+    """Evidence and verdict of a search in the light of a force of any form, which is ``proposed`` where the verdict is "outside"; the
+    ``selection`` is that of the library."""
 
     table: xr.Dataset
     verdict: Verdict
     proposed: Discovery | None
+    selection: Selection
 
     @property
     def sure(self) -> Discovery | None:
         """What is proposed, if it is more than chance."""
         return self.proposed if self.proposed is not None and is_sure(self.proposed) else None
+
+    @property
+    def stands_on(self) -> Selection:
+        """The search whose last model the verdict stands on: that of a sure form, or that of the library."""
+        return self.selection if self.sure is None else self.sure.selection
 
 
 def searched_again(experiment: Car, before: Selection, signatures: bool, common: Mapping) -> tuple[BeyondBounds | None, Ranked | None]:

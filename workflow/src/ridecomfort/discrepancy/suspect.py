@@ -12,7 +12,7 @@ from ..drive import turning
 from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
-from .judged import correlation, doubt, judged, ratio
+from .judged import against, correlation, doubt, judged, ratio
 
 ROAD_BAND = (0.1, 0.8)
 """Cycles per metre in which the spectrum of a road follows a power law (ISO 8608 holds to 2.83)."""
@@ -186,8 +186,9 @@ def of_signals(experiment: Car, residuals) -> list[str]:
     for index, residual in residuals.items():
         record, again = experiment.records[index], experiment.replays[index]
         measured = again.measured()[:, again.compared]
+        turned = against(measured, measured + residual, record.rate, experiment.channels)
         pair = judged(np.stack([measured, measured + residual]), record.rate, experiment.channels)
-        for name, *found in zip(experiment.channels, correlation(*pair), ratio(*pair)):
+        for name, *found in zip(experiment.channels, turned, correlation(*pair), ratio(*pair)):
             if said := doubt(name, *found):
                 reasons.append(f"{record.name}: {said}")
     return reasons

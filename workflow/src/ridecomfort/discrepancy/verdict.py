@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
-from .beyond import BeyondBounds
+from .beyond import AtBound, BeyondBounds
 
 SAID = {
     "named": "Missing: {names}.",
@@ -61,6 +61,8 @@ class Verdict:
     is_shared: bool = False
     beyond_bounds: BeyondBounds | None = None
     """Parameters of the vehicle that would explain more if they lay beyond their bounds, where effects explain too little."""
+    at_bounds: tuple[AtBound, ...] = ()
+    """Parameters of the vehicle that end at a bound in the model that the verdict stands on."""
     is_beside_form: bool = False
     """Whether the effects are those that are missing beside the proposed form, and shares of what goes beside it; else of what the library
     does alone."""

@@ -9,6 +9,8 @@ from __future__ import annotations
 import html as _html
 import re
 
+from ..discrepancy.terms import SIDE, TURNING
+
 SYMBOLS = {
     "v_x": "$v_x$",
     "a_x": "$a_x$",
@@ -75,7 +77,21 @@ _LATEX = {
     "σ": r"$\sigma$",
     "Σ": r"$\Sigma$",
     "·": r"$\cdot$",
+    "π": r"$\pi$",
 }
+
+
+_IN_FORMULAS = (
+    (r"(\w+) \+= ", r"\1 → \1 + "),
+    (r"\bmotion\.", ""),
+    (r"\*\*2\b", "²"),
+    (r"\*\*3\b", "³"),
+    (r" \* ", " · "),
+    (r"\b6\.2832\b", "2π"),
+    (r"\b(\d+)\.0\b", r"\1"),
+    (r"-", "−"),
+)
+"""What of Python is written otherwise in a formula, one after the other."""
 
 
 def symbol(name: str) -> str:
@@ -91,6 +107,17 @@ def signal(name: str) -> str:
 def words(name: str) -> str:
     """A name of the files in words: ``suspension friction: front`` for ``suspension_friction.front``."""
     return name.replace("_", " ").replace(".", ": ")
+
+
+def formula(text: str) -> str:
+    """A form as ``discrepancy.form`` writes it, or an expression of its terms, in usual notation, ``deflection² · side``, where side is +1 on the
+    left and -1 on the right."""
+    text = text.replace(SIDE, "side")
+    for part in TURNING:
+        text = text.replace(part, words(part))
+    for written, usual in _IN_FORMULAS:
+        text = re.sub(written, usual, text)
+    return text
 
 
 def unit(name: str) -> str:

@@ -31,6 +31,9 @@ TO_LOOK_AT = {
 }
 """What a run without the page ends with, by the rule that made it."""
 
+VERDICT = "results/tables/verdict.md"
+"""What the rule "diagnosed" makes anew; that of an earlier diagnosis stays where a run ends before."""
+
 TOLD = ("diagnosis",)
 """Rules that take minutes and say in their logs how far they are."""
 
@@ -121,6 +124,11 @@ class Progress(logging.Handler):
         elapsed = sum(time.monotonic() - job.start for job in self.running.values())
         return max(total - elapsed, 0.0) / self.together
 
+    def left_undone(self) -> None:
+        """Say of a run that ended with an error before it had written its diagnosis, that the one there is older."""
+        if self.todo["diagnosed"] > 0 and Path(VERDICT).is_file():
+            self._write(f"{VERDICT} and what stands beside it are of an earlier diagnosis: this run ended before its own were written")
+
     def _count(self, stats: Mapping[str, int]) -> None:
         self.counts = Counter({rule: count for rule, count in stats.items() if rule != "total"})
         self.todo = self.counts.copy()
@@ -195,21 +203,22 @@ class Progress(logging.Handler):
         print(text, file=self.stream, flush=True)
 
 
-def follow(workflow) -> None:
-    """Print progress for a run of this Snakemake workflow, unless it only looks or was asked for details."""
+def follow(workflow) -> Progress | None:
+    """Print progress for a run of this Snakemake workflow; None where that was asked for all details, for few or for none."""
     from snakemake.logging import logger
 
     output = workflow.output_settings
     quiet = any(level.name in ("RULES", "PROGRESS", "ALL") for level in output.quiet or ())
     if not workflow.is_main_process or output.verbose or quiet:
-        return
+        return None
     for handler in logger.handlers:
         if handler.name == "DefaultStreamHandler":
             rules = lambda: [rule.name for rule in workflow.rules]
             progress = Progress(Path("results/benchmarks"), planning=output.dryrun, rules=rules)
             handler.addFilter(progress.replaces)
             logger.addHandler(progress)
-            return
+            return progress
+    return None
 
 
 def _missing(record: logging.LogRecord) -> str:

@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
+from matplotlib.transforms import offset_copy
 
 from ...discrepancy import ladder as rungs
 from ...vocabulary import SIGNALS
@@ -19,11 +20,14 @@ LOOKS = {
     "thresholds": {"color": "#6A3D9A", "marker": "p", "markersize": 4},
     "iso2631": {"color": style.MEASURED, "marker": "h", "markersize": 4, "markerfacecolor": "white"},
 }
-DASHES = {"thresholds": (0, (4, 4)), "iso2631": (4, (4, 4))}
-"""Lines of the repeats by method, dashes of one in the gaps of the other where they coincide."""
+DASHES = {"thresholds": (0, (4, 10)), "iso2631": (7, (4, 10))}
+"""Lines of the repeats by method, dashes of one amid the gaps of the other where they coincide: a dashed line of two colours."""
 
 HIGHEST = 200.0
 """% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen."""
+
+APART = 5.0
+"""Points between the markers at the top of the axis of signals that lie above it on the same rung."""
 
 NEAR_TOP = 0.9
 """Share of HIGHEST from which on a number stands below its point, not in the title above."""
@@ -73,7 +77,8 @@ def error_ladder(study: Difference) -> Figure:
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor"))
     lines += [Line2D([], [], **look, label=f"{METHODS[name]}, model") for name, look in LOOKS.items()]
     if np.isfinite(found["repeats_agreeing"]).any():
-        lines += [Line2D([], [], **_repeats(name), label=f"{title}, repeats") for name, title in METHODS.items()]
+        begun = lambda name: {**_repeats(name), "linestyle": (0, DASHES[name][1])}  # noqa: E731
+        lines += [Line2D([], [], **begun(name), label=f"{title}, repeats") for name, title in METHODS.items()]
     if blank:
         blank[0].legend(handles=lines, loc="center left", ncols=2).set_in_layout(False)
     else:
@@ -95,15 +100,27 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
             said, (place, min(value, HIGHEST)), xytext=(6, above), textcoords="offset points", fontsize=6, fontweight="bold",
             path_effects=LEGIBLE,
         )  # fmt: skip
+    _above(axes, chosen, places)
     most = 100 * np.nan_to_num(chosen["left"].values).max(axis=chosen["left"].dims.index("rung"))
     beyond = [f"{notation.signal(str(chosen['signal'].values[k]))} {most[k]:,.0f} %" for k in np.argsort(-most) if most[k] > HIGHEST]
     if beyond:
         axes.text(
-            0.99, 0.97, "\n".join(["beyond, up to:", *beyond]), transform=axes.transAxes, ha="right", va="top", fontsize="x-small",
+            0.99, 0.97, "\n".join(["above the axis (at its top), up to:", *beyond]), transform=axes.transAxes, ha="right", va="top", fontsize="x-small",
             path_effects=LEGIBLE,
         )  # fmt: skip
     axes.axhline(0.0, color=style.FLOOR, linestyle="--")
     axes.yaxis.grid(True)
+
+
+def _above(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
+    """The marker of each signal that lies above the axis on a rung, side by side at its top."""
+    for place, left in zip(places, 100 * chosen["left"].transpose("rung", "signal").values):
+        signals = [str(name) for name in chosen["signal"].values[left > HIGHEST]]
+        for number, signal in enumerate(signals):
+            aside = APART * (number - 0.5 * (len(signals) - 1))
+            at = offset_copy(axes.get_xaxis_transform(), axes.figure, x=aside, units="points")
+            colour, marker = style.SIGNAL_LINES[signal]
+            axes.plot(place, 1.0, color=colour, marker=marker, markersize=3.5, clip_on=False, transform=at)
 
 
 def _sections(axes, chosen: xr.Dataset, groups, places: np.ndarray) -> None:

@@ -12,11 +12,12 @@ from ...discrepancy.balance import LITTLE
 from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
+from ...discrepancy.terms import SIDE
 from ...discrepancy.verdict import first_sentence, sentence
 from ...effects.contract import PORTS
 from ...study import BASE, JOIN
 from .. import catalogue
-from ..notation import unit, words
+from ..notation import formula, unit, words
 from ..study import Diagnosis
 from ..table import Column, Source, Table
 from . import advice
@@ -29,6 +30,9 @@ FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie
 
 HELD = {True: "typical: the drives ask for no other", False: "held, the best of a few"}
 """What is said of what only shapes an effect, by whether it is as is typical, where the drives did not ask for another value."""
+
+OF_SIDE = "side is +1 on the left, −1 on the right"
+"""What is said of that in a form."""
 
 STRONGEST = 12
 """Candidates of a round that are drawn, and forms of a force that are told."""
@@ -68,7 +72,8 @@ def verdict(found: Diagnosis) -> Table:
         taken = f"{', '.join(names)} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, {role}."
         rows.append(("in the library", taken))
     if proposal.get("form"):
-        rows.append(("proposed form", f"{proposal['form']} (at the {proposal['place']})"))
+        of_side = f"; {OF_SIDE}" if SIDE in proposal["form"] else ""
+        rows.append(("proposed form", f"At the {proposal['place']}: {formula(proposal['form'])}{of_side}."))
         rows.append(("in it", sentence(PORTS[proposal["port"]].meaning)))
         rows.append(("such as", sentence(proposal["such_as"])))
         beside = proposal.get("beside")
@@ -181,12 +186,14 @@ def forms(found: Diagnosis) -> Table:
         for number, (name, one) in enumerate(told.items()):
             place, form = name.split(":") if ":" in name else (OF_THE_LIBRARY, name)
             if number < STRONGEST or place not in places:
-                expression, such_a = ("", "") if place == OF_THE_LIBRARY else (PLACES[place].terms[form].expression, such_as(place, [form]))
+                expression = such_a = ""
+                if place != OF_THE_LIBRARY:
+                    expression, such_a = formula(PLACES[place].terms[form].expression), such_as(place, [form])
                 rows.append((turn, place, words(form), expression, *one, such_a))
             places.add(place)
     notes = (
         "Forms are terms that a force may be made of at each place where it could act. The first of "
-        "a place is its best, so that places are ranked by it. Gain, p-value (over all terms of all places) and shares as in the evidence "
+        f"a place is its best, so that places are ranked by it. In their expressions {OF_SIDE}. Gain, p-value (over all terms of all places) and shares as in the evidence "
         "for the library, whose effects are looked for together with them where it explains too little alone: they may be missing, too. "
         f"Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file. Accepted is the best "
         "of a round; whether it is proposed, and with which factors, fitted together in the end, says the verdict, which takes the library where that does as well.",
