@@ -51,10 +51,10 @@ def test_nothing_is_told_of_a_car_that_is_within_its_bounds(car):
 
 
 def test_a_damper_that_ends_at_its_bound_is_told_where_nothing_is_missing(car):
-    _, verdict, _ = diagnose(measured(car, {"damping_front": 1.17}), car, among=["crosswind"], workers=1)
-    (damper,) = verdict.at_bounds
-    assert verdict.verdict == "nothing" and (damper.parameter, damper.end) == ("damping_front", "upper")
-    assert verdict.reasons[-1].startswith("damping_front at 2415 N s/m, its upper bound: ")
+    selection = selected(measured(car, {"damping_front": 1.17}), car)
+    (damper,) = beyond.at_bounds(selection)
+    assert not selection.accepted and (damper.parameter, damper.end) == ("damping_front", "upper")
+    assert damper.words() == "damping_front at 2415 N s/m, its upper bound"
 
 
 def test_a_bar_of_half_the_stiffness_takes_the_place_of_an_effect_that_stands_in_for_it(car):
