@@ -52,7 +52,7 @@ def test_nothing_is_told_of_a_car_that_is_within_its_bounds(car):
 
 def test_a_damper_that_ends_at_its_bound_is_told_where_nothing_is_missing(car):
     selection = selected(measured(car, {"damping_front": 1.17}), car)
-    (damper,) = beyond.at_bounds(selection)
+    (damper,) = beyond.at_bounds(selection, selection.frame.experiment.free)
     assert not selection.accepted and (damper.parameter, damper.end) == ("damping_front", "upper")
     assert damper.words() == "damping_front at 2415 N s/m, its upper bound"
 
