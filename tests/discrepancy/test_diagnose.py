@@ -226,6 +226,10 @@ def test_a_spring_that_ends_at_its_bound_is_a_reason_more_with_what_to_do():
     tried = AtBound("anti_roll_stiffness_front", "N m/rad", 7083.333, 7083.333, "lower", True)
     assert with_bounds(NOTHING, (tried,)).reasons[-1].startswith("anti_roll_stiffness_front at 7080 N m/rad, the least that was tried beyond ")
     assert with_bounds(NOTHING, ()).reasons == NOTHING.reasons
+    none = AtBound("anti_roll_stiffness_rear", "N m/rad", 0.0, 0.0, "lower")
+    assert with_bounds(NOTHING, (none,)).reasons[-1] == (
+        "anti_roll_stiffness_rear at 0 N m/rad, the least that there can be: something that is missing may drive it there"
+    )
 
 
 def test_one_that_lies_beyond_its_bounds_is_not_told_twice_and_suspect_data_come_first():

@@ -64,6 +64,16 @@ def test_a_wrong_sign_is_told_of_what_the_road_or_its_bends_move_and_of_no_right
     assert (turned[1:] < -0.5).all()
 
 
+def test_slow_parts_that_a_bank_turns_round_are_no_wrong_sign():
+    """A roll rate that agrees in what is judged, with nine times as much of the other sign below it."""
+    random = np.random.default_rng(3)
+    simulated = random.standard_normal(6000)
+    slow = 3.0 * np.sqrt(2.0) * np.sin(2 * np.pi * 0.1 * np.arange(6000) / 100.0)
+    pair = np.stack([simulated - slow, simulated + slow])[:, None]
+    assert correlation(*pair)[0] < -0.7
+    assert against(*pair, 100.0, ["roll_rate"])[0] == 0.0
+
+
 @pytest.mark.parametrize(("phase", "is_told"), [(2.0, False), (np.pi, True)])
 def test_what_runs_against_the_model_by_something_else_is_no_wrong_sign(phase, is_told):
     """A yaw rate that answers to the road a quarter of a wave otherwise, as of links that steer, and a third of whose power is the driver's."""

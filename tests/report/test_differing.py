@@ -99,8 +99,8 @@ def test_below_the_ladder_stands_what_its_100_percent_are_made_of_what_rises_and
     found["starts"] = found["starts"].astype(object)
     found["starts"][2, 0] = "starts disagree: so far"
     notes = differing.tables(replace(study, ladder=found))["error_ladder"].notes
-    assert "Ts1: + suspension_friction leaves 150 % on the fitted drives, more than the 100 % without it." in notes
-    assert "Ts1: + suspension_friction: starts disagree: so far." in notes
+    assert "Ts1: + suspension friction leaves 150 % on the fitted drives, more than the 100 % without it." in notes
+    assert "Ts1: + suspension friction: starts disagree: so far." in notes
 
 
 def test_fitted_and_held_out_drives_stand_apart(tables):

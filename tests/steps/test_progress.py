@@ -173,6 +173,17 @@ def test_a_run_that_ends_before_its_diagnosis_says_that_the_verdict_there_is_old
     assert (progress.VERDICT in watched.said()[-1] and "earlier diagnosis" in watched.said()[-1]) is said
 
 
+def test_so_does_the_whole_study_whose_tables_of_it_are_planned_behind_the_diagnosis(watched, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / progress.VERDICT).parent.mkdir(parents=True)
+    (tmp_path / progress.VERDICT).write_text("| verdict |")
+    log(watched, "run_info", stats={"diagnosis": 1, "report": 1, "total": 2})
+    start(watched, 1, "diagnosis")
+    log(watched, "job_error", jobid=1, rule_name="diagnosis", log=[])
+    watched.left_undone()
+    assert "earlier diagnosis" in watched.said()[-1]
+
+
 def test_a_run_without_a_diagnosis_says_nothing_of_a_verdict(watched, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / progress.VERDICT).parent.mkdir(parents=True)

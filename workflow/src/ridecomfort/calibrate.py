@@ -126,11 +126,11 @@ def calibrate(
     vehicle, clipped into the bounds, with the values of the first of ``start``, mappings of parameter to value in SI units.
     OP_1 ... OP_5 fit one parameter after the other (fig:optichain), an effect's after them; the joint fit starts where
     they end, from the further ones of ``start`` and from ``restarts`` random points (restart_cost, restart_value).
-    ``below`` are the values (SI) of the calibrated model with fewer effects (``values_below``): a further start, which keeps the fit
+    ``below`` are the values (SI) of the calibrated model with fewer effects (``values_below``): a further start, which keeps the joint fit
     with an effect from ending above the one without it where all others go astray.
     ``applied`` says whose values are ``value``: "joint" (default) or "sequence", as in the paper; without
     ``sequence`` there is the joint fit alone and value_sequence is NaN. ``profiles`` names parameters whose profile of the cost is wanted.
-    So many drives are simulated side by side as there are ``workers``, which changes nothing else.
+    Drives are simulated side by side on so many cores as there are ``workers``, which changes nothing else.
 
     Returns the Dataset of calibration.nc: over ``parameter`` value, initial, lower, upper, unit,
     interval_lower/upper (90 %), value_sequence, verdict and signal_share(parameter, signal);

@@ -74,17 +74,24 @@ class AtBound:
     def words(self) -> str:
         """Such as "spring_stiffness_rear at 15000 N/m, its lower bound"."""
         bound = f"{_rounded(self.bound) if self.is_wider else self.bound:g} {self.unit}".removesuffix(" 1")
-        tried = {"lower": "the least", "upper": "the most"}[self.end]
-        which = f"{tried} that was tried beyond its bounds" if self.is_wider else f"its {self.end} bound"
+        last = {"lower": "the least", "upper": "the most"}[self.end]
+        if self.is_last:
+            return f"{self.parameter} at {bound}, {last} that there can be"
+        which = f"{last} that was tried beyond its bounds" if self.is_wider else f"its {self.end} bound"
         return f"{self.parameter} at {bound}, {which}"
+
+    @property
+    def is_last(self) -> bool:
+        """Whether no vehicle lies beyond."""
+        return self.bound == getattr(PARAMETERS[self.parameter], self.end)
 
 
 @dataclass(frozen=True)
 class BeyondBounds:
     """``parameters`` that lie beyond their bounds, and the ``share`` of the explainable error that goes on fitted and on held-out drives
     (nan where not known) when they may: beside effects that were found without; where ``is_first``, before any effect; where ``is_instead``,
-    alone, as another explanation, which removes less than that of the verdict. ``less_sure``: parameters whose values lie beyond their bounds, too, and do
-    much there, but whose intervals reach back into them."""
+    alone, as another explanation, which removes less than that of the verdict. ``less_sure``: parameters whose values lie beyond their
+    bounds, too, and do much there, but whose intervals reach back into them."""
 
     parameters: tuple[Beyond, ...]
     share: float

@@ -22,11 +22,11 @@ MOST = 0.8
 TOLD, LEAST_TOLD = 3, 0.001
 """Signals of which it is told what is left, and share of their power below which it is not."""
 
-DRIVEN = (
-    "something that is missing may drive it there; if the car may lie beyond, have it calibrated in wider bounds "
-    "(calibration: parameters, bounds)"
-)
-"""What is said of parameters of the vehicle that end at their bounds."""
+DRIVEN = "something that is missing may drive it there"
+"""What is said of parameters of the vehicle that end at their bounds..."""
+
+BEYOND = "; if the car may lie beyond, have it calibrated in wider bounds (calibration: parameters, bounds)"
+"""...where there can be more or less of them."""
 
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
@@ -123,7 +123,8 @@ def with_bounds(verdict: Verdict, found: Sequence[AtBound]) -> Verdict:
     known = {one.parameter for one in (*beyond.parameters, *beyond.less_sure)} if beyond else set()
     kept = tuple(one for one in found if one.parameter not in known)
     told = kept if verdict.verdict != "suspect" else ()
-    reasons = (f"{'; '.join(one.words() for one in told)}: {DRIVEN}",) if told else ()
+    what = DRIVEN if all(one.is_last for one in told) else DRIVEN + BEYOND
+    reasons = (f"{'; '.join(one.words() for one in told)}: {what}",) if told else ()
     return replace(verdict, reasons=(*verdict.reasons, *reasons), at_bounds=kept)
 
 

@@ -69,14 +69,22 @@ def coherence(one: np.ndarray, other: np.ndarray, rate: float) -> np.ndarray:
 
 def against(measured: np.ndarray, simulated: np.ndarray, rate: float, signals: Sequence[str]) -> np.ndarray:
     """Correlation (signal,) of series (signal, sample) at ``rate`` Hz that speaks most for a wrong sign, of what is judged of them or of all
-    but their means, which tells a sign in bends; 0 where none does."""
+    but their means; 0 where none does.
+
+    The latter tells a sign in bends. It is not asked of what is judged to be right: a bank that the road's file has not turns slow
+    parts round.
+    """
     pair = np.stack([measured, simulated])
-    found = np.zeros(len(signals))
-    for own in (judged(pair, rate, signals), pair - pair.mean(axis=-1, keepdims=True)):
-        alike = correlation(*own)
-        is_told = (alike < AGAINST) & (coherence(*own, rate) > COHERENT) | (alike < SURELY_AGAINST)
-        found = np.minimum(found, np.where(is_told, alike, 0.0))
-    return found
+    fast, whole = judged(pair, rate, signals), pair - pair.mean(axis=-1, keepdims=True)
+    found, slow = _told_against(*fast, rate), _told_against(*whole, rate)
+    return np.where(correlation(*fast) > ALIKE, found, np.minimum(found, slow))
+
+
+def _told_against(one: np.ndarray, other: np.ndarray, rate: float) -> np.ndarray:
+    """Correlation (signal,) where it speaks for a wrong sign, else 0."""
+    alike = correlation(one, other)
+    is_told = (alike < AGAINST) & (coherence(one, other, rate) > COHERENT) | (alike < SURELY_AGAINST)
+    return np.where(is_told, alike, 0.0)
 
 
 def doubt(name: str, turned: float, found: float, times: float) -> str:

@@ -127,7 +127,7 @@ def opened(
     """The experiment of ``measured`` drives, mapping of site to (road, aligned drives), beside a vehicle and its ``calibration``.
 
     What was calibrated is fitted again, within ``bounds`` or those of the calibration; without one, the parameters of tab:constraints
-    and of ``bounds`` are. ``among``: names of the effects to look among; ``workers``: drives side by side, by default one for each core;
+    and of ``bounds`` are. ``among``: names of the effects to look among; ``workers``: cores for drives side by side, by default all;
     ``settings`` as for ``car``.
     """
     vehicle, effects = apply(calibration, vehicle, effects)

@@ -125,8 +125,12 @@ class Progress(logging.Handler):
         return max(total - elapsed, 0.0) / self.together
 
     def left_undone(self) -> None:
-        """Say of a run that ended with an error before it had written its diagnosis, that the one there is older."""
-        if self.todo["diagnosed"] > 0 and Path(VERDICT).is_file():
+        """Say of a run that ended with an error before it had written its diagnosis, that the one there is older.
+
+        Of the whole study the rule "diagnosed" is planned behind its diagnosis only.
+        """
+        is_written = self.counts["diagnosed"] > 0 and self.todo["diagnosed"] == 0
+        if self.counts["diagnosis"] + self.counts["diagnosed"] > 0 and not is_written and Path(VERDICT).is_file():
             self._write(f"{VERDICT} and what stands beside it are of an earlier diagnosis: this run ended before its own were written")
 
     def _count(self, stats: Mapping[str, int]) -> None:

@@ -53,6 +53,7 @@ def error_ladder(study: Difference) -> Table:
     )
     known = zip(study.ladder["site"].values, study.ladder["floor_known"].values)
     floors = [f"{catalogue.label(str(site))}: floor {how}" for site, how in known]
+    titled = study.ladder.assign_coords(rung=[rung_title(str(rung)) for rung in study.ladder["rung"].values])
     notes = (
         f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
@@ -62,7 +63,7 @@ def error_ladder(study: Difference) -> Table:
         "other shares: it takes all sites together and aligns their drives for every model.",
         *_of_reference(study),
         "; ".join(floors) + ".",
-        *(f"{catalogue.label(site)}: {words}." for site, words in (*rungs.risen(study.ladder), *rungs.disagreeing(study.ladder))),
+        *(f"{catalogue.label(site)}: {words}." for site, words in (*rungs.risen(titled), *rungs.disagreeing(titled))),
     )
     return _table(study, "error_ladder", columns, rows, sources, notes, breaks[1:], frozenset(bold))
 
