@@ -128,6 +128,13 @@ def test_where_no_form_is_found_either_it_is_said_whether_what_is_left_matters()
         assert said.startswith("No form was found") and end in said
 
 
+def test_nothing_beyond_the_noise_is_not_said_of_an_error_that_has_no_name():
+    for left, first, last in ((0.004, "Nothing is missing beyond the noise", "may end here."), (0.4, "Nothing is missing that would have a name", "explains it.")):
+        told = rows(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "remainder": {"a_x": 0.001, "yaw_rate": left}}))["verdict"])
+        assert told[0]["in_words"].startswith(first)
+        assert told[-1]["in_words"].startswith("Nothing is to be switched on. What is left") and told[-1]["in_words"].endswith(last)
+
+
 def test_where_nothing_more_is_found_the_table_says_beside_what():
     found = replace(made_up.diagnosis(made_up.nothing()), model="damper_knee+suspension_friction")
     assert rows(diagnosed.tables(found)["missing_effects"])[0]["effect"] == "none beside damper knee, suspension friction"
@@ -368,6 +375,19 @@ def test_what_the_named_effects_would_show_is_not_cut_off():
     for axes in each.axes:
         for line in axes.lines:
             assert np.nanmax(np.abs(line.get_ydata())) < axes.get_ylim()[1]
+
+
+def test_the_names_of_five_effects_fit_beside_their_curves():
+    effects = [{**made_up.VERDICT["effects"][0], "name": name} for name in ("damper_asymmetry", "damper_knee", "wheel_recession", "roll_centre_height", "bump_steer")]
+    found = made_up.diagnosis({**made_up.VERDICT, "effects": effects})
+    found.ranking.update(made_up.curves())
+    with style.styled():
+        each = diagnosed.figures(found)["signature"]()
+        canvas = FigureCanvasAgg(each)
+        canvas.draw()
+    (legend,) = each.legends
+    box = legend.get_window_extent(canvas.get_renderer())
+    assert box.x0 >= 0.0 and box.x1 <= each.bbox.x1
 
 
 def test_a_diagnosis_without_curves_says_so():

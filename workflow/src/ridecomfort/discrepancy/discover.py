@@ -17,6 +17,7 @@ import xarray as xr
 
 from .. import pool
 from . import event, opening
+from .balance import LITTLE
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words
@@ -67,7 +68,8 @@ class Discovery:
         shares = {"on the fitted drives": self.share, "on drives held out": self.held_out_share}
         removed = ", ".join(f"{100 * share:.0f} % {where}" for where, share in shares.items() if np.isfinite(share))
         removes = f"Together with {', '.join(self.names_beside())} it removes" if self.beside else "It removes"
-        return f"at the {self.place}, such as {such_as(self.place, self.terms)}. {removes} {removed}."
+        little = ": too little to be what is missing" if self.share < LITTLE else ""
+        return f"at the {self.place}, such as {such_as(self.place, self.terms)}. {removes} {removed}{little}."
 
     def names_beside(self) -> list[str]:
         """Names of the effects of the library that are missing, too."""

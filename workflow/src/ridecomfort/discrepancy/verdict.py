@@ -18,6 +18,12 @@ SAID = {
 }
 """What every kind of verdict says of the ``names`` of effects."""
 
+UNNAMED = "Nothing is missing that would have a name; what is left above the floor, the search cannot explain."
+"""What the verdict "nothing" says where more is left than SMALL."""
+
+SMALL = 0.02
+"""Share of a signal's power; an error below it changes its rms by a hundredth at most."""
+
 
 @dataclass(frozen=True)
 class Named:
@@ -79,11 +85,13 @@ class Verdict:
         """The verdict as a few sentences."""
         told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
         names = [" or ".join((effect.name, *effect.like)) for effect in told]
-        return " ".join([first_sentence(self.verdict, names), *map(sentence, self.reasons)])
+        return " ".join([first_sentence(self.verdict, names, self.remainder), *map(sentence, self.reasons)])
 
 
-def first_sentence(kind: str, names: Sequence[str]) -> str:
-    """The sentence that a verdict begins with."""
+def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, float]) -> str:
+    """The sentence that a verdict begins with; ``remainder``: share of the power of each signal that is left."""
+    if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
+        return UNNAMED
     return SAID[kind].format(names=", ".join(names) or "no effect is named")
 
 

@@ -22,8 +22,8 @@ POORLY_KNOWN = 8.0
 SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "1": (100.0, "%"), "N": (1.0, "N"), "m/s": (1.0, "m/s")}
 """Factor to, and unit in which a unit is shown."""
 
-ROW, LONGEST = 1.9, 20
-"""Inches of a row of panels, letters in a line beside it."""
+ROW, LONGEST, IN_LEGEND = 1.9, 20, 48
+"""Inches of a row of panels, letters in a line beside it and of one in the legend."""
 
 AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
 
@@ -68,7 +68,7 @@ def signature(found: Diagnosis) -> Figure:
     ]
     handles.append(Patch(color=style.FAINT, alpha=0.5, label="90 % interval"))
     if ranking["named_missing"].notnull().any():
-        handles.append(Line2D([], [], color=style.ERROR, linestyle="--", label=f"what would show: {together}"))
+        handles.append(Line2D([], [], color=style.ERROR, linestyle="--", label=fill(f"what would show: {together}", IN_LEGEND)))
     drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
 

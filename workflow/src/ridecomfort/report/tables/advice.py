@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...discrepancy.balance import LITTLE
 from ...discrepancy.confirm import EQUAL
+from ...discrepancy.verdict import SMALL
 from ...effects import library
 from ...schema import as_written
 from ...study import BASE, JOIN
@@ -37,10 +38,7 @@ LITTLE_FOUND = "Nothing that was found explains much. "
 
 END = "What is left is no more than {most:.1f} % of the power of any signal: the loop may end here."
 
-GO_DEEPER = "What is left, {most:.1f} % of the power of {signal}, is worth a look at where it lies (compare)."
-
-SMALL = 0.02
-"""Share of a signal's power; an error below it changes its rms by a hundredth at most."""
+GO_DEEPER = "What is left, {most:.1f} % of the power of {signal}, is worth a look at where it lies (compare): the loop ends here, unless an effect of your own explains it."
 
 ROAD_FIRST = (
     "First set road: options: interpolation: {other} in the site file, which the drives fit better, and diagnose again, unless the road's "
@@ -68,6 +66,8 @@ def next_step(found: Diagnosis) -> str:
     named = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
     if said["verdict"] == "outside":
         return before + _outside(found, proposal, own, named)
+    if said["verdict"] == "nothing":
+        return f"{before}{NEXT['nothing']} {_left(said)}"
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
     return before + NEXT[said["verdict"]].format(keys=named) + caution
 
