@@ -173,26 +173,18 @@ def test_a_run_that_ends_before_its_diagnosis_says_that_the_verdict_there_is_old
     assert (progress.VERDICT in watched.said()[-1] and "earlier diagnosis" in watched.said()[-1]) is said
 
 
-def test_so_does_the_whole_study_whose_tables_of_it_are_planned_behind_the_diagnosis(watched, tmp_path, monkeypatch):
+@pytest.mark.parametrize(("rule", "behind", "is_said"), [("diagnosis", "report", True), ("comparison", "compared", False)])
+def test_so_does_the_whole_study_that_plans_its_tables_behind_the_diagnosis_and_no_run_without_one(
+    watched, tmp_path, monkeypatch, rule, behind, is_said
+):
     monkeypatch.chdir(tmp_path)
     (tmp_path / progress.VERDICT).parent.mkdir(parents=True)
     (tmp_path / progress.VERDICT).write_text("| verdict |")
-    log(watched, "run_info", stats={"diagnosis": 1, "report": 1, "total": 2})
-    start(watched, 1, "diagnosis")
-    log(watched, "job_error", jobid=1, rule_name="diagnosis", log=[])
+    log(watched, "run_info", stats={rule: 1, behind: 1, "total": 2})
+    start(watched, 1, rule)
+    log(watched, "job_error", jobid=1, rule_name=rule, log=[])
     watched.left_undone()
-    assert "earlier diagnosis" in watched.said()[-1]
-
-
-def test_a_run_without_a_diagnosis_says_nothing_of_a_verdict(watched, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / progress.VERDICT).parent.mkdir(parents=True)
-    (tmp_path / progress.VERDICT).write_text("| verdict |")
-    log(watched, "run_info", stats={"comparison": 1, "compared": 1, "total": 2})
-    start(watched, 1, "comparison")
-    log(watched, "job_error", jobid=1, rule_name="comparison", log=[])
-    watched.left_undone()
-    assert "verdict" not in " ".join(watched.said())
+    assert ("earlier diagnosis" in " ".join(watched.said())) is is_said
 
 
 def test_a_users_mistake_is_one_line(watched, tmp_path):
