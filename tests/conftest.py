@@ -20,9 +20,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 
 def pytest_collection_modifyitems(items):
-    """The slow files first, the workflow's before all: a long one that is begun last would keep one worker busy and leave the other idle,
-    and two that begin with a search side by side would both compile the kernel of the whole library."""
-    items.sort(key=lambda item: (item.get_closest_marker("slow") is None, item.path.parent.name != "study"))
+    """The workflow's files first: a long one that is begun last would keep one worker busy and leave the other idle."""
+    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
 
 
 @pytest.fixture(scope="session")
