@@ -150,17 +150,31 @@ def test_what_shapes_an_effect_is_fitted_where_that_is_worth_it():
     assert sizes["size"][0] < 1.0 < sizes["size"][1] and sizes["setting"][0] < 0.4 < sizes["setting"][1]
 
 
+def stuck(experiment, sooner, frame, values, sizes, columns, *, residuals, **settings):
+    """A refit that ends where it began."""
+    matrix, flat = np.stack([columns[size.key] for size in sizes]), frame.flat(residuals)
+    return tries.refit.Fit(dict(values), residuals, tuple(size.key for size in sizes), matrix, float(flat @ flat))
+
+
 def test_a_refit_that_does_not_begin_is_begun_by_the_sizes_of_the_effect_itself(monkeypatch):
     """As where columns of parameters bend so much that a step of all sizes together makes the white loss larger, however short it is."""
-
-    def stuck(experiment, sooner, frame, values, sizes, columns, *, residuals, **settings):
-        matrix, flat = np.stack([columns[size.key] for size in sizes]), frame.flat(residuals)
-        return tries.refit.Fit(dict(values), residuals, tuple(size.key for size in sizes), matrix, float(flat @ flat))
-
     monkeypatch.setattr(tries.refit, "refit_sooner", stuck)
     found = select.select(Linear(1, {"effect_2.size": 2.0}), {"stiffness": 0.0}, most=1)
     assert found.accepted == ("effect_2",) and found.final.values["effect_2.size"] == pytest.approx(2.0, rel=0.05)
     assert select.select(Linear(1, {}), {"stiffness": 0.0}, most=1).accepted == ()
+
+
+def test_where_no_model_can_be_driven_at_that_beginning_the_refit_stays_as_it_was(monkeypatch):
+    class Fragile(Linear):
+        def residual(self, values, index):
+            if values.get("effect_2.size", 0.0) > 1.5:
+                raise InputError("the drive came to a stand")
+            return super().residual(values, index)
+
+    monkeypatch.setattr(tries.refit, "refit_sooner", stuck)
+    found = select.select(Fragile(1, {"effect_2.size": 2.0}), {"stiffness": 0.0}, most=1)
+    assert "effect_2" in {trial.name for trial in found.rounds[0].trials}
+    assert "effect_2" not in found.rounds[0].passed_over
 
 
 def test_the_shape_of_a_large_effect_is_fitted_where_the_error_that_it_leaves_is_white(monkeypatch):

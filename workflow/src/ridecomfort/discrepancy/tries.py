@@ -87,7 +87,10 @@ class Tries:
         if before.loss - fit.loss > refit.WORTHWHILE:
             return fit
         reached = refit.stepped(fit.values, own, np.stack([columns[size.key] for size in own]), frame.flat(before.residuals))
-        residuals = exp.simulate(self.rung.experiment, reached, frame.indices)
+        try:
+            residuals = exp.simulate(self.rung.experiment, reached, frame.indices)
+        except (InputError, ValueError):
+            return fit
         if refit.information(frame, residuals) < self.likely + refit.WORTHWHILE or self._error(residuals) > self._error(before.residuals):
             return fit
         return replace(fit, values=reached, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
