@@ -57,6 +57,14 @@ def test_a_damper_that_ends_at_its_bound_is_told_where_nothing_is_missing(car):
     assert damper.words() == "damping_front at 2415 N s/m, its upper bound"
 
 
+def test_beside_an_effect_that_is_named_the_verdict_tells_a_damper_at_its_bound(car):
+    hidden = {"wheel_imbalance": library.find()["wheel_imbalance"].effect.values()}
+    _, verdict, _ = diagnose(measured(car, {"damping_front": 1.17}, hidden), car, among=["wheel_imbalance"], workers=1)
+    (damper,) = verdict.at_bounds
+    assert verdict.verdict == "named" and (damper.parameter, damper.end) == ("damping_front", "upper")
+    assert verdict.reasons[-1].startswith("damping_front at 2415 N s/m, its upper bound: ")
+
+
 def test_a_bar_of_half_the_stiffness_takes_the_place_of_an_effect_that_stands_in_for_it(car):
     stand_in = selected(measured(car, {"anti_roll_stiffness_front": 0.54}), car, "tyre_pressure_loss")
     assert stand_in.accepted

@@ -10,8 +10,8 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from ridecomfort import calibrate, calibrated, pool, simulate
-from ridecomfort.discrepancy import compare, opening, rank, righted, select
+from ridecomfort import calibrate, calibrated, simulate
+from ridecomfort.discrepancy import compare, diagnose, rank
 from ridecomfort.drive import align, configured, replay
 from ridecomfort.road import crg
 from ridecomfort.vehicle import parameters
@@ -142,14 +142,21 @@ def test_as_the_readme_calibrates_a_car_of_which_little_is_known_most_of_its_err
 
 
 @pytest.mark.slow
-def test_within_the_bounds_of_the_papers_car_a_second_search_has_tyres_that_damp_less(drives, road, car):
+def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_file_of_the_vehicle_is_wrong(drives, road, car, calibration):
+    _, verdict, _ = diagnose({"realcar": (road, drives)}, car, calibration=calibration, bounds=BOUNDS)
+    assert verdict.verdict == "outside" and verdict.held_out_share > 0.4
+    assert verdict.effects[0].name == "damper_asymmetry"
+    assert {effect.name for effect in verdict.effects[1:3]} == {"damper_knee", "wheel_recession"}
+    beyond = {one.parameter: one.value for one in verdict.beyond_bounds.parameters}
+    assert beyond["roll_inertia"] < 0.8 * car["roll_inertia"] and beyond["anti_roll_stiffness_rear"] > 2 * car["anti_roll_stiffness_rear"]
+    assert verdict.beyond_bounds.held_out_share > 0.1
+
+
+@pytest.mark.slow
+def test_within_the_bounds_of_the_papers_car_the_verdict_says_that_its_tyres_damp_less(drives, road, car):
     """Published tyres damp by 0 to 2000 N s/m, which tab:constraints (4000 to 7000) leaves out."""
     bounds = BOUNDS | {"tyre_radial_stiffness": (250000.0, 400000.0), "tyre_radial_damping": (4000.0, 7000.0)}
-    sites = opening.sites_of({"realcar": (road, drives)})
-    experiment = opening.car(sites, car, bounds=bounds, library_names=["damper_asymmetry", "top_mount"], each_record=pool.side_by_side(2))
-    first = select.select(experiment, opening.start_values(experiment), each=pool.mapped(2))
-    common = {"effects_folder": None, "seed": 0, "say": lambda words: None, "each": pool.mapped(2)}
-    _, second = righted.searched_again(experiment, first, False, common)
-    told = {one.parameter: one for one in second.parameters.parameters}
-    assert second.verdict.verdict == "outside" and told["tyre_radial_damping"].value < 1000.0
-    assert min(second.parameters.share, second.parameters.held_out_share) > 0.3
+    _, verdict, _ = diagnose({"realcar": (road, drives)}, car, bounds=bounds, among=["damper_asymmetry", "top_mount"])
+    told = {one.parameter: one for one in verdict.beyond_bounds.parameters}
+    assert verdict.verdict == "outside" and told["tyre_radial_damping"].value < 1000.0
+    assert min(verdict.beyond_bounds.share, verdict.beyond_bounds.held_out_share) > 0.3
