@@ -12,7 +12,7 @@ import yaml
 
 from ridecomfort import calibrate, calibrated, simulate
 from ridecomfort.discrepancy import compare, diagnose, rank
-from ridecomfort.drive import align, configured, replay
+from ridecomfort.drive import align, configured, lead, replay
 from ridecomfort.road import crg
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS
@@ -65,12 +65,12 @@ def drives(folder, car, road):
     return aligned(folder, car, road)
 
 
-def aligned(folder, car, road):
+def aligned(folder, car, road, site=SITE):
     """At 80 km/h along the middle, to fit; at 50 km/h, 0.3 m to its left, to check. Neither path is told."""
     roles = {"drive_80kmh": "fit", "drive_50kmh": "check"}
     return [
         align.align(
-            configured.read(folder / f"{name}.csv", yaml.safe_load(SITE) | {"role": role}, car),
+            configured.read(folder / f"{name}.csv", yaml.safe_load(site) | {"role": role}, car),
             road,
             car,
             simulate=simulate.run,
@@ -95,6 +95,13 @@ def test_its_path_is_found_from_the_road_alone(drives):
         assert drive.attrs["lateral_position"] == pytest.approx(lateral, abs=0.03)
         assert abs(drive.attrs["clock_offset"]) < 0.005 and drive.attrs["speed_scale"] == pytest.approx(1, abs=1e-3)
         assert drive.attrs["acceleration_gain"] == pytest.approx(1, abs=0.005)
+
+
+def test_that_its_distance_is_the_front_axles_is_seen_where_nobody_said_so(folder, car, road, drives):
+    assert lead.of_drives(drives) is None
+    found = lead.of_drives(aligned(folder, car, road, SITE.replace("distance_of: front_axle", "")))
+    assert found == pytest.approx(car["cg_to_front_axle"], abs=0.1)
+    assert "distance_of: front_axle" in lead.words(found, car["cg_to_front_axle"])
 
 
 def test_calibration_improves_the_drive_it_was_made_on(nrmse):

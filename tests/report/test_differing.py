@@ -130,6 +130,13 @@ def test_it_is_said_how_the_floor_is_known(tables, study):
     assert any("taken as nil: no drive was repeated" in note for note in differing.tables(single)["findings"].notes)
 
 
+def test_what_the_distances_of_a_site_look_like_stands_below_its_clocks(tables, study):
+    assert len(tables["alignment"].notes) == 1
+    site = replace(study.sites[0], measured=study.sites[0].measured.assign_attrs(distance="s looks like another point's"))
+    notes = differing.tables(replace(study, sites=(site, *study.sites[1:])))["alignment"].notes
+    assert notes[1] == "Ts1: s looks like another point's."
+
+
 def test_findings_are_numbered_alike_in_table_and_figure(tables, drawn, study):
     site = study.sites[0]
     words = [" ".join(text.get_text().split()) for text in drawn["located_ts1"].findobj(Text)]

@@ -34,7 +34,7 @@ def files(tmp_path_factory, repository):
     for name, speed in (("fit", 20.0), ("check", 16.0)):
         u = road["u"].values
         run = simulate.run(road, car, speed=xr.DataArray(speed + np.sin(u / 30), {"u": u}, "u"))
-        table = pd.DataFrame({"t": run["time"], "v": 3.6 * run["v_x"], "s": run["s"]})
+        table = pd.DataFrame({"t": run["time"], "v": 3.6 * run["v_x"], "s": run["s"], "ahead": run["s"] + 0.9})
         for signal in SIGNALS[:3]:
             table[signal] = run[signal]
         table["a_x"] -= STANDARD_GRAVITY * np.sin(run["pitch"].values)
@@ -51,6 +51,16 @@ def car_file(repository):
     return repository / "config" / "vehicles" / "midsize.yaml"
 
 
+def test_distances_of_a_point_ahead_are_told_on_the_screen_and_in_the_file(files, car_file, capsys):
+    columns = COLUMNS | {"s": {"column": "ahead", "unit": "m"}}
+    entries = [ENTRY | {"columns": columns, "name": name, "role": name} for name in ("fit", "check")]
+    config = {"site": "here", "drives": entries, "simulation": SIMULATION, "alignment": {"search": 0.5}}
+    drives = [files / "fit.csv", files / "check.csv"]
+    measured.main(files / "road.nc", car_file, drives, config, files / "ahead.nc", workers=1)
+    told = store.read(files / "ahead.nc").attrs["distance"]
+    assert "s looks like the distance of a point 0.9" in told and f"{NOTE}here: {told}" in capsys.readouterr().err
+
+
 def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     entries = [ENTRY | {"name": name, "role": name} for name in ("fit", "check")]
     common = {"road": files / "road.nc", "vehicle": car_file}
@@ -59,6 +69,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     drives = store.read(files / "measured.nc")
     assert list(drives["drive"].values) == ["fit", "check"]
     assert drives["clock_offset"].attrs["units"] == "s" and (abs(drives["clock_offset"]) < 5e-4).all()
+    assert drives.attrs["distance"] == ""
 
     model = {"site": "here", "effects": {}, "effects_folder": None, "simulation": SIMULATION}
     settings = {"bounds": {}, "signals": list(SIGNALS), "tolerance": 1e-4, "restarts": 0, "seed": 1, "applied": "joint"}

@@ -1,9 +1,9 @@
 """Read a site's measured drives and bring them into line with its road: clock, speed, path, mounting."""
 
 from ridecomfort import pool, simulate, store
-from ridecomfort.drive import align, configured, record
+from ridecomfort.drive import align, configured, lead, record
 from ridecomfort.errors import InputError
-from ridecomfort.steps.command import Command
+from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
 
@@ -12,12 +12,16 @@ def main(road, vehicle, drives, config, output, workers):
     car = parameters.read(vehicle)
     rate, step = config["simulation"]["rate"], config["simulation"]["step"]
     read = [configured.read(path, entry, car, rate=rate) for path, entry in zip(drives, config["drives"], strict=True)]
-    aligned = pool.mapped(int(workers))(
+    found = pool.mapped(int(workers))(
         lambda job: _aligned(*job, course, car, {"step": step}, config["alignment"]), zip(drives, read)
     )
-    store.write(
-        record.stack(list(aligned)), output, title=f"Measured drives on {config['site']}", configuration=config
-    )
+    aligned = list(found)
+    metres = lead.of_drives(aligned)
+    doubt = "" if metres is None else lead.words(metres, car["cg_to_front_axle"])
+    stacked = record.stack(aligned).assign_attrs(distance=doubt)
+    store.write(stacked, output, title=f"Measured drives on {config['site']}", configuration=config)
+    if doubt:
+        note(f"{config['site']}: {doubt}")
 
 
 def _aligned(path, drive, course, car, options, settings):
