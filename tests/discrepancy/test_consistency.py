@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ridecomfort.discrepancy import judge, refit, select
+from ridecomfort.discrepancy.experiment import Size
 
 from .linear import Linear
 
@@ -34,6 +37,16 @@ def test_intervals_are_widened_by_what_held_out_drives_disagree_and_the_verdict_
     assert selection.birge_ratio > 2.0 and told > 1.5 * own
     found = judge.judge(selection, model.candidates)
     assert any(f"ask for other sizes by {selection.birge_ratio:.1f} times" in reason for reason in found.reasons)
+
+
+def test_what_no_fitted_drive_meets_is_not_widened_beyond_its_bounds():
+    model = Otherwise(60, {SIZE: 2.0})
+    unmet = Size("effect_2.unmet", "N", 0.0, 0.0, 5.0, 0.1)
+    for own in model.columns:
+        own[unmet.key] = 0.0 * own[SIZE]
+    model.candidates = (*model.candidates[:2], replace(model.candidates[2], sizes=(*model.candidates[2].sizes, unmet)))
+    selection = select.select(model, {"stiffness": 0.0}, most=1)
+    assert selection.birge_ratio > 2.0 and selection.intervals[unmet.key] == (0.0, 5.0)
 
 
 def test_without_a_drive_held_out_nothing_is_widened():

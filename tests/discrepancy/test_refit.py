@@ -74,3 +74,16 @@ def test_what_longer_steps_find_is_told_in_own_steps_and_found_in_them_where_the
     for index, own in found.residuals.items():
         np.testing.assert_array_equal(own, made.residual(found.values, index))
     assert found.loss == pytest.approx(float(np.sum(frame.flat(found.residuals) ** 2)))
+
+
+def test_a_size_that_changes_nothing_on_the_fitted_drives_may_be_anything_within_its_bounds():
+    made, values, indices = Linear(3, {"effect_0.size": 3.0}, library=2), {"stiffness": 0.0}, range(3)
+    for own in made.columns:
+        own["effect_1.size"] = 0.0 * own["effect_1.size"]
+    residuals = exp.simulate(made, values, indices)
+    frame = exp.frame(made, residuals, exp.nuisances(made, values, indices))
+    sizes = [size for candidate in made.candidates for size in candidate.sizes]
+    columns = probe.white(frame, probe.secants(made, values, residuals, sizes))
+    fit = refit.refit(made, frame, values, sizes, columns, residuals=residuals)
+    found = refit.intervals(fit, frame, sizes)
+    assert found["effect_1.size"] == (0.0, 5.0) and np.ptp(found["effect_0.size"]) < 0.5

@@ -132,7 +132,7 @@ def test_it_is_said_how_the_floor_is_known(tables, study):
 
 def test_what_the_distances_of_a_site_look_like_stands_below_its_clocks(tables, study):
     assert not any("another point" in note for note in tables["alignment"].notes)
-    site = replace(study.sites[0], measured=study.sites[0].measured.assign_attrs(distance="s looks like another point's"))
+    site = replace(study.sites[0], measured=study.sites[0].measured.assign_attrs(distance_doubt="s looks like another point's"))
     notes = differing.tables(replace(study, sites=(site, *study.sites[1:])))["alignment"].notes
     assert "Ts1: s looks like another point's." in notes
 

@@ -57,7 +57,7 @@ def test_distances_of_a_point_ahead_are_told_on_the_screen_and_in_the_file(files
     config = {"site": "here", "drives": entries, "simulation": SIMULATION, "alignment": {"search": 0.5}}
     drives = [files / "fit.csv", files / "check.csv"]
     measured.main(files / "road.nc", car_file, drives, config, files / "ahead.nc", workers=1)
-    told = store.read(files / "ahead.nc").attrs["distance"]
+    told = store.read(files / "ahead.nc").attrs["distance_doubt"]
     assert "s looks like the distance of a point 0.9" in told and f"{NOTE}here: {told}" in capsys.readouterr().err
 
 
@@ -69,7 +69,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     drives = store.read(files / "measured.nc")
     assert list(drives["drive"].values) == ["fit", "check"]
     assert drives["clock_offset"].attrs["units"] == "s" and (abs(drives["clock_offset"]) < 5e-4).all()
-    assert drives.attrs["distance"] == ""
+    assert drives.attrs["distance_doubt"] == ""
 
     model = {"site": "here", "effects": {}, "effects_folder": None, "simulation": SIMULATION}
     settings = {"bounds": {}, "signals": list(SIGNALS), "tolerance": 1e-4, "restarts": 0, "seed": 1, "applied": "joint"}

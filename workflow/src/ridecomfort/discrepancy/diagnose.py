@@ -12,7 +12,7 @@ from .beyond import at_bounds, ends_at_bounds
 from .car import Car
 from .discover import Discovery, discovered
 from .explain import REPEATS
-from .judge import with_bounds, with_parameters
+from .judge import with_allowances, with_bounds, with_parameters
 from .rank import ranked
 from .ranking import with_forms
 from .reconsider import beside_a_force, heard, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
@@ -58,7 +58,7 @@ def diagnose(
             found = None
         verdict = beside_a_force(verdict, proposal)
     verdict = with_bounds(with_parameters(verdict, found and found.of(vehicle)), at_bounds(outcome.stands_on, experiment.free))
-    return outcome.table, verdict, proposal
+    return outcome.table, with_allowances(verdict, {candidate.name for candidate in experiment.candidates}), proposal
 
 
 def _may_lie_beyond(first: Ranked) -> bool:

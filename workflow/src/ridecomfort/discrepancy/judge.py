@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from .allowance import Allowance
 from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced
 from .beyond import AtBound, BeyondBounds
 from .cluster import SAME_PORT
@@ -128,6 +129,17 @@ def with_bounds(verdict: Verdict, found: Sequence[AtBound]) -> Verdict:
     return replace(verdict, reasons=(*verdict.reasons, *reasons), at_bounds=kept)
 
 
+def with_allowances(verdict: Verdict, names: Collection[str]) -> Verdict:
+    """A verdict that says which other effects, of these ``names``, the intervals of its effects allow for, where that widens them by much."""
+    told = []
+    for effect in verdict.effects:
+        others = dict.fromkeys(size.get("allows_for") for size in effect.sizes)
+        others = [other for other in others if other in names and other not in effect.like]
+        if others:
+            told.append(f"intervals of {effect.name} allow for {' or '.join(others)}, which the drives leave open")
+    return replace(verdict, reasons=(*verdict.reasons, *told))
+
+
 def _removed(balance: Balance) -> list[str]:
     """How much of the explainable error the effects remove, in words."""
     held_out = [f"{_percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
@@ -242,7 +254,7 @@ def _named(selection: Selection, number: int, by_name: Mapping[str, Candidate]) 
     sizes = []
     for size in (*by_name[winner.name].sizes, *by_name[winner.name].shaping):
         if size.key in selection.intervals:
-            sizes.append(_size(size, selection.final.values[size.key], selection.intervals[size.key]))
+            sizes.append(_size(size, selection))
     held = [
         _held(size, selection.final.values.get(size.key, size.neutral))
         for size in by_name[winner.name].shaping
@@ -256,12 +268,16 @@ def _named(selection: Selection, number: int, by_name: Mapping[str, Candidate]) 
     )  # fmt: skip
 
 
-def _size(size: Size, value: float, interval: tuple[float, float]) -> dict:
+def _size(size: Size, selection: Selection) -> dict:
+    value, interval = selection.final.values[size.key], selection.intervals[size.key]
+    allowed = selection.allowed.get(size.key, Allowance())
     return {
         "parameter": size.key.partition(".")[2] or size.key,
         "size": float(value),
         "unit": size.unit,
-        "interval": [float(end) for end in interval],
+        "interval": [float(end) for end in allowed.widened(interval)],
+        "interval_of_noise": [float(end) for end in interval],
+        "allows_for": allowed.name if allowed.is_notable(interval) else "",
         "plausible": [float(size.lower), float(size.upper)],
         "is_plausible": size.holds(value),
         "is_shaping": size.shaping,

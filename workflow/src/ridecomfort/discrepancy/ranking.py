@@ -66,7 +66,7 @@ def dataset(experiment: Experiment, selection: Selection) -> xr.Dataset:
             "held_out_floor_mean_square": (("held_out", "signal"), selection.held_out_floor_squares),
             **{name: ((), float(value), {"units": "1"}) for name, value in zip(SHARED, shared)},
             "value": (("parameter",), np.array([selection.final.values[key] for key in selection.intervals])),
-            "interval": (("parameter", "bound"), np.array(list(selection.intervals.values())).reshape(-1, 2)),
+            "interval": (("parameter", "bound"), np.array([selection.told(key) for key in selection.intervals]).reshape(-1, 2)),
         },
         {
             "effect": names,

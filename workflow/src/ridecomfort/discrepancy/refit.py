@@ -84,7 +84,7 @@ def refit(
     matrix = np.stack([columns[size.key] for size in sizes])
     for _ in range(iterations):
         bounds = np.array([limits(size, 0.0 if size.key in free else beyond) for size in sizes])
-        step = _step(matrix, flat, _room(values, sizes, bounds))
+        step = _step(matrix, flat, room_of(values, sizes, bounds))
         improved = False
         for _ in range(4):
             trial = _moved(values, sizes, bounds, step)
@@ -141,7 +141,7 @@ def refit_sooner(
 def stepped(values: Mapping[str, float], sizes: Sequence[Size], matrix: np.ndarray, flat: np.ndarray) -> dict[str, float]:
     """``values`` with these sizes moved to where the rows of ``matrix`` (white change per probe) foresee the least, within their bounds."""
     bounds = np.array([limits(size) for size in sizes])
-    return _moved(values, sizes, bounds, _step(matrix, flat, _room(values, sizes, bounds)))
+    return _moved(values, sizes, bounds, _step(matrix, flat, room_of(values, sizes, bounds)))
 
 
 def _now(values: Mapping[str, float], sizes: Sequence[Size]) -> tuple[np.ndarray, np.ndarray]:
@@ -149,7 +149,7 @@ def _now(values: Mapping[str, float], sizes: Sequence[Size]) -> tuple[np.ndarray
     return np.array([values.get(size.key, size.neutral) for size in sizes]), np.array([size.probe for size in sizes])
 
 
-def _room(values: Mapping[str, float], sizes: Sequence[Size], bounds: np.ndarray) -> np.ndarray:
+def room_of(values: Mapping[str, float], sizes: Sequence[Size], bounds: np.ndarray) -> np.ndarray:
     """Probes (size, 2) by which ``sizes`` may move down and up within ``bounds`` (size, 2)."""
     now, probe = _now(values, sizes)
     return np.sort((bounds - now[:, None]) / probe[:, None], axis=1) + np.array([-1e-9, 1e-9])
@@ -167,7 +167,11 @@ def _step(matrix: np.ndarray, flat: np.ndarray, room: np.ndarray) -> np.ndarray:
 
     On the normal equations: rows are long and few.
     """
-    normal, right = evidence.product(matrix, matrix), -evidence.product(matrix, flat)
+    return solved(evidence.product(matrix, matrix), -evidence.product(matrix, flat), room)
+
+
+def solved(normal: np.ndarray, right: np.ndarray, room: np.ndarray) -> np.ndarray:
+    """Amounts (row,) within ``room`` (row, 2) that solve these normal equations as well as can be."""
     power = np.sqrt(np.diag(normal))
     power = np.where(power > 0, power, 1.0)
     root, inverse = evidence.square_root(normal / np.outer(power, power))
@@ -208,7 +212,7 @@ def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size], held: bool = False)
     are its own: clustered both ways (Cameron, Gelbach and Miller 2011, eq. 2.8), degrees of freedom by Satterthwaite (1946).
     A size of an effect that ended at a bound is held there for the intervals of the others. A parameter of the vehicle at its bound stays
     free: something else may have driven it there, so that its whole range counts as possible. ``held``: it is held, too, which suits
-    the question whether a size is there at all.
+    the question whether a size is there at all. One that changes nothing on the fitted drives may be anything within its bounds.
     """
     free = {size.key for size in frame.experiment.free}
     moving = [size for size in sizes if (size.key in free and not held) or is_within(size, fit.values)]
@@ -226,10 +230,7 @@ def is_within(size: Size, values: Mapping[str, float]) -> bool:
 
 
 def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[float, float]]:
-    keys = [size.key for size in sizes]
-    free = {size.key for size in frame.experiment.free}
-    bounded = [size.key in free or size.shaping for size in sizes]
-    known = np.array([12.0 * (size.probe / (size.upper - size.lower)) ** 2 if is_bounded else 0.0 for size, is_bounded in zip(sizes, bounded)])
+    keys, known = [size.key for size in sizes], precision(frame, sizes)
     place, drive = frame.blocks(), frame.drives()
     own, places = covariance(fit, frame, keys, place, len(keys), known)
     along, drives = covariance(fit, frame, keys, drive, 1, known)
@@ -242,8 +243,21 @@ def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple
             freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(keys), 1) + parts[1] ** 2 / max(drives - 1, 1))
         half = student.ppf(0.5 + CONFIDENCE / 2, freedom) * np.sqrt(sum(parts)) * abs(size.probe)
         value = fit.values[size.key]
-        found[size.key] = value - half, value + half
+        found[size.key] = (value - half, value + half) if is_met(fit, size.key) else (size.lower, size.upper)
     return found
+
+
+def precision(frame: Frame, sizes: Sequence[Size]) -> np.ndarray:
+    """Per probe, (size,), what is known beforehand of parameters and of what shapes an effect: that they lie within their bounds."""
+    free = {size.key for size in frame.experiment.free}
+    return np.array(
+        [12.0 * (size.probe / (size.upper - size.lower)) ** 2 if size.key in free or size.shaping else 0.0 for size in sizes]
+    )
+
+
+def is_met(fit: Fit, key: str) -> bool:
+    """Whether a fitted size changes anything on the fitted drives."""
+    return bool(np.any(fit.columns[fit.keys.index(key)]))
 
 
 def information(frame: Frame, residuals: Mapping[int, np.ndarray]) -> float:

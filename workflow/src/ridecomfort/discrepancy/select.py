@@ -14,8 +14,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import cluster, event, probe, refit
+from . import allowance, cluster, event, probe, refit
 from . import experiment as exp
+from .allowance import Allowance
 from .confirm import LEAST_SHARE, Confirmation, best
 from .consistency import birge_ratio
 from .experiment import Experiment, Frame
@@ -124,7 +125,7 @@ class _Search:
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
         wider = birge_ratio(rung, final, frame, self._sizes(), self.each)
         bounds = {
-            key: tuple(final.values[key] + wider * (end - final.values[key]) for end in found)
+            key: tuple(final.values[key] + wider * (end - final.values[key]) for end in found) if refit.is_met(final, key) else found
             for key, found in refit.intervals(final, frame, self._sizes()).items()
             if key not in typical
         }
@@ -139,8 +140,22 @@ class _Search:
         return Selection(
             tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,
-            rung.check_frame, wider, self.probed,
+            rung.check_frame, wider, self.probed, self._allowed(final, frame),
         )  # fmt: skip
+
+    def _allowed(self, final: Fit, frame: Frame) -> dict[str, Allowance]:
+        """What the sizes of the accepted effects would move by if another effect were there as well."""
+        free, sizes = {size.key for size in self.rung.experiment.free}, self._sizes()
+        raw = {job: own for job, own in self.columns.items() if job[0] not in self.accepted and self._may_matter(job[0])}
+        if not (self.accepted and raw):
+            return {}
+        found = allowance.allowances(final, frame, sizes, raw, self.by_name, len({job[0] for job in self.columns}))
+        return {key: own for key, own in found.items() if key not in free and own.shift > 0}
+
+    def _may_matter(self, name: str) -> bool:
+        """Whether a candidate gained anything by the score test of a last round that accepted none; whether it does where all did."""
+        last = self.rounds[-1]
+        return last.winner is not None or dict(zip(last.names, last.gain)).get(name, 0.0) > len(self.by_name[name].sizes) * self.rung.frame.price()
 
     def _sizes(self) -> list[exp.Size]:
         """All that is fitted: what is free, and of the accepted effects sizes and shapes."""

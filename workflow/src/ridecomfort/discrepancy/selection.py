@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import floor
+from .allowance import Allowance
 from .experiment import Frame
 from .probe import Job, Raw
 from .refit import Fit
@@ -112,6 +113,12 @@ class Selection:
     """Times by which those drives miss the sizes beyond the errors of both, and by which the intervals are widened (``consistency``)."""
     probed: Mapping[Job, Raw] = field(default_factory=dict)
     """Change of the residuals of the rung that it began from per probe of every size of the candidates."""
+    allowed: Mapping[str, Allowance] = field(default_factory=dict)
+    """By key of a size of an accepted effect, what its interval has to allow for beside ``intervals`` (``allowance``)."""
+
+    def told(self, key: str) -> tuple[float, float]:
+        """The interval of a size with what it has to allow for."""
+        return self.allowed.get(key, Allowance()).widened(self.intervals[key])
 
 
 def shares(selection: Selection, before: State, after: State, *others: Selection | Rung) -> tuple[float, float]:

@@ -17,8 +17,9 @@ def main(road, vehicle, drives, config, output, workers):
     )
     aligned = list(found)
     metres = lead.of_drives(aligned)
-    doubt = "" if metres is None else lead.words(metres, car["cg_to_front_axle"])
-    stacked = record.stack(aligned).assign_attrs(distance=doubt)
+    is_of_front_axle = all(entry.get("distance_of") == "front_axle" for entry in config["drives"])
+    doubt = "" if metres is None else lead.words(metres, car["cg_to_front_axle"], is_of_front_axle)
+    stacked = record.stack(aligned).assign_attrs(distance_doubt=doubt)
     store.write(stacked, output, title=f"Measured drives on {config['site']}", configuration=config)
     if doubt:
         note(f"{config['site']}: {doubt}")

@@ -134,7 +134,8 @@ def missing_effects(found: Diagnosis) -> Table:
         "share of the effect's response that calibration can take up, and so hide. What only shapes an effect (a frequency, a place) is fitted "
         "where the drives asked for another value, else held at its typical one or the best of a few.",
         "Believe these intervals before those of calibrated.md, which hold the rest of the vehicle and rest on one site: what is uncertain of "
-        "it counts here. May be nil: the interval of this size alone holds nil; the effect is named for what all its sizes do together.",
+        "it counts here, and so does another effect that the drives leave open. May be nil: the interval of this size alone holds nil; the "
+        "effect is named for what all its sizes do together.",
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])

@@ -43,7 +43,7 @@ def alignment(study: Difference) -> Table:
         "Clock offset: how much later accelerations and rates stand in the record than distance and speed. Speed scale: true "
         "over recorded speed. Mounting: rotation of the instrument against the body. Gains: against gravity, and against the bends of "
         "the road (below 0.2 Hz; none where it hardly bends). Role check: nothing is fitted to the drive.",
-        *(f"{site.label}: {doubt}." for site in study.sites if (doubt := site.measured.attrs.get("distance"))),
+        *(f"{site.label}: {doubt}." for site in study.sites if (doubt := site.measured.attrs.get("distance_doubt"))),
     )
     return _table(study, "alignment", columns, rows, sources, notes, breaks[1:])
 
