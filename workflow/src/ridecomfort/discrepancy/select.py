@@ -145,17 +145,18 @@ class _Search:
 
     def _allowed(self, final: Fit, frame: Frame) -> dict[str, Allowance]:
         """What the sizes of the accepted effects would move by if another effect were there as well."""
-        free, sizes = {size.key for size in self.rung.experiment.free}, self._sizes()
-        raw = {job: own for job, own in self.columns.items() if job[0] not in self.accepted and self._may_matter(job[0])}
-        if not (self.accepted and raw):
+        raw = {job: own for job, own in self.columns.items() if job[0] not in self.accepted and self._may_matter(job[0])} if self.accepted else {}
+        if not raw:
             return {}
-        found = allowance.allowances(final, frame, sizes, raw, self.by_name, len({job[0] for job in self.columns}))
+        found = allowance.allowances(final, frame, self._sizes(), raw, self.by_name, len({job[0] for job in self.columns}))
+        free = {size.key for size in self.rung.experiment.free}
         return {key: own for key, own in found.items() if key not in free and own.shift > 0}
 
     def _may_matter(self, name: str) -> bool:
-        """Whether a candidate gained anything by the score test of a last round that accepted none; whether it does where all did."""
+        """Whether a candidate was worth its sizes by the score test of the last round; that says nothing where that accepted another."""
         last = self.rounds[-1]
-        return last.winner is not None or dict(zip(last.names, last.gain)).get(name, 0.0) > len(self.by_name[name].sizes) * self.rung.frame.price()
+        least = len(self.by_name[name].sizes) * self.rung.frame.price()
+        return last.winner is not None or dict(zip(last.names, last.gain)).get(name, 0.0) > least
 
     def _sizes(self) -> list[exp.Size]:
         """All that is fitted: what is free, and of the accepted effects sizes and shapes."""
