@@ -17,7 +17,7 @@ from .experiment import Candidate, Frame, Size
 from .probe import Job, Raw
 from .refit import Fit
 
-NOTABLE = 1.2
+NOTABLE = 1.5
 """Times by which an interval is widened from which on it is said for what."""
 
 
