@@ -14,7 +14,8 @@ from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 
-SIZE = {"parameter": "compliance", "size": 2e-6, "unit": "rad/N", "interval": [1.9e-6, 2.1e-6], "plausible": [0.0, 4e-6], "is_plausible": True}
+SIZE = {"parameter": "compliance", "size": 2e-6, "unit": "rad/N", "interval": [1.9e-6, 2.1e-6], "interval_of_noise": [1.9e-6, 2.1e-6],
+        "plausible": [0.0, 4e-6], "is_plausible": True}  # fmt: skip
 
 SURE = Discovery("discovered", "tyre", "tyre_vertical", {"once_a_turn": {"front_left_sine": 60.0}}, {"once_a_turn": {}}, "force = ...", 0.9, 0.9, 0.0015, "", {}, None)
 
@@ -100,11 +101,11 @@ def test_a_doubtful_name_gives_way_to_a_force_that_fits_drives_better_beyond_cha
 
 
 def test_a_name_too_large_to_be_plausible_gives_way_as_a_doubtful_one_does():
-    large = SIZE | {"size": 4.9e-6, "interval": [4.8e-6, 5.0e-6], "is_plausible": False}
+    large = SIZE | {"size": 4.9e-6, "interval_of_noise": [4.8e-6, 5.0e-6], "is_plausible": False}
     named = replace(NOTHING, verdict="named", effects=(replace(FOUND, sizes=(large,)),), share=0.9, held_out_share=0.89)
     force = replace(SURE, share=0.99, held_out_share=0.99)
     assert reconsidered(named, force, fits_better=True).verdict == "outside"
-    within = replace(FOUND, sizes=(large | {"interval": [3.9e-6, 5.0e-6]},))
+    within = replace(FOUND, sizes=(large | {"interval_of_noise": [3.9e-6, 5.0e-6]},))
     assert reconsidered(replace(named, effects=(within,)), force, fits_better=True).verdict == "named"
 
 

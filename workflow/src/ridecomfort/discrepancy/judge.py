@@ -275,7 +275,7 @@ def _size(size: Size, selection: Selection) -> dict:
         "parameter": size.key.partition(".")[2] or size.key,
         "size": float(value),
         "unit": size.unit,
-        "interval": [float(end) for end in allowed.widened(interval)],
+        "interval": [float(end) for end in selection.told(size.key)],
         "interval_of_noise": [float(end) for end in interval],
         "allows_for": allowed.name if allowed.is_notable(interval) else "",
         "plausible": [float(size.lower), float(size.upper)],

@@ -205,21 +205,22 @@ def covariance(
     return bread @ (factor * sums @ sums.T + known) @ bread, used
 
 
-def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size], held: bool = False) -> dict[str, tuple[float, float]]:
+def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size], held: bool = False, wider: float = 1.0) -> dict[str, tuple[float, float]]:
     """90 % intervals of fitted sizes in their units, by key.
 
     Errors depend on one another where drives come by the same place, and all along a drive, whose path, clock and mounting
     are its own: clustered both ways (Cameron, Gelbach and Miller 2011, eq. 2.8), degrees of freedom by Satterthwaite (1946).
     A size of an effect that ended at a bound is held there for the intervals of the others. A parameter of the vehicle at its bound stays
     free: something else may have driven it there, so that its whole range counts as possible. ``held``: it is held, too, which suits
-    the question whether a size is there at all. One that changes nothing on the fitted drives may be anything within its bounds.
+    the question whether a size is there at all. ``wider``: times by which errors are larger than these drives show. A size that changes
+    nothing on them may be anything within its bounds.
     """
     free = {size.key for size in frame.experiment.free}
     moving = [size for size in sizes if (size.key in free and not held) or is_within(size, fit.values)]
-    found = _intervals(fit, frame, moving) if moving else {}
+    found = _intervals(fit, frame, moving, wider) if moving else {}
     for size in sizes:
         if size not in moving:
-            found |= {size.key: _intervals(fit, frame, [*moving, size])[size.key]}
+            found |= {size.key: _intervals(fit, frame, [*moving, size], wider)[size.key]}
     return {size.key: found[size.key] for size in sizes}
 
 
@@ -229,7 +230,7 @@ def is_within(size: Size, values: Mapping[str, float]) -> bool:
     return not min(abs(values.get(size.key, size.neutral) - end) for end in (size.lower, size.upper)) <= room
 
 
-def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple[float, float]]:
+def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size], wider: float) -> dict[str, tuple[float, float]]:
     keys, known = [size.key for size in sizes], precision(frame, sizes)
     place, drive = frame.blocks(), frame.drives()
     own, places = covariance(fit, frame, keys, place, len(keys), known)
@@ -241,9 +242,9 @@ def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size]) -> dict[str, tuple
         freedom = 1.0
         if sum(parts) > 0:
             freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(keys), 1) + parts[1] ** 2 / max(drives - 1, 1))
-        half = student.ppf(0.5 + CONFIDENCE / 2, freedom) * np.sqrt(sum(parts)) * abs(size.probe)
-        value = fit.values[size.key]
-        found[size.key] = (value - half, value + half) if is_met(fit, size.key) else (size.lower, size.upper)
+        half = wider * student.ppf(0.5 + CONFIDENCE / 2, freedom) * np.sqrt(sum(parts)) * abs(size.probe)
+        value, is_met = fit.values[size.key], np.any(fit.columns[fit.keys.index(size.key)])
+        found[size.key] = (value - half, value + half) if is_met else (size.lower, size.upper)
     return found
 
 
@@ -253,11 +254,6 @@ def precision(frame: Frame, sizes: Sequence[Size]) -> np.ndarray:
     return np.array(
         [12.0 * (size.probe / (size.upper - size.lower)) ** 2 if size.key in free or size.shaping else 0.0 for size in sizes]
     )
-
-
-def is_met(fit: Fit, key: str) -> bool:
-    """Whether a fitted size changes anything on the fitted drives."""
-    return bool(np.any(fit.columns[fit.keys.index(key)]))
 
 
 def information(frame: Frame, residuals: Mapping[int, np.ndarray]) -> float:

@@ -124,11 +124,8 @@ class _Search:
         final, frame = final_fit(rung, self._sizes(), self.each)
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
         wider = birge_ratio(rung, final, frame, self._sizes(), self.each)
-        bounds = {
-            key: tuple(final.values[key] + wider * (end - final.values[key]) for end in found) if refit.is_met(final, key) else found
-            for key, found in refit.intervals(final, frame, self._sizes()).items()
-            if key not in typical
-        }
+        found = refit.intervals(final, frame, self._sizes(), wider=wider)
+        bounds = {key: interval for key, interval in found.items() if key not in typical}
         # What shapes an effect means nothing where that is not there: it is held where only this is asked.
         sizes = [size for size in self._sizes() if not size.shaping]
         strict = refit.intervals(final, frame, sizes, held=True)
@@ -145,18 +142,18 @@ class _Search:
 
     def _allowed(self, final: Fit, frame: Frame) -> dict[str, Allowance]:
         """What the sizes of the accepted effects would move by if another effect were there as well."""
-        raw = {job: own for job, own in self.columns.items() if job[0] not in self.accepted and self._may_matter(job[0])} if self.accepted else {}
-        if not raw:
-            return {}
-        found = allowance.allowances(final, frame, self._sizes(), raw, self.by_name, len({job[0] for job in self.columns}))
+        open_yet = self._open() if self.accepted else ()
+        raw = {job: own for job, own in self.columns.items() if job[0] in open_yet}
+        found = allowance.allowances(final, frame, self._sizes(), raw, self.by_name, len({job[0] for job in self.columns})) if raw else {}
         free = {size.key for size in self.rung.experiment.free}
         return {key: own for key, own in found.items() if key not in free and own.shift > 0}
 
-    def _may_matter(self, name: str) -> bool:
-        """Whether a candidate was worth its sizes by the score test of the last round; that says nothing where that accepted another."""
-        last = self.rounds[-1]
-        least = len(self.by_name[name].sizes) * self.rung.frame.price()
-        return last.winner is not None or dict(zip(last.names, last.gain)).get(name, 0.0) > least
+    def _open(self) -> set[str]:
+        """Names of the candidates that the score test of the last round leaves open; all others where that round accepted one."""
+        last, price = self.rounds[-1], self.rung.frame.price()
+        if last.winner is not None:
+            return set(self.by_name) - set(self.accepted)
+        return {name for name, gain in zip(last.names, last.gain) if gain > len(self.by_name[name].sizes) * price}
 
     def _sizes(self) -> list[exp.Size]:
         """All that is fitted: what is free, and of the accepted effects sizes and shapes."""

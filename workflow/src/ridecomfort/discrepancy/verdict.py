@@ -105,7 +105,7 @@ def sentence(reason: str) -> str:
 def _may_be_plausible(size: Mapping) -> bool:
     """Whether the interval of a size reaches into what is plausible; that which another effect may widen does not count: one more effect is
     just what a size beyond may say."""
-    (lower, upper), (least, most) = size.get("interval_of_noise", size["interval"]), size["plausible"]
+    (lower, upper), (least, most) = size["interval_of_noise"], size["plausible"]
     return upper >= least and lower <= most
 
 

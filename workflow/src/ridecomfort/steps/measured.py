@@ -12,10 +12,8 @@ def main(road, vehicle, drives, config, output, workers):
     car = parameters.read(vehicle)
     rate, step = config["simulation"]["rate"], config["simulation"]["step"]
     read = [configured.read(path, entry, car, rate=rate) for path, entry in zip(drives, config["drives"], strict=True)]
-    found = pool.mapped(int(workers))(
-        lambda job: _aligned(*job, course, car, {"step": step}, config["alignment"]), zip(drives, read)
-    )
-    aligned = list(found)
+    each = pool.mapped(int(workers))
+    aligned = list(each(lambda job: _aligned(*job, course, car, {"step": step}, config["alignment"]), zip(drives, read)))
     metres = lead.of_drives(aligned)
     is_of_front_axle = all(entry.get("distance_of") == "front_axle" for entry in config["drives"])
     doubt = "" if metres is None else lead.words(metres, car["cg_to_front_axle"], is_of_front_axle)
