@@ -52,7 +52,8 @@ def words(metres: float, front_axle: float, is_of_front_axle: bool = False) -> s
     ``is_of_front_axle``: whether distances were taken for those of that axle."""
     said = "clock offsets times speed are one length"
     if abs(metres) > ON_A_VEHICLE:
-        return f"{said}: s looks as if it began {abs(metres):.2f} m {'before' if metres > 0 else 'behind'} the road's ({-metres:+.2f} m to it put that right)"
+        where = f"{abs(metres):.2f} m {'before' if metres > 0 else 'behind'} the road's"
+        return f"{said}: s looks as if it began {where} ({-metres:+.2f} m to it put that right)"
     point = metres + front_axle if is_of_front_axle else metres
     if is_of_front_axle and abs(point) < CLOSE:
         return f"{said}: s looks like the distance of the centre of gravity, not of the front axle (leave out distance_of)"
