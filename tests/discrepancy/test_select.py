@@ -69,13 +69,17 @@ def test_what_white_noise_would_do_as_well_is_not_named_however_well_places_agre
     assert not found.effects and (selection.rounds[0].p_value >= 0.2).all()
 
 
-def test_an_error_of_the_measurement_is_suspect_by_name_unless_drives_held_out_refute_it():
+@pytest.mark.parametrize("shared_z", [1.0, 30.0])
+@pytest.mark.parametrize("gone", [-0.1, 0.1])
+def test_an_error_of_the_measurement_is_suspect_by_name_unless_drives_held_out_refute_it(gone, shared_z):
+    """By going up, or by going down less than anything that is missing makes them, whether or not repeats share an error for certain."""
     model = Linear(1, {"effect_2.size": 1.0})
     model.candidates = tuple(replace(one, instrument=one.name == "effect_2") for one in model.candidates)
     selection, found = judged(model)
     assert found.verdict == "suspect" and "effect_2 is an error of the measurement, not of the vehicle" in found.reasons
     first, last = selection.states
-    refuted = replace(selection, states=(first, replace(last, held_out_squares=1.1 * first.held_out_squares)))
+    held_out = first.held_out_squares - gone * (first.held_out_squares - selection.held_out_floor_squares)
+    refuted = replace(selection, shared_z=shared_z, states=(first, replace(last, held_out_squares=held_out)))
     found = judge.judge(refuted, model.candidates)
     assert found.verdict == "outside" and not found.effects and found.is_like_error
 

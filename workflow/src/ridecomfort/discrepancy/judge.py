@@ -60,7 +60,7 @@ def judge(
     if wrong:
         names = ", ".join(effect.name for effect in wrong)
         # An error of the measurement that leaves much, or that drives held out refute, is what something else, not in the library, looks like.
-        is_little = is_little or balance.held_out <= 0 or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
+        is_little = is_little or balance.is_refuted or balance.held_out <= 0 or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
         if is_little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
             # Beside what explains most, one that removes little may be a part of what is left, as any effect may.
             is_like_error = sum(effect.share for effect in wrong) >= LITTLE * (1.0 - balance.share)
