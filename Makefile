@@ -5,7 +5,7 @@ BIN = .venv/bin
 # Processes run side by side; threads of linear algebra would wait for one another.
 export OPENBLAS_NUM_THREADS = 1
 
-.PHONY: env study test quick bench blind recovery
+.PHONY: env study test quick long bench blind recovery
 
 env: .venv/installed
 
@@ -23,7 +23,10 @@ test: env
 	$(BIN)/python -m pytest
 
 quick: env
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -m "not slow and not long"
+
+long: env
+	$(BIN)/python -m pytest -m long
 
 bench: env
 	$(BIN)/python tests/bench

@@ -65,6 +65,7 @@ def test_beside_an_effect_that_is_named_the_verdict_tells_a_damper_at_its_bound(
     assert verdict.reasons[-1].startswith("damping_front at 2415 N s/m, its upper bound: ")
 
 
+@pytest.mark.long
 def test_a_bar_of_half_the_stiffness_takes_the_place_of_an_effect_that_stands_in_for_it(car):
     stand_in = selected(measured(car, {"anti_roll_stiffness_front": 0.54}), car, "tyre_pressure_loss")
     assert stand_in.accepted
@@ -75,6 +76,7 @@ def test_a_bar_of_half_the_stiffness_takes_the_place_of_an_effect_that_stands_in
     assert told.is_first and told.held_out_share > 0.5
 
 
+@pytest.mark.long
 def test_a_clock_that_is_off_is_seen_beside_a_wrong_file(car):
     """The first search, which leaves too much, cannot tell it."""
     true = car.replace(anti_roll_stiffness_rear=2.0 * car["anti_roll_stiffness_rear"], roll_inertia=0.7 * car["roll_inertia"])
@@ -84,6 +86,7 @@ def test_a_clock_that_is_off_is_seen_beside_a_wrong_file(car):
     assert {one.parameter for one in verdict.beyond_bounds.parameters} >= {"anti_roll_stiffness_rear", "roll_inertia"}
 
 
+@pytest.mark.long
 def test_an_effect_that_is_missing_beside_a_wrong_file_is_named_alone(car):
     """Without the damping put right, friction of the struts would stand in for it."""
     hidden = {"top_mount": library.find()["top_mount"].effect.values()}

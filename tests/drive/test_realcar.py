@@ -132,7 +132,7 @@ def test_with_its_roll_calibrated_the_other_drive_has_the_strength_that_was_meas
         assert simulated[row].std() == pytest.approx(measured[row].std(), rel=0.2), name
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_as_the_readme_calibrates_a_car_of_which_little_is_known_most_of_its_error_has_names(folder, repository, car):
     """On the interpolation that the other program used."""
     block = (repository / "README.md").read_text().partition("```yaml\ncalibration:\n")[2].partition("```")[0]
@@ -148,7 +148,7 @@ def test_as_the_readme_calibrates_a_car_of_which_little_is_known_most_of_its_err
     assert verdict.remainder["yaw_rate"] > 0.5  # most of the little that a straight road turns has none
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_file_of_the_vehicle_is_wrong(drives, road, car, calibration):
     _, verdict, _ = diagnose({"realcar": (road, drives)}, car, calibration=calibration, bounds=BOUNDS)
     assert verdict.verdict == "outside" and verdict.held_out_share > 0.4
@@ -159,7 +159,7 @@ def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_fil
     assert verdict.beyond_bounds.held_out_share > 0.1
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_within_the_bounds_of_the_papers_car_the_verdict_says_that_its_tyres_damp_less(drives, road, car):
     """Published tyres damp by 0 to 2000 N s/m, which tab:constraints (4000 to 7000) leaves out."""
     bounds = BOUNDS | {"tyre_radial_stiffness": (250000.0, 400000.0), "tyre_radial_damping": (4000.0, 7000.0)}
