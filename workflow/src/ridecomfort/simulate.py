@@ -265,7 +265,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
         )
     if is_short:
         raise InputError(
-            f"the drive came to a stand at {record[-1, 0]:.0f} m of {end:.0f} m; "
+            f"the drive came to a stand at {record[-1, 0]:.1f} m of {end:.1f} m; "
             "is the friction too low for the grade or the bend, or does an effect brake it?",
             place=f"vehicle {vehicle.name}",
         )
