@@ -142,7 +142,7 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     by_place = {
         place: max((gain for own, gain in zip(first.names, first.gain) if _place(own) == place), default=0.0) for place in PLACES
     }
-    ours = [name for name in selection.accepted if _is_term(name)]
+    ours = [name for name in selection.accepted if _is_term(name) and name not in selection.needless]
     if not ours:
         return Discovery(name, "", "", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
     place, terms, shaped = _place(ours[0]), {}, {}

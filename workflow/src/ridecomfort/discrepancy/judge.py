@@ -195,7 +195,9 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
     kept, reasons = [], []
     for effect in found:
         same = _shaped_by(selection, effect, found, by_name)
-        if not any(size.key in selection.sure for size in by_name[effect.name].sizes):
+        if effect.name in selection.needless:
+            reasons.append(f"{effect.name} helped when it was found, but what was found with it does as well without it")
+        elif not any(size.key in selection.sure for size in by_name[effect.name].sizes):
             reasons.append(f"{effect.name} helps, but its size may as well be none")
         elif same:
             reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")

@@ -94,6 +94,8 @@ class _Search:
     shaped: set[str] = field(default_factory=set)
     """Keys of what shapes accepted effects and is fitted."""
     rounds: list[Round] = field(default_factory=list)
+    needless: set[str] = field(default_factory=set)
+    """Names of accepted effects that the last fit does without."""
 
     def __post_init__(self):
         self.by_name = {candidate.name: candidate for candidate in self.rung.experiment.candidates}
@@ -121,7 +123,7 @@ class _Search:
             self.sooner, _ = self._sooner()
             states.append(State.of(self.rung, turn.winner.name, self.rung.fit, self.rung.check))
         rung = self.rung
-        final, frame = final_fit(rung, self._sizes(), self.each)
+        final, frame = self._final_fit()
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
         wider = birge_ratio(rung, final, frame, self._sizes(), self.each)
         found = refit.intervals(final, frame, self._sizes(), wider=wider)
@@ -131,14 +133,34 @@ class _Search:
         strict = refit.intervals(final, frame, sizes, held=True)
         sure = {size.key for size in sizes if not strict[size.key][0] <= size.neutral <= strict[size.key][1]}
         for turn in rounds:  # what gains that much is there, even where parameters that may be wrong leave its size open
-            if turn.winner is not None and turn.is_large:
+            if turn.winner is not None and turn.is_large and turn.winner.name not in self.needless:
                 own = {size.key for size in self.by_name[turn.winner.name].sizes}
                 sure |= own if own & sure or self._is_needed(turn.winner.name, final, frame) else set()
         return Selection(
             tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,
-            rung.check_frame, wider, self.probed, self._allowed(final, frame),
+            rung.check_frame, wider, self.probed, self._allowed(final, frame), frozenset(self.needless),
         )  # fmt: skip
+
+    def _final_fit(self) -> tuple[Fit, Frame]:
+        """The fit whose sizes are told, with its frame: without effects that the others do not need any longer, which would stand in for a part
+        of these and only blur them."""
+        rung = self.rung
+        final, frame = final_fit(rung, self._sizes(), self.each)
+        while (name := self._found_needless(final, frame)) is not None:
+            self.say(f"without {name} the last fit is no worse")
+            self.needless.add(name)
+            without = {**final.values, **self.by_name[name].at({})}
+            final, frame = final_fit(replace(rung, fit=replace(rung.fit, values=without)), self._sizes(), self.each)
+        return final, frame
+
+    def _found_needless(self, final: Fit, frame: Frame) -> str | None:
+        """The latest accepted effect whose sizes may all as well be none and that the fit does not need; the first one stays if it is alone."""
+        standing = [name for name in self.accepted if name not in self.needless]
+        intervals = refit.intervals(final, frame, [size for size in self._sizes() if not size.shaping], held=True)
+        holds = lambda size: size.shaping or intervals[size.key][0] <= size.neutral <= intervals[size.key][1]
+        blurred = [name for name in reversed(standing) if all(holds(size) for size in self.by_name[name].sizes)]
+        return next((name for name in blurred if len(standing) > 1 and not self._is_needed(name, final, frame)), None)
 
     def _allowed(self, final: Fit, frame: Frame) -> dict[str, Allowance]:
         """What the sizes of the accepted effects would move by if another effect were there as well."""
@@ -149,15 +171,17 @@ class _Search:
         return {key: own for key, own in found.items() if key not in free and own.shift > 0}
 
     def _open(self) -> set[str]:
-        """Names of the candidates that the score test of the last round leaves open; all others where that round accepted one."""
+        """Names of the candidates that the score test of the last round leaves open, all others where that round accepted one, and of what was
+        accepted and is needless."""
         last, price = self.rounds[-1], self.rung.frame.price()
         if last.winner is not None:
-            return set(self.by_name) - set(self.accepted)
-        return {name for name, gain in zip(last.names, last.gain) if gain > len(self.by_name[name].sizes) * price}
+            return set(self.by_name) - set(self.accepted) | self.needless
+        return self.needless | {name for name, gain in zip(last.names, last.gain) if gain > len(self.by_name[name].sizes) * price}
 
     def _sizes(self) -> list[exp.Size]:
-        """All that is fitted: what is free, and of the accepted effects sizes and shapes."""
-        return [*self.rung.experiment.free, *(size for name in self.accepted for size in own_sizes(self.by_name[name], self.shaped))]
+        """All that is fitted: what is free, and of the accepted effects that are needed sizes and shapes."""
+        kept = [name for name in self.accepted if name not in self.needless]
+        return [*self.rung.experiment.free, *(size for name in kept for size in own_sizes(self.by_name[name], self.shaped))]
 
     def _is_needed(self, name: str, final: Fit, frame: Frame) -> bool:
         """Whether the last model without an effect, all others fitted anew, is worse by more than its sizes are worth (BIC).

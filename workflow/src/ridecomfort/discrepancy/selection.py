@@ -115,6 +115,8 @@ class Selection:
     """Change of the residuals of the rung that it began from per probe of every size of the candidates."""
     allowed: Mapping[str, Allowance] = field(default_factory=dict)
     """By key of a size of an accepted effect, what its interval has to allow for beside ``intervals`` (``allowance``)."""
+    needless: frozenset[str] = frozenset()
+    """Names of accepted effects without which the last fit is no worse: nil in ``final``, with no ``intervals``."""
 
     def told(self, key: str) -> tuple[float, float]:
         """The interval of a size with what it has to allow for."""
