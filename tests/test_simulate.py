@@ -67,6 +67,18 @@ def test_a_sensor_stays_on_the_body_where_the_centre_of_gravity_moves(course, ca
     by_hand = simulate.run(course, loaded, speed=20.0, sensor=(0.4 + back, 0.1, 0.7 - up))
     for name in SIGNALS:
         np.testing.assert_allclose(with_effect[name], by_hand[name], atol=1e-9)
+    np.testing.assert_allclose(with_effect["s"], by_hand["s"] + back)
+
+
+def test_wheels_meet_a_bump_where_the_record_says_however_the_car_is_loaded(course, car):
+    """The front wheels come to it when ``s``, told of one point of the body, is the way from there to the axle before it."""
+    bump = road(150.0, 0.1, height=lambda u, v: 0.01 * (u >= 80.0) + 0 * v)
+    for load in ({}, {"payload": {"mass": 500.0, "ahead": -1.5}}, {"payload": {"mass": 500.0, "ahead": 1.5}}):
+        drive = simulate.run(bump, car, speed=20.0, rate=500.0, effects=load, start=40.0, end=120.0)
+        felt = np.abs(drive.a_z.values - drive.a_z.values[(drive.s > 60.0) & (drive.s < 75.0)].mean())
+        first = drive.s.values[np.argmax((felt > 0.2 * felt.max()) & (drive.s.values > 60.0))]
+        assert first == pytest.approx(80.0 - car["cg_to_front_axle"], abs=0.15)
+        assert drive.s.values[0] == pytest.approx(40.0, abs=0.1) and drive.s.values[-1] == pytest.approx(120.0, abs=0.1)
 
 
 def test_records_do_not_alias(car):

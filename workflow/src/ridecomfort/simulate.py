@@ -99,7 +99,7 @@ def run(
     a mapping of name to {parameter: value}. ``sensor``: its place in m relative to the centre
     of gravity of the sprung mass. ``start`` and ``end``: m along the reference line; the whole
     road by default. ``step`` of the integration in s, ``rate`` of the records in Hz. A sensor stays at its place on the body
-    where an effect moves the centre of gravity.
+    where an effect moves the centre of gravity, and ``s`` is told of where that of ``vehicle`` lies.
 
     Accelerations are those of the sensor in body axes without gravity. They and the rates are band-limited below
     half the rate before they are sampled, as an instrument does it: of a roll rate on a rough road some percent of what is
@@ -112,6 +112,8 @@ def run(
         if entry.effect.port == "vehicle":
             changed = entry.act(changed, **sizes)
     fixed = _on_body(sensor, vehicle, changed)
+    back = _on_body((0.0, 0.0, 0.0), vehicle, changed)[0]
+    start, end = (None if place is None else place - back for place in (start, end))
     believed = course.on_u(lateral, "lateral")
     driven = believed
     for entry, sizes in chosen:
@@ -123,6 +125,7 @@ def run(
     record = _record(course, changed, course.on_u(speed, "speed"), driven, friction, chosen, fixed, start, end, step, own)
     if driven is not believed:
         record[:, COLUMNS.index("e")] -= np.interp(record[:, COLUMNS.index("s")], course.u, driven - believed)
+    record[:, COLUMNS.index("s")] += back
     drive = xr.Dataset(
         {name: ("time", column) for name, column in zip(COLUMNS, record.T, strict=True)},
         coords={"time": np.arange(len(record)) * own / (every * rate)},
