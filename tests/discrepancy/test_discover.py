@@ -172,6 +172,24 @@ def test_effects_that_are_missing_too_are_told_beside_the_form_and_what_all_remo
     assert found.share == pytest.approx(1.0, abs=0.05) and found.held_out_share == pytest.approx(1.0, abs=0.1)
 
 
+def test_a_term_that_only_stood_in_for_others_is_not_in_the_form_and_yet_counts_for_what_all_remove():
+    model = Linear(1, {"effect_2.size": 1.5, "effect_4.size": 1.0})
+    terms = {"effect_2": "velocity_size", "effect_4": "deflection_cube"}
+    keys = {f"{name}.size": f"unknown_strut_{term}.{term}_front" for name, term in terms.items()}
+    model.truth = {keys[key]: value for key, value in model.truth.items()}
+    model.columns = [{keys.get(name, name): column for name, column in own.items()} for own in model.columns]
+    model.candidates = tuple(
+        Candidate(f"strut:{term}", (replace(model.candidates[k].sizes[0], key=keys[f"effect_{k}.size"]),))
+        for k, term in ((2, "velocity_size"), (4, "deflection_cube"))
+    )
+    selection = select.select(model, {"stiffness": 0.0}, most=3)
+    both = proposed(selection, "found", ())
+    assert set(both.terms) == set(terms.values())
+    one = proposed(replace(selection, needless=frozenset({"strut:velocity_size"})), "found", ())
+    assert set(one.terms) == {"deflection_cube"} and "velocity_size" not in one.source and one.share == both.share
+    assert proposed(replace(selection, needless=frozenset(selection.accepted)), "found", ()).place == ""
+
+
 @pytest.mark.parametrize(("port", "names"), [("suspension", []), ("aero", ["effect_4"])])
 def test_what_is_small_at_the_port_of_a_form_may_be_what_that_leaves_by_not_being_exact(port, names):
     found = found_beside(port, effect_2=4.0, effect_4=0.6)

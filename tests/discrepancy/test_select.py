@@ -277,7 +277,11 @@ def test_what_adds_little_at_the_same_port_may_be_another_shape_of_what_it_is_li
         model.candidates = tuple(replace(candidate, port=port) for candidate in model.candidates)
         for columns in {id(own): own for own in model.columns}.values():
             columns["effect_4.size"] = like * columns["effect_1.size"] + np.sqrt(1 - like**2) * columns["effect_4.size"]
-        return judged(model)[1]
+        selection, verdict = judged(model)
+        first, second = selection.accepted
+        without_first = judge.judge(replace(selection, needless=frozenset({first})), model.candidates)
+        assert [e.name for e in without_first.effects] == [second]  # which is no other shape of what is not there
+        return verdict
 
     both = {"effect_1", "effect_4"}
     assert {e.name for e in found("", 0.0).effects} == both

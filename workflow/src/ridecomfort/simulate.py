@@ -112,7 +112,7 @@ def run(
         if entry.effect.port == "vehicle":
             changed = entry.act(changed, **sizes)
     fixed = _on_body(sensor, vehicle, changed)
-    back = _on_body((0.0, 0.0, 0.0), vehicle, changed)[0]
+    back = fixed[0] - sensor[0]
     start, end = (None if place is None else place - back for place in (start, end))
     believed = course.on_u(lateral, "lateral")
     driven = believed

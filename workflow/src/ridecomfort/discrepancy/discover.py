@@ -142,11 +142,12 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     by_place = {
         place: max((gain for own, gain in zip(first.names, first.gain) if _place(own) == place), default=0.0) for place in PLACES
     }
-    ours = [name for name in selection.accepted if _is_term(name) and name not in selection.needless]
-    if not ours:
+    ours = [name for name in selection.accepted if _is_term(name)]
+    needed = [name for name in ours if name not in selection.needless]
+    if not needed:
         return Discovery(name, "", "", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
     place, terms, shaped = _place(ours[0]), {}, {}
-    for accepted in ours:
+    for accepted in needed:
         term = accepted.partition(":")[2]
         keys = {part: _key(place, term, part) for part in PLACES[place].terms[term].parts}
         terms[term] = {part: selection.final.values[key] for part, key in keys.items() if key in selection.final.values}

@@ -238,7 +238,7 @@ def _shaped_by(selection: Selection, effect: Named, found: Sequence[Named], by_n
     port = by_name[effect.name].port
     turns = {turn.winner.name: turn for turn in selection.rounds if turn.winner is not None}
     for other in found[: found.index(effect)] if port else ():
-        is_small = by_name[other.name].port == port and effect.share < ANOTHER_SHAPE * other.share
+        is_small = other.name not in selection.needless and by_name[other.name].port == port and effect.share < ANOTHER_SHAPE * other.share
         if is_small and turns[other.name].correlation.get(effect.name, 0.0) > SAME_PORT:
             return other.name
     return ""

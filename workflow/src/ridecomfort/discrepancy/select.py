@@ -123,15 +123,11 @@ class _Search:
             self.sooner, _ = self._sooner()
             states.append(State.of(self.rung, turn.winner.name, self.rung.fit, self.rung.check))
         rung = self.rung
-        final, frame = self._final_fit()
+        final, frame, sure = self._final_fit()
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
         wider = birge_ratio(rung, final, frame, self._sizes(), self.each)
         found = refit.intervals(final, frame, self._sizes(), wider=wider)
         bounds = {key: interval for key, interval in found.items() if key not in typical}
-        # What shapes an effect means nothing where that is not there: it is held where only this is asked.
-        sizes = [size for size in self._sizes() if not size.shaping]
-        strict = refit.intervals(final, frame, sizes, held=True)
-        sure = {size.key for size in sizes if not strict[size.key][0] <= size.neutral <= strict[size.key][1]}
         for turn in rounds:  # what gains that much is there, even where parameters that may be wrong leave its size open
             if turn.winner is not None and turn.is_large and turn.winner.name not in self.needless:
                 own = {size.key for size in self.by_name[turn.winner.name].sizes}
@@ -142,24 +138,27 @@ class _Search:
             rung.check_frame, wider, self.probed, self._allowed(final, frame), frozenset(self.needless),
         )  # fmt: skip
 
-    def _final_fit(self) -> tuple[Fit, Frame]:
-        """The fit whose sizes are told, with its frame: without effects that the others do not need any longer, which would stand in for a part
-        of these and only blur them."""
+    def _final_fit(self) -> tuple[Fit, Frame, set[str]]:
+        """The fit whose sizes are told, its frame, and keys of the sizes that are there at all: without effects that the others do not need any
+        longer, which would stand in for a part of these and only blur them."""
         rung = self.rung
-        final, frame = final_fit(rung, self._sizes(), self.each)
-        while (name := self._found_needless(final, frame)) is not None:
+        while True:
+            final, frame = final_fit(rung, self._sizes(), self.each)
+            # What shapes an effect means nothing where that is not there: it is held where only this is asked.
+            sizes = [size for size in self._sizes() if not size.shaping]
+            strict = refit.intervals(final, frame, sizes, held=True)
+            sure = {size.key for size in sizes if not strict[size.key][0] <= size.neutral <= strict[size.key][1]}
+            name = self._found_needless(final, frame, sure)
+            if name is None:
+                return final, frame, sure
             self.say(f"without {name} the last fit is no worse")
             self.needless.add(name)
-            without = {**final.values, **self.by_name[name].at({})}
-            final, frame = final_fit(replace(rung, fit=replace(rung.fit, values=without)), self._sizes(), self.each)
-        return final, frame
+            rung = replace(rung, fit=replace(rung.fit, values={**final.values, **self.by_name[name].at({})}))
 
-    def _found_needless(self, final: Fit, frame: Frame) -> str | None:
-        """The latest accepted effect whose sizes may all as well be none and that the fit does not need; the first one stays if it is alone."""
+    def _found_needless(self, final: Fit, frame: Frame, sure: Collection[str]) -> str | None:
+        """The latest accepted effect with no size that is ``sure`` and that the fit does not need; one that stands alone stays."""
         standing = [name for name in self.accepted if name not in self.needless]
-        intervals = refit.intervals(final, frame, [size for size in self._sizes() if not size.shaping], held=True)
-        holds = lambda size: size.shaping or intervals[size.key][0] <= size.neutral <= intervals[size.key][1]
-        blurred = [name for name in reversed(standing) if all(holds(size) for size in self.by_name[name].sizes)]
+        blurred = (name for name in reversed(standing) if not any(size.key in sure for size in self.by_name[name].sizes))
         return next((name for name in blurred if len(standing) > 1 and not self._is_needed(name, final, frame)), None)
 
     def _allowed(self, final: Fit, frame: Frame) -> dict[str, Allowance]:
