@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from ridecomfort import discrepancy, store
@@ -100,3 +101,18 @@ def test_noise_of_a_road_that_its_file_does_not_show_is_suspected(car_file):
     trial = trials.make(105, car, {}, 1.0, scanner=0.0002)
     _, verdict = discrepancy.rank(trial.measured, car, among=[*AMONG, "tyre_enveloping"], most=1, workers=1)
     assert verdict.verdict == "suspect" and any("smoother than the points of its file" in words for words in verdict.reasons)
+
+
+@pytest.mark.long
+def test_a_shaft_out_of_balance_comes_back_as_a_force_that_whirls_with_its_period_and_at_its_place(car_file):
+    """Outside of the library; 2 pi times 0.32 m over 3.2 turns of the shaft in one of the wheels."""
+    car = parameters.read(car_file)
+    hidden = {"propshaft_imbalance": library.find(trials.SHAPES)["propshaft_imbalance"].effect.values()}
+    trial = trials.make(102, car, hidden, 1.0)
+    table, verdict, proposal = discrepancy.diagnose(trial.measured, car, workers=1)
+    assert verdict.verdict == "outside" and "times a turn of the wheels" in table.attrs["turns"]
+    assert proposal.place == "body" and list(proposal.terms)[0] == "whirling_by_speed"
+    shaped = proposal.settings["whirling_by_speed"]
+    assert shaped["period"] == pytest.approx(2.0 * np.pi * 0.32 / 3.2, rel=3e-4) and shaped["place"] == pytest.approx(-0.4, abs=0.15)
+    states = proposal.selection.states
+    assert score.against_oracle(trial, car, trials.SHAPES, states[0].held_out_squares, states[-1].held_out_squares) > score.FORM

@@ -10,11 +10,12 @@ import pytest
 
 from ridecomfort.discrepancy import select
 from ridecomfort.discrepancy.car import LONGEST
-from ridecomfort.discrepancy.discover import Discovery, may_follow, proposed
+from ridecomfort.discrepancy.discover import Discovery, may_follow, proposed, terms_of
 from ridecomfort.discrepancy.experiment import Candidate
 from ridecomfort.discrepancy.form import effect_source, in_words
-from ridecomfort.discrepancy.places import PLACES, scale, settings
-from ridecomfort.discrepancy.terms import AXLES, TURNING, WHEELS, WHOLE
+from ridecomfort.discrepancy.places import PLACES, parameter, scale, settings
+from ridecomfort.discrepancy.terms import AXLES, LINEAR, TURNING, WHEELS, WHOLE
+from ridecomfort.discrepancy.turns import Line
 from ridecomfort.discrepancy.verdict import Named
 from ridecomfort.effects import library
 
@@ -41,17 +42,22 @@ def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp
             angle = eval(term.turn, KNOWN, seen)
             own = {f"{WHEELS[wheel]}_cosine": cos(angle), f"{WHEELS[wheel]}_sine": sin(angle)}
         states = {state.name: 0.3 + 0.1 * k for k, state in enumerate(term.states)}
-        shape = {setting.name: setting.typical for setting in settings(place, name)}
+        shape = {setting.name: setting.typical + 0.1 * (not setting.typical) for setting in settings(place, name) if setting is not LINEAR}
         worth = lambda expression: eval(expression, KNOWN, seen | states | shape)
-        value = sum(factors[name][part] * share for part, share in own.items()) * worth(term.expression)
+        if term.after:
+            own = {part: (cos if "cosine" in part else sin)(worth(term.turn)) for part in term.parts}
         before = {result: seen.get(result, 0.0) for result in where.results}
-        expected = {result: before[result] + (value if result == term.result else 0.0) for result in where.results}
-        if term.ahead:
-            moment, sign = ("moment_z", 1.0) if term.result == "force_y" else ("moment_y", -1.0)
-            expected[moment] += sign * worth(term.ahead) * value
+        expected = dict(before)
+        for result, parts in term.by_result().items():
+            value = sum(factors[name][part] * own[part] for part in parts if part in own) * worth(term.expression)
+            expected[result] += value
+            if term.ahead:
+                moment, sign = ("moment_z", 1.0) if result == "force_y" else ("moment_y", -1.0)
+                expected[moment] += sign * worth(term.ahead) * value
         slopes = [worth(state.slope) for state in term.states]
         arguments = {key: seen[key] for key in where.arguments} | dict(zip(entry.effect.states, states.values()))
-        assert _tuple(entry.act(**arguments, **entry.effect.values())) == pytest.approx([*expected.values(), *slopes])
+        shaped = {parameter(name, setting): value for setting, value in shape.items()}
+        assert _tuple(entry.act(**arguments, **(entry.effect.values() | shaped))) == pytest.approx([*expected.values(), *slopes], rel=1e-5)
         assert _tuple(entry.act(**arguments, **entry.effect.neutral))[: len(expected)] == tuple(before.values())
 
 
@@ -76,6 +82,36 @@ def test_a_form_is_said_with_its_sizes():
     assert in_words("strut", {"slow_velocity": {"front": 57.3, "rear": 48.0}}, shaped) == (
         "force = (57.3 N s/m front and 48 N s/m rear) slow, slow' = 6.2832 * frequency * (velocity - slow), frequency = 7.5 Hz"
     )
+
+
+def test_a_force_that_whirls_is_said_with_what_it_does_up_and_aside_and_after_which_way_it_comes_back():
+    factors = {"up_cosine": 1.0, "up_sine": 2.0, "aside_cosine": 3.0, "aside_sine": -4.0}
+    shaped = {"whirling": {"period": 0.62832, "place": -0.4}}
+    when = "of 6.283185 * motion.s / period at place, period = 0.6283 m, place = -0.4 m"
+    assert in_words("body", {"whirling": factors}, shaped) == (
+        f"force_z = (1 N up_cosine and 2 N up_sine) {when}; force_y = (3 N aside_cosine and -4 N aside_sine) {when}"
+    )
+
+
+def test_a_period_is_written_so_that_it_holds_for_kilometres_and_is_not_calibrated_to_another(tmp_path):
+    source = effect_source("found", "body", {"shaking_along": {"cosine": 30.0, "sine": 5.0}}, "Found.", {"shaking_along": {"period": 1.9475177}})
+    (tmp_path / "found.py").write_text(source)
+    (period,) = (one for one in library.find(tmp_path)["found"].effect.parameters if one.name.endswith("period"))
+    assert period.neutral == period.typical == 1.9475177 and period.plausible == pytest.approx((1.9436227, 1.9514127), abs=1e-5)
+
+
+def test_what_comes_back_is_looked_for_where_it_was_heard_and_from_its_period_on():
+    names = lambda line: {candidate.name for place in PLACES for candidate in terms_of(place, line)}
+    comes_back = {after: {f"{place}:{name}" for place in PLACES for name, term in PLACES[place].terms.items() if term.after == after} for after in "ms"}
+    assert "body:whirling" in comes_back["m"] and "body:humming_up" in comes_back["s"]
+    assert not names(None) & (comes_back["m"] | comes_back["s"])
+    for unit, other in ("ms", "sm"):
+        heard = Line("a_z", 0.21, unit, 1e-9, 0.002)
+        assert names(heard) - names(None) == comes_back[unit] and not names(heard) & comes_back[other]
+        for candidate in (one for one in terms_of("body", heard) if one.name in comes_back[unit]):
+            (period,) = (one for one in candidate.shaping if one.key.endswith("period"))
+            assert all(shape[period.key] == 0.21 for shape in candidate.shapes)
+            assert (period.lower, period.upper) == pytest.approx((0.208, 0.212))
 
 
 def test_a_force_may_have_a_linear_part_of_its_own(tmp_path):

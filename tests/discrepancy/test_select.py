@@ -236,6 +236,17 @@ def test_what_is_significant_and_not_judged_is_said_why(monkeypatch, most, why):
     assert not first.passed_over.keys() & {trial.name for trial in first.trials}
 
 
+def test_what_another_test_has_found_is_refitted_and_judged_by_the_drives_all_the_same():
+    """A line in the spectrum is whitened away with what goes along with it; that it is there order analysis says."""
+    model = Linear(2, {"effect_1.size": 1.0})
+    heard = select.select(model, {"stiffness": 0.0}, most=1, known={"effect_4": 1e-9})
+    p_value = lambda selection: selection.rounds[0].p_value[selection.rounds[0].names.index("effect_4")]
+    assert p_value(heard) == 1e-9 and p_value(select.select(model, {"stiffness": 0.0}, most=1)) > 0.05
+    assert heard.accepted == ("effect_1",)
+    told = {**heard.rounds[0].passed_over, **{trial.name: trial.objection for trial in heard.rounds[0].trials}}
+    assert told["effect_4"]
+
+
 def test_what_would_help_with_the_opposite_sign_is_said():
     selection, _ = judged(Linear(2, {"effect_1.size": 1.0, "effect_4.size": -0.5}))
     first = selection.rounds[0]

@@ -38,7 +38,8 @@ def frame(speeds, rng, line=0.0, period=0.8, road=None, hum=0.0):
 def test_what_turns_is_heard_with_its_period_and_its_order():
     rng = np.random.default_rng(1)
     found = turns.line(*frame([22.0, 22.3, 21.8], rng, line=0.25), *frame([16.0], rng, line=0.25))
-    assert found.channel == "a_z" and found.period == pytest.approx(0.8, rel=0.002) and found.p_value < 1e-4
+    assert found.channel == "a_z" and found.period == pytest.approx(0.8, rel=3e-4) and found.p_value < 1e-4
+    assert found.width == pytest.approx(0.8**2 / 600.0, rel=0.01)  # that much longer it would be one turn behind at the end
     assert f"{2 * np.pi * RADIUS / 0.8:.2f} times a turn of the wheels" in found.words(RADIUS)
 
 

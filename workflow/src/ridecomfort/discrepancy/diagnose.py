@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import xarray as xr
 
 from .. import pool
-from . import opening
+from . import opening, turns
 from .beyond import at_bounds, ends_at_bounds
 from .car import Car
 from .discover import Discovery, discovered
@@ -77,7 +77,8 @@ def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Out
     if not (is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone):
         return Outcome(table, verdict, None, search.selection)
     library = experiment.candidates if verdict.verdict in ("named", "cluster", "outside") else ()
-    proposal = discovered(search.rung, name=name, known=library, probed=search.selection.probed, **common)
+    line = turns.left_by(search.selection) if table.attrs["turns"] else None
+    proposal = discovered(search.rung, name=name, known=library, probed=search.selection.probed, line=line, **common)
     table = with_forms(table, proposal.evidence)
     verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, surely_fits_better(proposal, search.selection))
     if not (table.attrs["turns"] or table.attrs["road"]):

@@ -16,6 +16,7 @@ import numpy as np
 import xarray as xr
 
 from .. import pool
+from ..effects.contract import Parameter
 from . import event, opening
 from .balance import LITTLE
 from .candidates import is_varied, shaping_size, towards
@@ -30,7 +31,8 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection, shares
-from .terms import LINEAR
+from .terms import LINEAR, PERIOD, Term
+from .turns import Line
 from .verdict import Named, plain
 
 TERMS = 3
@@ -115,22 +117,23 @@ def discover(
 
 def discovered(
     rung: Rung, *, name: str = "discovered", effects_folder=None, most: int = TERMS, seed: int = 0, each: Callable = map,
-    say: Callable[[str], None] = lambda words: None, known: Sequence[Candidate] = (), probed: Mapping[Job, Raw] = {},
+    say: Callable[[str], None] = lambda words: None, known: Sequence[Candidate] = (), probed: Mapping[Job, Raw] = {}, line: Line | None = None,
 ) -> Discovery:  # fmt: skip
     """``discover`` from the ``rung`` of a calibrated model; ``known``: effects of the library that may be missing, too, with their
-    columns where these are ``probed``.
+    columns where these are ``probed``; ``line``: what was heard to come back with the way or the time, without which nothing that does is
+    looked for.
 
     These are looked for at the same time, and one that explains as much as a term goes before it: with the larger of two that are missing left
     out, the other is not seen, or stood in for.
     """
-    unknown = {_name(place, term): (place, term) for place in PLACES for term in PLACES[place].terms}
+    unknown = {_name(place, term): (place, term) for place in PLACES for term in _asked_for(place, line)}
     text = "A force that is looked for."
     with beside(effects_folder, {own: effect_source(own, place, {term: {}}, text) for own, (place, term) in unknown.items()}) as folder:
-        terms = [candidate for place in PLACES for candidate in _terms(place)]
+        terms = [candidate for place in PLACES for candidate in terms_of(place, line)]
         rung = replace(rung, experiment=rung.experiment.looking_for([*known, *terms], folder))
         selection = search(
             rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
-            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed,
+            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed, known=_known(line),
         )  # fmt: skip
     evidence = dataset(rung.experiment, selection)
     return replace(proposed(replace(selection, probed={}), name, known), evidence=evidence)  # columns of all terms are large
@@ -205,12 +208,33 @@ def _key(place: str, term: str, part: str) -> str:
     return f"{_name(place, term)}.{parameter(term, part)}"
 
 
-def _terms(place: str) -> tuple[Candidate, ...]:
-    """Every term of a place as a candidate: a factor for each part of the car, of either sign, and what shapes it."""
+def _asked_for(place: str, line: Line | None) -> dict[str, Term]:
+    """The terms of a place that are looked for where this ``line`` was heard, if any."""
+    return {name: term for name, term in PLACES[place].terms.items() if not term.after or line is not None and term.after == line.unit}
+
+
+def _known(line: Line | None) -> dict[str, float]:
+    """p-values of the candidates that come back as what was heard does: one line in the spectrum is itself made white by its own power, with
+    all that goes along with it in other signals, so that the score test hardly sees it."""
+    asked = {place: _asked_for(place, line) for place in PLACES} if line is not None else {}
+    return {f"{place}:{name}": line.p_value for place, terms in asked.items() for name, term in terms.items() if term.after}
+
+
+def _heard(setting: Parameter, line: Line | None) -> Parameter:
+    """What shapes a term, from the period that was heard on if it is one."""
+    if setting.name != PERIOD or line is None:
+        return setting
+    plausible = (line.period - line.width, line.period + line.width)
+    return replace(setting, neutral=line.period, typical=line.period, plausible=plausible)
+
+
+def terms_of(place: str, line: Line | None) -> tuple[Candidate, ...]:
+    """Every term of a place as a candidate: a factor for each part of the car, of either sign, and what shapes it; with those that come back
+    as the ``line`` that was heard does, if any."""
     candidates, strongest = [], PLACES[place].strongest
-    for name, term in PLACES[place].terms.items():
+    for name, term in _asked_for(place, line).items():
         one = scale(place, name)
-        own = {_key(place, name, setting.name): setting for setting in settings(place, name)}
+        own = {_key(place, name, setting.name): _heard(setting, line) for setting in settings(place, name)}
         typical = {key: setting.typical for key, setting in own.items()}
         # A linear part alone is what calibration changes: it is no other shape to try.
         varied = {key: setting for key, setting in own.items() if setting is not LINEAR and is_varied(setting)}

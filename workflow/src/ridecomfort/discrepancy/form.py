@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from .places import FORCE, PLACES, expression, parameter, scale, settings
-from .terms import AXLES, LINEAR, WHEELS, Term
+from .terms import AXLES, CLOSE, LINEAR, PERIOD, WHEELS, Term
 
 WIDTH = 3.0
 """Times its estimate that a factor which was found may plausibly be."""
@@ -25,30 +25,32 @@ def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
     for name, factors in terms.items():
         term, own = PLACES[place].terms[name], shaped.get(name, {})
         unit = "" if term.unit == "1" else f" {term.unit}"
-        size = " and ".join(f"{value:.4g}{unit} {part}".rstrip() for part, value in factors.items())
         slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
         at = f" at {term.ahead}" if term.ahead else ""
         values = {setting: own.get(setting.name, setting.typical) for setting in settings(place, name)}
-        written = expression(place, name, bool(values.get(LINEAR)))
-        written = f"{written} of {term.turn}".removeprefix("1.0 ") if term.turn else written
-        written = f"({written})" if " + " in written or term.states and " " in written else written
+        written = term.written(expression(place, name, bool(values.get(LINEAR))))
+        written = f"({written})" if " + " in written or term.states and not term.turn and " " in written else written
         said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
-        by_result.setdefault(term.result, []).append(f"({size}) {written}{at}{slopes}{said}")
+        for result, parts in term.by_result().items():
+            size = " and ".join(f"{factors[part]:.4g}{unit} {part}".rstrip() for part in parts if part in factors)
+            by_result.setdefault(result, []).append(f"({size}) {written}{at}{slopes}{said}")
     sign = lambda result: "+=" if result in PLACES[place].arguments else "="
     return "; ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
 
 
-def _factor(key: str, term: Term) -> str:
-    """The factor of a term at the wheel or axle in question, as source text."""
-    names = [parameter(key, part) for part in term.parts]
+def _factor(key: str, term: Term, parts: Sequence[str], own: Mapping[str, str]) -> str:
+    """The factor of these ``parts`` of a term at the wheel or axle in question, as source text; ``own``: the names of its states and settings
+    in the file."""
+    names = [parameter(key, part) for part in parts]
     if term.parts == AXLES:
         return f"({names[0]} if wheel < 2 else {names[1]})"
     if term.turn:
-        names = [f"{cosine} * cos({term.turn}) + {sine} * sin({term.turn})" for cosine, sine in zip(names[::2], names[1::2])]
+        turn = _renamed(term.turn, own)
+        names = [f"{cosine} * cos({turn}) + {sine} * sin({turn})" for cosine, sine in zip(names[::2], names[1::2])]
     if len(names) == len(WHEELS):
         front, rear = (f"({left} if wheel % 2 == 0 else {right})" for left, right in (names[:2], names[2:]))
         return f"({front} if wheel < 2 else {rear})"
-    return names[0]
+    return f"({names[0]})" if term.turn else names[0]
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,7 @@ def _written(place: str, key: str, factors: Mapping[str, float], values: Mapping
         of_turn = f", cosine and sine of {term.turn}" if term.turn else ""
         meaning = f"factor of {term.expression}{of_turn}" + (f", {part}" if part else "")
         names.append(parameter(key, part))
-        parameters.append(_parameter(names[-1], term.unit, "0.0", typical, (-limit, limit), meaning))
+        parameters.append(_parameter(names[-1], term.unit, "0.0", f"{typical:.6g}", (-limit, limit), meaning))
     is_linear = values.get(LINEAR.name) != 0.0
     own = {state.name: parameter(key, state.name) for state in term.states}
     states = list(own.values())
@@ -108,18 +110,22 @@ def _written(place: str, key: str, factors: Mapping[str, float], values: Mapping
             own[setting.name] = parameter(key, setting.name)
             value = values.get(setting.name, setting.typical)
             names.append(own[setting.name])
-            parameters.append(_parameter(names[-1], setting.unit, f"{value:.6g}", value, setting.plausible, setting.meaning))
-    force = f"{_factor(key, term)} * ({_renamed(expression(place, key, is_linear), own)})"
-    lines = [f"    {term.result} += {force}"]
-    if term.ahead:
-        lines.append(f"    {'moment_z +=' if term.result == 'force_y' else 'moment_y -='} {term.ahead} * {force}")
+            plausible = (value * (1 - CLOSE), value * (1 + CLOSE)) if setting.name == PERIOD else setting.plausible
+            written = f"{value:.{8 if setting.name == PERIOD else 6}g}"
+            parameters.append(_parameter(names[-1], setting.unit, written, written, plausible, setting.meaning))
+    lines = []
+    for result, parts in term.by_result().items():
+        force = f"{_factor(key, term, parts, own)} * ({_renamed(expression(place, key, is_linear), own)})"
+        lines.append(f"    {result} += {force}")
+        if term.ahead:
+            lines.append(f"    {'moment_z +=' if result == 'force_y' else 'moment_y -='} {_renamed(term.ahead, own)} * {force}")
     slopes = [f"    {own[state.name]}_slope = {_renamed(state.slope, own)}" for state in term.states]
     return _Written(parameters, names, states, slopes, lines)
 
 
-def _parameter(name: str, unit: str, neutral: str, typical: float, plausible: tuple[float, float], meaning: str) -> str:
+def _parameter(name: str, unit: str, neutral: str, typical: str, plausible: tuple[float, float], meaning: str) -> str:
     lower, upper = plausible
-    return f'        Parameter("{name}", "{unit}", {neutral}, {typical:.6g}, ({lower:g}, {upper:g}), "{meaning}"),'
+    return f'        Parameter("{name}", "{unit}", {neutral}, {typical}, ({lower:g}, {upper:g}), "{meaning}"),'
 
 
 def _renamed(text: str, names: Mapping[str, str]) -> str:

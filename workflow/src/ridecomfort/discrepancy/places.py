@@ -11,8 +11,8 @@ import numpy as np
 
 from ..effects.contract import Parameter
 from .terms import (
-    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, TURNING, WHOLE, State, Term, acting_beyond, below, on_spring, shape_setting, sliding,
-    swinging,
+    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, TURNING, WHIRL, WHOLE, State, Term, acting_beyond, below, coming_back, on_spring, shape_setting,
+    sliding, swinging,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -44,7 +44,7 @@ class Place:
 
 
 MOTION = SimpleNamespace(
-    speed=20.0, side_speed=0.1, vertical_speed=0.04, roll=0.01, pitch=0.008, roll_rate=0.03, pitch_rate=0.02, yaw_rate=0.05,
+    s=500.0, speed=20.0, side_speed=0.1, vertical_speed=0.04, roll=0.01, pitch=0.008, roll_rate=0.03, pitch_rate=0.02, yaw_rate=0.05,
     vertical_acceleration=0.6, roll_acceleration=0.4, pitch_acceleration=0.3, front=1.2, rear=-1.5,
 )  # fmt: skip
 """Typical motion of the body (SI units)."""
@@ -221,6 +221,16 @@ PLACES: Mapping[str, Place] = {
             "roll_resonance": on_spring("motion.roll_acceleration", 0.4, "kg m2", "moment_x"),
             "pitch_resonance": on_spring("motion.pitch_acceleration", 0.3, "kg m2", "moment_y", frequencies=(8.0, 3.0, 25.0)),
             "surge_above": on_spring("motion.pitch_acceleration", 0.3, "kg m", "force_x", frequencies=(8.0, 3.0, 25.0)),
+            "shaking_up": coming_back("m", "N", "force_z", ahead="place"),
+            "shaking_along": coming_back("m", "N", "force_x"),
+            "shaking_in_roll": coming_back("m", "N m", "moment_x"),
+            "shaking_in_yaw": coming_back("m", "N m", "moment_z"),
+            "whirling": coming_back("m", "N", "force_z", parts=WHIRL, ahead="place"),
+            "whirling_by_speed": coming_back("m", "N s2/m2", "force_z", "motion.speed**2", WHIRL, "place"),
+            "humming_up": coming_back("s", "N", "force_z", ahead="place"),
+            "humming_along": coming_back("s", "N", "force_x"),
+            "humming_in_roll": coming_back("s", "N m", "moment_x"),
+            "humming_around": coming_back("s", "N", "force_z", parts=WHIRL, ahead="place"),
         },
         ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"),
     ),

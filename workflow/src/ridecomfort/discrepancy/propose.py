@@ -68,10 +68,10 @@ class Proposal:
 
 def propose(
     frame: Frame, residuals: Mapping[int, np.ndarray], free: np.ndarray, columns: Mapping[Job, Raw],
-    candidates: Mapping[str, Candidate], seed: Sequence[int], few: float = event.FEW,
+    candidates: Mapping[str, Candidate], seed: Sequence[int], few: float = event.FEW, known: Mapping[str, float] = {},
 ) -> Proposal:  # fmt: skip
     """Test ``columns`` on the white residuals of the fitted records; ``free``: white directions that are fitted anyway; ``few``: blocks
-    below which a column acts at few places.
+    below which a column acts at few places. ``known``: p-values by name of what another test has found, of all candidates like these.
 
     All sizes of a candidate in one shape count together and each alone, two that may be of either sign against one another as well.
     """
@@ -105,7 +105,7 @@ def propose(
     shown = [(k, key) for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key in columns[job]]
     return Proposal(
         names=names,
-        p_value=np.array([p_value[own[name]].min() for name in names]),
+        p_value=np.array([min(p_value[own[name]].min(), known.get(name, 1.0)) for name in names]),
         gain=np.array([found.group_gain[best[name]] for name in names]),
         absorbed=np.array([min(found.absorbed[k] for k in range(len(labels)) if group[k] == best[name]) for name in names]),
         best={name: jobs[g] for name, g in best.items()},

@@ -87,7 +87,7 @@ def ranked(
     verdict = with_remainder(verdict, _remainder(selection))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
-    line = turns.line(selection.frame, selection.states[-1].fit.residuals, selection.check_frame, selection.check)
+    line = turns.left_by(selection)
     table.attrs["turns"] = "" if line is None else line.words(float(experiment.vehicle["tyre_radius"]))
     has_decoys = any(turn.decoy_ranks for turn in selection.rounds)
     table.attrs["suspected"] = "" if not (doubts or has_decoys) else "road" if is_road_alone and not has_decoys else "data"

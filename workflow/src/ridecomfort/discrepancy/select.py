@@ -69,14 +69,15 @@ def search(
     few: float = event.FEW,
     simpler: Collection[str] = (),
     probed: Mapping[Job, Raw] = {},
+    known: Mapping[str, float] = {},
 ) -> Selection:
     """Find up to ``most`` missing effects from a ``rung``.
 
     ``each`` maps a function over candidates (``map`` or that of a pool); ``together`` says whether a candidate may follow those
     accepted, by their names; ``say`` is told what goes on; ``few``: as for ``propose``. ``simpler``: names that go before any other which
-    explains hardly more. ``probed``: columns of candidates that are known from a search from the same rung.
+    explains hardly more. ``probed``: columns of candidates that are known from a search from the same rung. ``known``: as for ``propose``.
     """
-    return _Search(rung, most, seed, each, together, say, few, simpler, probed).run()
+    return _Search(rung, most, seed, each, together, say, few, simpler, probed, known).run()
 
 
 @dataclass
@@ -90,6 +91,7 @@ class _Search:
     few: float = event.FEW
     simpler: Collection[str] = ()
     probed: Mapping[Job, Raw] = field(default_factory=dict)
+    known: Mapping[str, float] = field(default_factory=dict)
     accepted: list[str] = field(default_factory=list)
     shaped: set[str] = field(default_factory=set)
     """Keys of what shapes accepted effects and is fitted."""
@@ -219,7 +221,7 @@ class _Search:
         if not jobs:
             return Round.empty()
         columns = {job: self.columns[job] for job in jobs}
-        found = propose(rung.frame, base.residuals, free, columns, self.by_name, [self.seed, number], self.few)
+        found = propose(rung.frame, base.residuals, free, columns, self.by_name, [self.seed, number], self.few, self.known)
         self.confirmation = Confirmation(rung, self.by_name, self.first, found.rare, found.certain(), not self.accepted)
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")

@@ -21,6 +21,12 @@ WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
 TURNING = tuple(f"{wheel}_{wave}" for wheel in WHEELS for wave in ("cosine", "sine"))
 """Parts of what comes and goes as a wheel turns, from an angle of its own."""
 
+WAVES = ("cosine", "sine")
+"""The same of what comes and goes for the whole car."""
+
+WHIRL = ("up_cosine", "up_sine", "aside_cosine", "aside_sine")
+"""The same of a force on the body that does so up and down and from side to side."""
+
 SIDE = "(1.0 - 2.0 * (wheel % 2))"
 """1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
 
@@ -47,7 +53,8 @@ class Term:
     """A part of a force: its ``expression`` in what the place sees, its own ``states`` and ``settings``, the ``unit`` of its factor, the
     ``result`` it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force
     on the body acts ``ahead`` (m, an expression) of the centre of gravity where that is given. ``beside``: what it may be linear in, too;
-    ``turn``: the angle that the parts of TURNING are cosine and sine of."""
+    ``turn``: the angle that the parts of TURNING, WAVES or WHIRL are cosine and sine of; ``after``: the unit of the ``period``, m of way or s
+    of time, after which it comes back, where it is looked for only once such a period was heard."""
 
     expression: str
     unit: str
@@ -58,6 +65,15 @@ class Term:
     ahead: str = ""
     beside: str = ""
     turn: str = ""
+    after: str = ""
+
+    def written(self, expression: str) -> str:
+        """An ``expression`` of it, with the angle that it comes and goes with if it does."""
+        return f"{expression} of {self.turn}".removeprefix("1.0 ") if self.turn else expression
+
+    def by_result(self) -> dict[str, tuple[str, ...]]:
+        """The parts by the result that they add to."""
+        return {self.result: self.parts} if self.parts != WHIRL else {"force_z": self.parts[:2], "force_y": self.parts[2:]}
 
 
 def below(expression: str, beside: str = "") -> Term:
@@ -104,6 +120,23 @@ def swinging(base: str, typical: float, expression: str, unit: str, result: str,
     slope = f"({turns})**2 * ({base} - way) - 2.0 * damping_ratio * {turns} * rate"
     states = State("way", "rate", typical), State("rate", slope, 2 * pi * frequency.typical * typical)
     return Term(expression, unit, result, parts, states, (frequency, damping), beside=beside)
+
+
+PERIOD = "period"
+"""What the setting is called that says after which way or time a term comes back."""
+
+CLOSE = 0.002
+"""Share of its value by which such a period may plausibly be another: over a kilometre that is a phase of its own already."""
+
+
+def coming_back(after: str, unit: str, result: str, expression: str = "1.0", parts: tuple[str, ...] = WAVES, ahead: str = "") -> Term:
+    """What comes back ``after`` a way (m) or a time (s), with one phase in all drives, counted from the beginning of the road or of a drive."""
+    times = f"{2 * pi:.6f}"
+    turn, states = (f"{times} * motion.s / {PERIOD}", ()) if after == "m" else ("phase", (State("phase", f"{times} / {PERIOD}", 1.0),))
+    typical, longest = (2.0, 7.0) if after == "m" else (0.1, 0.33)
+    period = shape_setting(PERIOD, after, typical, 0.1 * typical, longest, f"{'way' if after == 'm' else 'time'} after which it comes back")
+    place = shape_setting(ahead, "m", 0.0, -2.0, 2.0, "how far ahead of the centre of gravity it acts") if ahead else None
+    return Term(expression, unit, result, parts, states, (period, *([place] if place else [])), ahead, turn=turn, after=after)
 
 
 KNEE = shape_setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")

@@ -12,10 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import binary_erosion, median_filter, uniform_filter1d
+from scipy.optimize import minimize_scalar
 from scipy.stats import gamma
 
 from .experiment import Frame, Record
 from .propose import LEVEL, SURE
+from .selection import Selection
 
 LONGEST = {"m": 7.0, "s": 0.33}
 """Periods of way and of time above which it is none of these, but a bend, a driver or the body on its springs."""
@@ -31,12 +33,13 @@ SURELY = 3.0
 @dataclass(frozen=True)
 class Line:
     """What comes back every ``period`` in a ``channel``, in ``unit`` m of way or s of time; ``p_value``: the probability that
-    any line of noise is so strong on the fitted records."""
+    any line of noise is so strong on the fitted records; ``width``: by how much a period may be another and look alike."""
 
     channel: str
     period: float
     unit: str
     p_value: float
+    width: float = 0.0
 
     def words(self, radius: float) -> str:
         """The line in words; ``radius`` of the wheels in m."""
@@ -46,6 +49,11 @@ class Line:
             how = f"m of way, {2.0 * np.pi * radius / self.period:.2f} times a turn of the wheels"
             what = "something turns with the wheels, or the road repeats itself"
         return f"an error of {self.channel} comes back every {self.period:.3g} {how} (p = {self.p_value:.1g}): {what}"
+
+
+def left_by(selection: Selection) -> Line | None:
+    """The line in what the last model of a search leaves."""
+    return line(selection.frame, selection.states[-1].fit.residuals, selection.check_frame, selection.check)
 
 
 def line(
@@ -83,8 +91,26 @@ def line(
         held_out = [own for own in held_out if np.isfinite(own)]
         mean = float(np.mean(held_out)) if held_out else float("nan")
         if not held_out or 3.0 * np.exp(-mean) <= LEVEL:  # the strongest of three bins
-            return Line(channels[channel], 1.0 / often, unit, p_value)
+            often, width = _nearer(frame, residuals, channel, often, unit)
+            return Line(channels[channel], 1.0 / often, unit, p_value, width / often**2)
     return None
+
+
+def _nearer(frame: Frame, residuals: Mapping[int, np.ndarray], channel: int, often: float, unit: str) -> tuple[float, float]:
+    """How often it comes back by all samples of the records that hear it, which say it to a part of a bin, and the width of a bin."""
+    axes, series = [], []
+    for index in frame.indices:
+        record = frame.experiment.records[index]
+        if _heard(record, np.array([often]), unit)[0]:
+            axes.append(_axis(record, unit))
+            series.append(_white(frame, index, residuals)[channel] * np.hanning(len(axes[-1])))
+    width = 1.0 / max(float(np.ptp(axis)) for axis in axes)
+    power = lambda rate: sum(abs(np.exp(-2j * np.pi * rate * axis) @ own) ** 2 for axis, own in zip(axes, series))
+    # The maximum that is meant lies in the lobe of the strongest bin, which is two bins wide to either side.
+    tried = often + width * np.linspace(-1.0, 1.0, 21)
+    best = tried[np.argmax([power(rate) for rate in tried])]
+    found = minimize_scalar(lambda rate: -power(rate), bounds=(best - 0.1 * width, best + 0.1 * width), method="bounded", options={"xatol": 1e-3 * width})
+    return float(found.x), width
 
 
 def _by_site(frame: Frame) -> dict[str, list[int]]:
@@ -96,6 +122,11 @@ def _by_site(frame: Frame) -> dict[str, list[int]]:
 
 def _white(frame: Frame, index: int, residuals: Mapping[int, np.ndarray]) -> np.ndarray:
     return frame.flat_of(index, residuals[index]).reshape(len(frame.experiment.channels), -1)
+
+
+def _axis(record: Record, unit: str) -> np.ndarray:
+    """The way (m) or the time (s) of every sample."""
+    return record.place if unit == "m" else np.arange(len(record.place)) / record.rate
 
 
 def _heard(record: Record, often: np.ndarray, unit: str) -> np.ndarray:
@@ -129,7 +160,7 @@ def _strength(records: Sequence[Record], white: Sequence[np.ndarray], unit: str)
     """How often (1/m or 1/s, by ``unit``); the power that comes back so often against that around it, mean over records, and the share of
     the power around it that records have in common, both (channel, bin); over the way, or the time from the start, that these have in
     common. No bins where that is too short."""
-    axes = [record.place if unit == "m" else np.arange(len(record.place)) / record.rate for record in records]
+    axes = [_axis(record, unit) for record in records]
     first, last = max(axis[0] for axis in axes), min(axis[-1] for axis in axes)
     spacing = min(float(np.median(np.diff(axis))) for axis in axes)
     even = np.arange(first, last, spacing)

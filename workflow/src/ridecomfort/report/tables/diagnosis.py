@@ -189,7 +189,8 @@ def forms(found: Diagnosis) -> Table:
             if number < STRONGEST or place not in places:
                 expression = such_a = ""
                 if place != OF_THE_LIBRARY:
-                    expression, such_a = formula(PLACES[place].terms[form].expression), such_as(place, [form])
+                    term = PLACES[place].terms[form]
+                    expression, such_a = formula(term.written(term.expression)), such_as(place, [form])
                 rows.append((turn, place, words(form), expression, *one, such_a))
             places.add(place)
     notes = (
