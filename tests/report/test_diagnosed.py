@@ -61,7 +61,7 @@ def test_of_suspect_data_only_errors_of_the_measurement_are_named():
 
 def test_a_proposed_form_is_shown():
     verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"name": "discovered_2"}}
-    found = replace(made_up.diagnosis(verdict), model="discovered")
+    found = replace(made_up.diagnosis(verdict), model="discovered", switched_on=("discovered",))
     said = words(diagnosed.tables(found)["verdict"])
     assert "At the strut: 80 N tanh(velocity / 0.005)." in said and "positive in compression" in said and "Friction of seals." in said
     assert "84 % of the explainable error on the fitted drives, 92 % on drives held out (p = 0.0015)" in said
@@ -157,8 +157,15 @@ def test_a_road_that_fits_better_when_it_is_interpolated_otherwise_comes_before_
     assert "next First set road: options: interpolation: linear in the site file" in words(diagnosed.tables(found)["verdict"])
 
 
+def test_what_comes_next_keeps_the_order_of_what_is_switched_on():
+    """In another order the models of the error ladder would be others, and calibrated anew."""
+    on = ("tyre_relaxation", "damper_knee")
+    found = replace(made_up.diagnosis(), model="damper_knee+tyre_relaxation", switched_on=on)
+    assert "effects: [tyre_relaxation, damper_knee, suspension_friction]" in words(diagnosed.tables(found)["verdict"])
+
+
 def test_names_beside_a_form_of_ones_own_are_said_with_a_caution():
-    own = replace(made_up.diagnosis(), model="discovered")
+    own = replace(made_up.diagnosis(), model="discovered", switched_on=("discovered",))
     assert "take out again what does not lower the error ladder" in words(diagnosed.tables(own)["verdict"])
     assert "take out again" not in words(diagnosed.tables(made_up.diagnosis())["verdict"])
 

@@ -235,7 +235,8 @@ def _of_clocks(result: xr.Dataset) -> list[str]:
     """What is to be said of drives whose clock would go farther than it may."""
     eager = result["drive"].values[np.abs(result["clock_correction"].values) >= CLOCK_LEFT]
     said = f"the clock of {', '.join(eager)} would move by more than the {1e3 * CLOCK_LEFT:g} ms it is trusted to: "
-    return [said + "the model lacks a delay or a damping"] if eager.size else []
+    lacks = "the model lacks a delay or a damping, or s is the distance of another point of the vehicle (alignment.md)"
+    return [said + lacks] if eager.size else []
 
 
 def _of_starts(task: Problem, fits: Sequence[Descent], best: Descent, refused: Sequence[str]) -> list[str]:

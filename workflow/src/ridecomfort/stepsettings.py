@@ -62,7 +62,8 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
         case "compared":
             return {"model": model, "sites": _shown(study, study.measured)}
         case "diagnosed":
-            return {"model": model, "sites": _shown(study, study.diagnosed), "diagnosed": study.diagnosed, "scored": False}
+            said_of = {"sites": _shown(study, study.diagnosed), "diagnosed": study.diagnosed, "switched_on": study.switched_on}
+            return {"model": model, **said_of, "scored": False}
         case "standin_score":
             known = {"effects": list(study.effects(model)), "effects_folder": chosen["effects_folder"]}
             return {"model": model, "sites": study.diagnosed, **known}
@@ -107,13 +108,13 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"], **place}
         case "tables" | "figures" | "report":
             keys = ("runs", "seed", "sampling_method", "space", "calibration", "comfort")
-            loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored} if step == "report" else {}
+            loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored, "switched_on": study.switched_on}
             return {
                 **simulated,
                 "sites": summaries(study),
                 "model": model,
                 **{key: chosen[key] for key in keys},
-                **loop,
+                **(loop if step == "report" else {}),
             }
     raise KeyError(step)
 

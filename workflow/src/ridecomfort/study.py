@@ -67,12 +67,21 @@ class Study:
 
     def effects(self, model: str | None = None) -> dict[str, dict]:
         """The effects of a model by name, each with the values set for it; default is the configured model."""
-        configured = {}
-        for entry in self.settings["effects"]:
-            configured.update({entry: {}} if isinstance(entry, str) else entry)
+        configured = self._configured()
         if model is None:
             return dict(sorted(configured.items()))
         return {} if model == BASE else {name: configured.get(name, {}) for name in model.split(JOIN)}
+
+    @property
+    def switched_on(self) -> list[str]:
+        """The effects of the configured model in the order in which they stand there: that of the error ladder."""
+        return list(self._configured())
+
+    def _configured(self) -> dict[str, dict]:
+        configured = {}
+        for entry in self.settings["effects"]:
+            configured.update({entry: {}} if isinstance(entry, str) else entry)
+        return configured
 
     def has_own_effects(self, model: str | None = None) -> bool:
         """Whether a model has effects that are not in the library."""

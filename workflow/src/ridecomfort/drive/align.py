@@ -137,7 +137,7 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
         clock, work = clock + lag, place.moved(work, clock=lag)
     if abs(clock) > reach:
         raise InputError(
-            f"the inertial signals lag {clock:.2f} s behind s (expected within {search:g} s, `alignment: search` of the study: "
+            f"the inertial signals lag {clock:.3g} s behind s (expected within {search:g} s, `alignment: search` of the study: "
             "cut the record or shift its time or s by as much)",
             place=label,
         )

@@ -84,7 +84,8 @@ class Difference:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """Which effects the model lacks: verdict.json and ranking.nc; ``standin`` labels the sites that are stand-ins.
+    """Which effects the model lacks: verdict.json and ranking.nc; ``standin`` labels the sites that are stand-ins, ``switched_on`` are the
+    effects that the model has, in the order of the study's configuration.
 
     ``score`` is what the hidden truth of stand-ins says of the verdict (``steps.standin_score``), None without it.
     """
@@ -96,6 +97,7 @@ class Diagnosis:
     sites: tuple[str, ...] = ()
     standin: tuple[str, ...] = ()
     score: Mapping | None = None
+    switched_on: tuple[str, ...] = ()
 
     def standin_note(self) -> str | None:
         """As of a Study."""

@@ -35,12 +35,11 @@ def chain(study: Study, verdict: Mapping | None = None) -> Chain:
 
     ``verdict`` is the content of verdict.json. Effects that are in the model already, or that there is no file of, add nothing.
     """
-    configured = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
     found = verdict["effects"] if verdict and verdict["verdict"] in FOLLOWED else []
     known = effect_files(study.effects_folder)
     named = [effect["name"] for effect in found if effect["name"] in known]
     alike = {effect["name"]: effect.get("like", ()) for effect in found}
-    effects = list(dict.fromkeys([*configured, *named]))
+    effects = list(dict.fromkeys([*study.switched_on, *named]))
     models = [JOIN.join(sorted(effects[:count])) or BASE for count in range(len(effects) + 1)]
     return Chain(tuple(models), tuple(rung_titles(effects, alike)))
 

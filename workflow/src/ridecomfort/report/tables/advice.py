@@ -10,7 +10,6 @@ from ...discrepancy.confirm import EQUAL
 from ...discrepancy.verdict import SMALL
 from ...effects import library
 from ...schema import as_written
-from ...study import BASE, JOIN
 from ...vehicle.parameters import PARAMETERS
 from ..study import Diagnosis
 
@@ -60,7 +59,7 @@ WORTHWHILE = 0.1
 def next_step(found: Diagnosis) -> str:
     """What to do next, a sentence or a few."""
     said, proposal = found.verdict, found.verdict.get("proposal") or {}
-    own = [] if found.model == BASE else found.model.split(JOIN)
+    own = list(found.switched_on)
     other = next((word for word in ("linear", "cubic") if f"interpolation: {word})" in found.ranking.attrs.get("road", "")), "")
     before = ROAD_FIRST.format(other=other) if other and said["verdict"] != "suspect" else ""
     named = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
