@@ -13,6 +13,8 @@ from collections.abc import Collection, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import numpy as np
+
 from ridecomfort import discrepancy
 from ridecomfort.discrepancy.places import PLACES
 from ridecomfort.effects import library
@@ -53,11 +55,12 @@ def one(job: tuple[str, int, int]) -> dict | None:
     ports = {place.port: name for name, place in PLACES.items()}
     place = ports.get(known[draw.hidden[0]].effect.port) if kind.startswith("outside") else None
     fall = lambda first, last: score.against_oracle(trial, true, trials.SHAPES, first, last)
+    reached = table["held_out_mean_square"].values
     if place:
         states = proposal.selection.states if proposal else ()
-        share = fall(states[0].held_out_squares, states[-1].held_out_squares) if states else float("nan")
-        row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share}
-    reached = table["held_out_mean_square"].values
+        share = fall(*(state.held_out_squares for state in (states[0], states[-1]))) if states else fall(reached[0], reached[0])
+        # Where who knows the truth gains nothing held out, no form can be judged by what it does there.
+        row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share if np.isfinite(share) else ""}
     oracle = fall(reached[0], reached[-1]) if draw.hidden and kind != "messy" and not draw.wrong else float("nan")
     return {**row, "against_oracle": oracle, "cpu_seconds": seconds, "reasons": "; ".join(verdict.reasons)}
 

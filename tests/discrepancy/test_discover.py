@@ -10,7 +10,7 @@ import pytest
 
 from ridecomfort.discrepancy import select
 from ridecomfort.discrepancy.car import LONGEST
-from ridecomfort.discrepancy.discover import Discovery, may_follow, proposed, terms_of
+from ridecomfort.discrepancy.discover import Discovery, heard_as, may_follow, proposed, terms_of
 from ridecomfort.discrepancy.experiment import Candidate
 from ridecomfort.discrepancy.form import effect_source, in_words
 from ridecomfort.discrepancy.places import PLACES, parameter, scale, settings
@@ -112,6 +112,15 @@ def test_what_comes_back_is_looked_for_where_it_was_heard_and_from_its_period_on
             (period,) = (one for one in candidate.shaping if one.key.endswith("period"))
             assert all(shape[period.key] == 0.21 for shape in candidate.shapes)
             assert (period.lower, period.upper) == pytest.approx((0.208, 0.212))
+
+
+def test_what_was_heard_is_there_as_anything_that_comes_back_so():
+    """A tyre of 0.31 m rolls some percent less than its circumference."""
+    twice = heard_as(Line("a_z", 0.98 * pi * 0.31, "m", 1e-9, 0.002), radius=0.31)
+    assert set(twice.values()) == {1e-9} and {"tyre:twice_a_turn", "body:whirling"} <= set(twice)
+    assert not {"tyre:once_a_turn", "tyre:once_a_turn_by_spin", "tyre:thrice_a_turn", "body:humming_up"} & set(twice)
+    assert {name.partition(":")[0] for name in heard_as(Line("a_z", 0.05, "s", 1e-9, 0.002), radius=0.31)} == {"body"}
+    assert heard_as(None, radius=0.31) == {}
 
 
 def test_a_force_may_have_a_linear_part_of_its_own(tmp_path):

@@ -35,6 +35,9 @@ from .terms import LINEAR, PERIOD, Term
 from .turns import Line
 from .verdict import Named, plain
 
+ROLLING = 0.05
+"""Share by which the way of a turn may differ from the circumference of a wheel that is not loaded."""
+
 TERMS = 3
 """Terms of a force at most: the rod that nods on a tail pushes with three accelerations."""
 
@@ -133,7 +136,7 @@ def discovered(
         rung = replace(rung, experiment=rung.experiment.looking_for([*known, *terms], folder))
         selection = search(
             rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
-            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed, known=_known(line),
+            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed, known=heard_as(line, float(rung.experiment.vehicle["tyre_radius"]) if line else 1.0),
         )  # fmt: skip
     evidence = dataset(rung.experiment, selection)
     return replace(proposed(replace(selection, probed={}), name, known), evidence=evidence)  # columns of all terms are large
@@ -213,11 +216,15 @@ def _asked_for(place: str, line: Line | None) -> dict[str, Term]:
     return {name: term for name, term in PLACES[place].terms.items() if not term.after or line is not None and term.after == line.unit}
 
 
-def _known(line: Line | None) -> dict[str, float]:
-    """p-values of the candidates that come back as what was heard does: one line in the spectrum is itself made white by its own power, with
-    all that goes along with it in other signals, so that the score test hardly sees it."""
-    asked = {place: _asked_for(place, line) for place in PLACES} if line is not None else {}
-    return {f"{place}:{name}": line.p_value for place, terms in asked.items() for name, term in terms.items() if term.after}
+def heard_as(line: Line | None, radius: float) -> dict[str, float]:
+    """p-values of the candidates that come back as what was heard does, of wheels of this ``radius`` in m: one line in the spectrum is itself
+    made white by its own power, with all that goes along with it in other signals, so that the score test hardly sees it."""
+    if line is None:
+        return {}
+    turns = 2.0 * np.pi * radius / line.period if line.unit == "m" else 0.0
+    comes_so = lambda term: bool(term.after) or bool(term.often) and abs(turns / term.often - 1.0) < ROLLING
+    asked = {place: _asked_for(place, line) for place in PLACES}
+    return {f"{place}:{name}": line.p_value for place, terms in asked.items() for name, term in terms.items() if comes_so(term)}
 
 
 def _heard(setting: Parameter, line: Line | None) -> Parameter:

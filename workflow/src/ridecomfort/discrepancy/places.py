@@ -11,8 +11,8 @@ import numpy as np
 
 from ..effects.contract import Parameter
 from .terms import (
-    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, TURNING, WHIRL, WHOLE, State, Term, acting_beyond, below, coming_back, on_spring, shape_setting,
-    sliding, swinging,
+    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, below, coming_back, on_spring, shape_setting,
+    sliding, swinging, turning,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -107,10 +107,10 @@ PLACES: Mapping[str, Place] = {
             "velocity_per_spin": Term("velocity / (1.0 + abs(spin) / 30.0)", "N s/m", beside="velocity"),
             "deflection_of_sides": Term(f"(deflection - rest) * {SIDE}", "N/m"),
             "velocity_of_sides": Term(f"velocity * {SIDE}", "N s/m"),
-            "once_a_turn": Term("1.0", "N", parts=TURNING, turn="rotation"),
-            "once_a_turn_by_spin": Term("spin**2", "kg m", parts=TURNING, turn="rotation"),
-            "twice_a_turn": Term("1.0", "N", parts=TURNING, turn="2.0 * rotation"),
-            "thrice_a_turn": Term("1.0", "N", parts=TURNING, turn="3.0 * rotation"),
+            "once_a_turn": turning(1),
+            "once_a_turn_by_spin": turning(1, "spin**2", "kg m"),
+            "twice_a_turn": turning(2),
+            "thrice_a_turn": turning(3),
             "sliding_direction": sliding("strain", "N", "velocity"),
             "slow_velocity": below("slow", "velocity"),
         },

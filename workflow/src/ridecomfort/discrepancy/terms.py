@@ -54,7 +54,8 @@ class Term:
     ``result`` it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force
     on the body acts ``ahead`` (m, an expression) of the centre of gravity where that is given. ``beside``: what it may be linear in, too;
     ``turn``: the angle that the parts of TURNING, WAVES or WHIRL are cosine and sine of; ``after``: the unit of the ``period``, m of way or s
-    of time, after which it comes back, where it is looked for only once such a period was heard."""
+    of time, after which it comes back, where it is looked for only once such a period was heard; ``often``: how often it comes in a
+    turn of a wheel, of what turns with one."""
 
     expression: str
     unit: str
@@ -66,6 +67,7 @@ class Term:
     beside: str = ""
     turn: str = ""
     after: str = ""
+    often: int = 0
 
     def written(self, expression: str) -> str:
         """An ``expression`` of it, with the angle that it comes and goes with if it does."""
@@ -127,6 +129,11 @@ PERIOD = "period"
 
 CLOSE = 0.002
 """Share of its value by which such a period may plausibly be another: over a kilometre that is a phase of its own already."""
+
+
+def turning(often: int, expression: str = "1.0", unit: str = "N") -> Term:
+    """What comes ``often`` in a turn of each wheel, from an angle of its own."""
+    return Term(expression, unit, parts=TURNING, turn="rotation" if often == 1 else f"{often:.1f} * rotation", often=often)
 
 
 def coming_back(after: str, unit: str, result: str, expression: str = "1.0", parts: tuple[str, ...] = WAVES, ahead: str = "") -> Term:
