@@ -41,3 +41,4 @@ def test_every_term_of_a_force_is_written_without_python():
             assert not re.search(r"\*|%|motion|\d\.0\b|\+=", " ".join(written)), written
     assert notation.formula(f"-6.2832 * way + motion.speed**2 * {SIDE}") == "−2π · way + speed² · side"
     assert notation.formula("(60 N front_left_cosine)") == "(60 N front left cosine)"
+    assert notation.formula("(3 N aside_sine) of 6.283185 * motion.s / period") == "(3 N aside sine) of 2π · s / period"

@@ -9,7 +9,7 @@ from __future__ import annotations
 import html as _html
 import re
 
-from ..discrepancy.terms import SIDE, TURNING
+from ..discrepancy.terms import SIDE, TURNING, WHIRL
 
 SYMBOLS = {
     "v_x": "$v_x$",
@@ -113,7 +113,7 @@ def formula(text: str) -> str:
     """A form as ``discrepancy.form`` writes it, or an expression of its terms, in usual notation, ``deflection² · side``, where side is +1 on the
     left and -1 on the right."""
     text = text.replace(SIDE, "side")
-    for part in TURNING:
+    for part in (*TURNING, *WHIRL):
         text = text.replace(part, words(part))
     for written, usual in _IN_FORMULAS:
         text = re.sub(written, usual, text)
