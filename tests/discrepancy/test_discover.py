@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import cos, exp, pi, sin, tanh
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import select
@@ -51,9 +52,9 @@ def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp
         for result, parts in term.by_result().items():
             value = sum(factors[name][part] * own[part] for part in parts if part in own) * worth(term.expression)
             expected[result] += value
-            if term.ahead:
-                moment, sign = ("moment_z", 1.0) if result == "force_y" else ("moment_y", -1.0)
-                expected[moment] += sign * worth(term.ahead) * value
+            force = [value if axis == result else 0.0 for axis in ("force_x", "force_y", "force_z")]
+            moments = np.cross([worth(term.ahead or "0.0"), 0.0, worth(term.above or "0.0")], force)
+            expected |= {axis: expected[axis] + moment for axis, moment in zip(("moment_x", "moment_y", "moment_z"), moments) if moment}
         slopes = [worth(state.slope) for state in term.states]
         arguments = {key: seen[key] for key in where.arguments} | dict(zip(entry.effect.states, states.values()))
         shaped = {parameter(name, setting): value for setting, value in shape.items()}
@@ -86,10 +87,11 @@ def test_a_form_is_said_with_its_sizes():
 
 def test_a_force_that_whirls_is_said_with_what_it_does_up_and_aside_and_after_which_way_it_comes_back():
     factors = {"up_cosine": 1.0, "up_sine": 2.0, "aside_cosine": 3.0, "aside_sine": -4.0}
-    shaped = {"whirling": {"period": 0.62832, "place": -0.4}}
-    when = "of 6.283185 * motion.s / period at place, period = 0.6283 m, place = -0.4 m"
+    shaped = {"whirling": {"period": 0.62832, "place": -0.4, "height": -0.15}}
+    turn, settings = "of 6.283185 * motion.s / period", "period = 0.6283 m, place = -0.4 m, height = -0.15 m"
     assert in_words("body", {"whirling": factors}, shaped) == (
-        f"force_z = (1 N up_cosine and 2 N up_sine) {when}; force_y = (3 N aside_cosine and -4 N aside_sine) {when}"
+        f"force_z = (1 N up_cosine and 2 N up_sine) {turn} at place, {settings}; "
+        f"force_y = (3 N aside_cosine and -4 N aside_sine) {turn} at place and height, {settings}"
     )
 
 

@@ -26,12 +26,12 @@ def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
         term, own = PLACES[place].terms[name], shaped.get(name, {})
         unit = "" if term.unit == "1" else f" {term.unit}"
         slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
-        at = f" at {term.ahead}" if term.ahead else ""
         values = {setting: own.get(setting.name, setting.typical) for setting in settings(place, name)}
         written = term.written(expression(place, name, bool(values.get(LINEAR))))
         written = f"({written})" if " + " in written or term.states and not term.turn and " " in written else written
         said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
         for result, parts in term.by_result().items():
+            at = " at " + " and ".join(term.arms(result)) if term.arms(result) else ""
             size = " and ".join(f"{factors[part]:.4g}{unit} {part}".rstrip() for part in parts if part in factors)
             by_result.setdefault(result, []).append(f"({size}) {written}{at}{slopes}{said}")
     sign = lambda result: "+=" if result in PLACES[place].arguments else "="
@@ -117,8 +117,7 @@ def _written(place: str, key: str, factors: Mapping[str, float], values: Mapping
     for result, parts in term.by_result().items():
         force = f"{_factor(key, term, parts, own)} * ({_renamed(expression(place, key, is_linear), own)})"
         lines.append(f"    {result} += {force}")
-        if term.ahead:
-            lines.append(f"    {'moment_z +=' if result == 'force_y' else 'moment_y -='} {_renamed(term.ahead, own)} * {force}")
+        lines += [f"    {moment} {sign}= {_renamed(arm, own)} * {force}" for arm, (moment, sign) in term.arms(result).items()]
     slopes = [f"    {own[state.name]}_slope = {_renamed(state.slope, own)}" for state in term.states]
     return _Written(parameters, names, states, slopes, lines)
 

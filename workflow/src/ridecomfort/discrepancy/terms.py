@@ -52,7 +52,7 @@ class State:
 class Term:
     """A part of a force: its ``expression`` in what the place sees, its own ``states`` and ``settings``, the ``unit`` of its factor, the
     ``result`` it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force
-    on the body acts ``ahead`` (m, an expression) of the centre of gravity where that is given. ``beside``: what it may be linear in, too;
+    on the body acts ``ahead`` of the centre of gravity and ``above`` it (m, expressions) where that is given. ``beside``: what it may be linear in, too;
     ``turn``: the angle that the parts of TURNING, WAVES or WHIRL are cosine and sine of; ``after``: the unit of the ``period``, m of way or s
     of time, after which it comes back, where it is looked for only once such a period was heard; ``often``: how often it comes in a
     turn of a wheel, of what turns with one."""
@@ -64,6 +64,7 @@ class Term:
     states: tuple[State, ...] = ()
     settings: tuple[Parameter, ...] = ()
     ahead: str = ""
+    above: str = ""
     beside: str = ""
     turn: str = ""
     after: str = ""
@@ -72,6 +73,12 @@ class Term:
     def written(self, expression: str) -> str:
         """An ``expression`` of it, with the angle that it comes and goes with if it does."""
         return f"{expression} of {self.turn}".removeprefix("1.0 ") if self.turn else expression
+
+    def arms(self, result: str) -> dict[str, tuple[str, str]]:
+        """By the arm of a force, the moment that it makes about the centre of gravity, and with which sign."""
+        arms = {("force_y", self.ahead): ("moment_z", "+"), ("force_z", self.ahead): ("moment_y", "-")}
+        arms |= {("force_x", self.above): ("moment_y", "+"), ("force_y", self.above): ("moment_x", "-")}
+        return {arm: moment for (force, arm), moment in arms.items() if arm and force == result}
 
     def by_result(self) -> dict[str, tuple[str, ...]]:
         """The parts by the result that they add to."""
@@ -136,14 +143,23 @@ def turning(often: int, expression: str = "1.0", unit: str = "N") -> Term:
     return Term(expression, unit, parts=TURNING, turn="rotation" if often == 1 else f"{often:.1f} * rotation", often=often)
 
 
-def coming_back(after: str, unit: str, result: str, expression: str = "1.0", parts: tuple[str, ...] = WAVES, ahead: str = "") -> Term:
+AT = {
+    "place": shape_setting("place", "m", 0.0, -2.0, 2.0, "how far ahead of the centre of gravity it acts"),
+    "height": shape_setting("height", "m", 0.0, -0.8, 0.8, "how far above the centre of gravity it acts"),
+}
+"""Where a force on the body acts that comes back, by what this is called."""
+
+
+def coming_back(
+    after: str, unit: str, result: str, expression: str = "1.0", parts: tuple[str, ...] = WAVES, ahead: str = "", above: str = ""
+) -> Term:
     """What comes back ``after`` a way (m) or a time (s), with one phase in all drives, counted from the beginning of the road or of a drive."""
     times = f"{2 * pi:.6f}"
     turn, states = (f"{times} * motion.s / {PERIOD}", ()) if after == "m" else ("phase", (State("phase", f"{times} / {PERIOD}", 1.0),))
     typical, longest = (2.0, 7.0) if after == "m" else (0.1, 0.33)
     period = shape_setting(PERIOD, after, typical, 0.1 * typical, longest, f"{'way' if after == 'm' else 'time'} after which it comes back")
-    place = shape_setting(ahead, "m", 0.0, -2.0, 2.0, "how far ahead of the centre of gravity it acts") if ahead else None
-    return Term(expression, unit, result, parts, states, (period, *([place] if place else [])), ahead, turn=turn, after=after)
+    at = (AT[name] for name in (ahead, above) if name)
+    return Term(expression, unit, result, parts, states, (period, *at), ahead, above, turn=turn, after=after)
 
 
 KNEE = shape_setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
