@@ -26,6 +26,7 @@ from tests.report import differing as made_up
 PROPOSAL = {
     "name": "discovered", "form": "80 N tanh(velocity / 0.005)", "place": "strut", "port": "suspension", "such_as": "friction of seals",
     "share": 0.84, "held_out_share": 0.92, "p_value": 0.0015,
+    "sizes": [{"parameter": "velocity_direction", "unit": "N", "size": 80.0, "interval": [78.0, 82.0]}],
 }  # fmt: skip
 
 
@@ -65,6 +66,8 @@ def test_a_proposed_form_is_shown():
     said = words(diagnosed.tables(found)["verdict"])
     assert "At the strut: 80 N tanh(velocity / 0.005)." in said and "positive in compression" in said and "Friction of seals." in said
     assert "84 % of the explainable error on the fitted drives, 92 % on drives held out (p = 0.0015)" in said
+    row = rows(diagnosed.tables(found)["missing_effects"])[-1]
+    assert row["effect"] == "discovered 2 (proposed form)" and float(row["interval_lower"]) == 78.0 and float(row["p_value"]) == 0.0015
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
 
 

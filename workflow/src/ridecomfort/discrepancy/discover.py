@@ -67,6 +67,9 @@ class Discovery:
     """What became of every term, as for the library (``ranking.dataset``)."""
     beside: tuple[Named, ...] = ()
     """Effects of the library that are missing, too: shares are of what goes with all together."""
+    sizes: tuple[dict, ...] = ()
+    """Its factors and what shapes it as in an effect file, each with ``parameter``, ``unit``, ``size`` and, where it was fitted, the 90 %
+    ``interval``."""
 
     def words(self) -> str:
         """Where it acts, what usually makes such a force, and what it removes, as two sentences."""
@@ -82,7 +85,7 @@ class Discovery:
 
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
-        names = ("name", "place", "port", "form", "terms", "settings", "share", "held_out_share", "p_value", "by_place")
+        names = ("name", "place", "port", "form", "terms", "settings", "sizes", "share", "held_out_share", "p_value", "by_place")
         more = {"such_as": such_as(self.place, self.terms), "beside": self.names_beside()}
         return plain({name: getattr(self, name) for name in names} | more)
 
@@ -152,13 +155,18 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     needed = [name for name in ours if name not in selection.needless]
     if not needed:
         return Discovery(name, "", "", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
-    place, terms, shaped = _place(ours[0]), {}, {}
+    place, terms, shaped, sizes = _place(ours[0]), {}, {}, []
     for accepted in needed:
         term = accepted.partition(":")[2]
         keys = {part: _key(place, term, part) for part in PLACES[place].terms[term].parts}
         terms[term] = {part: selection.final.values[key] for part, key in keys.items() if key in selection.final.values}
         own = {setting.name: setting.typical for setting in settings(place, term)}
         shaped[term] = {name: selection.final.values.get(_key(place, term, name), typical) for name, typical in own.items()}
+        units = {part: PLACES[place].terms[term].unit for part in terms[term]} | {one.name: one.unit for one in settings(place, term)}
+        for part, size in {**terms[term], **shaped[term]}.items():
+            key = _key(place, term, part)
+            interval = selection.told(key) if key in selection.intervals else None
+            sizes.append({"parameter": parameter(term, part), "unit": units[part], "size": size, "interval": interval})
     form = in_words(place, terms, shaped)
     effects = _beside(selection, known, PLACES[place].port, ours)
     share, held_out = np.add(_removed(selection, ours), _removed(selection, [effect.name for effect in effects])).tolist()
@@ -168,7 +176,7 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(
         name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, turn.is_large,
-        beside=tuple(effects),
+        beside=tuple(effects), sizes=tuple(sizes),
     )  # fmt: skip
 
 

@@ -10,7 +10,7 @@ from .places import FORCE, PLACES, expression, parameter, scale, settings
 from .terms import AXLES, CLOSE, LINEAR, PERIOD, WHEELS, Term
 
 WIDTH = 3.0
-"""Times its estimate that a factor which was found may plausibly be."""
+"""Times the largest estimate of its term that a factor which was found may plausibly be."""
 
 Factors = Mapping[str, Mapping[str, float]]
 """Factor of each term for each part of the car."""
@@ -95,9 +95,11 @@ def _written(place: str, key: str, factors: Mapping[str, float], values: Mapping
     """A term with its factors by part of the car, and the ``values`` of what shapes it."""
     term, one = PLACES[place].terms[key], scale(place, key)
     parameters, names = [], []
+    # Of cosine and sine, or front and rear, one may be nearly nil, and then be anything up to the size of the others.
+    largest = max((abs(factors[part]) for part in term.parts if part in factors), default=0.0)
+    limit = float(f"{WIDTH * largest if largest else PLACES[place].strongest / one:.3g}")
     for part in term.parts:
         typical = float(factors.get(part, FORCE / one))
-        limit = float(f"{WIDTH * abs(typical) if factors.get(part) else PLACES[place].strongest / one:.3g}")
         of_turn = f", cosine and sine of {term.turn}" if term.turn else ""
         meaning = f"factor of {term.expression}{of_turn}" + (f", {part}" if part else "")
         names.append(parameter(key, part))

@@ -134,8 +134,9 @@ def swinging(base: str, typical: float, expression: str, unit: str, result: str,
 PERIOD = "period"
 """What the setting is called that says after which way or time a term comes back."""
 
-CLOSE = 0.002
-"""Share of its value by which such a period may plausibly be another: over a kilometre that is a phase of its own already."""
+CLOSE = 2e-4
+"""Share of its value by which such a period may plausibly be another: over a few kilometres that is a phase of its own already, and starts
+farther off end beside it."""
 
 
 def turning(often: int, expression: str = "1.0", unit: str = "N") -> Term:

@@ -15,8 +15,8 @@ from ..study import Diagnosis
 
 NEXT = {
     "named": "Switch on what is missing, effects: [{keys}] in config/study.yaml, and compare again. If enough is left then, diagnose again.",
-    "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; drive what would tell "
-    "them apart.",
+    "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; then another in its place. Keep the "
+    "one with which the error ladder is lowest on drives held out; drive what would tell them apart.",
     "nothing": "Nothing is to be switched on.",
     "suspect": "Put the data right first, then diagnose again.",
 }

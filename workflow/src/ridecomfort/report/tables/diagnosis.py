@@ -122,6 +122,13 @@ def missing_effects(found: Diagnosis) -> Table:
                 (words(effect["name"]), words(size.get("parameter", "")), unit(size.get("unit", "")), size.get("size"), lower, upper,
                  plausible, *(of_all if number == 0 else (*(None,) * 4, "")))
             )  # fmt: skip
+    proposal = found.verdict.get("proposal") or {}
+    if proposal.get("form"):
+        breaks.append(len(rows))
+        for number, size in enumerate(proposal["sizes"]):
+            name, of_form = (f"{words(proposal['name'])} (proposed form)", proposal["p_value"]) if number == 0 else ("", None)
+            told = (words(size["parameter"]), unit(size["unit"]), size["size"], *(size["interval"] or (None, None)))
+            rows.append((name, *told, "" if size["interval"] else "held", of_form, *(None,) * 3, ""))
     if not rows:
         beside = "" if found.model == BASE else f" beside {found.model.replace(JOIN, ', ').replace('_', ' ')}"
         rows.append((f"none{beside}", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
@@ -133,9 +140,10 @@ def missing_effects(found: Diagnosis) -> Table:
         "study calibrates anew, site by site. They are of all sizes of an effect together and stand beside its first. Absorbed: "
         "share of the effect's response that calibration can take up, and so hide. What only shapes an effect (a frequency, a place) is fitted "
         "where the drives asked for another value, else held at its typical one or the best of a few.",
-        "Believe these intervals before those of calibrated.md, which hold the rest of the vehicle and rest on one site: what is uncertain of "
-        "it counts here, and so does another effect that the drives leave open. May be nil: the interval of this size alone holds nil; the "
-        "effect is named for what all its sizes do together.",
+        "Of two intervals believe the wider: what is uncertain of the rest of the vehicle counts here, and so does another effect that the drives "
+        "leave open; calibrated.md holds these and rests on one site, but fits what only shapes an effect, which may be held here. Where the "
+        "two sizes are farther apart than either tells, the effect may stand in for another. May be nil: the interval of this size alone holds "
+        "nil; the effect is named for what all its sizes do together.",
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
