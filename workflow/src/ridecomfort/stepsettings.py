@@ -62,8 +62,8 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
         case "compared":
             return {"model": model, "sites": _shown(study, study.measured)}
         case "diagnosed":
-            said_of = {"sites": _shown(study, study.diagnosed), "diagnosed": study.diagnosed, "switched_on": study.switched_on}
-            return {"model": model, **said_of, "scored": False}
+            loop = {"diagnosed": study.diagnosed, "scored": False, "switched_on": study.switched_on}
+            return {"model": model, "sites": _shown(study, study.diagnosed), **loop}
         case "standin_score":
             known = {"effects": list(study.effects(model)), "effects_folder": chosen["effects_folder"]}
             return {"model": model, "sites": study.diagnosed, **known}

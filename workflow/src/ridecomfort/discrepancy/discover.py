@@ -139,7 +139,8 @@ def discovered(
         rung = replace(rung, experiment=rung.experiment.looking_for([*known, *terms], folder))
         selection = search(
             rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
-            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed, known=heard_as(line, float(rung.experiment.vehicle["tyre_radius"]) if line else 1.0),
+            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed,
+            known=heard_as(line, float(rung.experiment.vehicle["tyre_radius"])),
         )  # fmt: skip
     evidence = dataset(rung.experiment, selection)
     return replace(proposed(replace(selection, probed={}), name, known), evidence=evidence)  # columns of all terms are large
@@ -155,18 +156,13 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     needed = [name for name in ours if name not in selection.needless]
     if not needed:
         return Discovery(name, "", "", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
-    place, terms, shaped, sizes = _place(ours[0]), {}, {}, []
+    place, terms, shaped = _place(ours[0]), {}, {}
     for accepted in needed:
         term = accepted.partition(":")[2]
         keys = {part: _key(place, term, part) for part in PLACES[place].terms[term].parts}
         terms[term] = {part: selection.final.values[key] for part, key in keys.items() if key in selection.final.values}
         own = {setting.name: setting.typical for setting in settings(place, term)}
         shaped[term] = {name: selection.final.values.get(_key(place, term, name), typical) for name, typical in own.items()}
-        units = {part: PLACES[place].terms[term].unit for part in terms[term]} | {one.name: one.unit for one in settings(place, term)}
-        for part, size in {**terms[term], **shaped[term]}.items():
-            key = _key(place, term, part)
-            interval = selection.told(key) if key in selection.intervals else None
-            sizes.append({"parameter": parameter(term, part), "unit": units[part], "size": size, "interval": interval})
     form = in_words(place, terms, shaped)
     effects = _beside(selection, known, PLACES[place].port, ours)
     share, held_out = np.add(_removed(selection, ours), _removed(selection, [effect.name for effect in effects])).tolist()
@@ -176,8 +172,19 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(
         name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, turn.is_large,
-        beside=tuple(effects), sizes=tuple(sizes),
+        beside=tuple(effects), sizes=tuple(size for term in terms for size in _told(selection, place, term, {**terms[term], **shaped[term]})),
     )  # fmt: skip
+
+
+def _told(selection: Selection, place: str, term: str, values: Mapping[str, float]) -> list[dict]:
+    """``Discovery.sizes`` of a term with these ``values`` of its factors and settings."""
+    units = {setting.name: setting.unit for setting in settings(place, term)}
+    told = []
+    for part, size in values.items():
+        key, unit = _key(place, term, part), units.get(part, PLACES[place].terms[term].unit)
+        interval = selection.told(key) if key in selection.intervals else None
+        told.append({"parameter": parameter(term, part), "unit": unit, "size": size, "interval": interval})
+    return told
 
 
 def _beside(selection: Selection, known: Sequence[Candidate], port: str, terms: Sequence[str]) -> list[Named]:

@@ -59,8 +59,8 @@ def error_ladder(study: Difference) -> Table:
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
         "much as there was to explain of its own error. The lowest floor is the least that any rung shown reaches, so it lies below that "
-        "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it, a signal perhaps nothing, which does not count among all then. The diagnosis tells "
-        "other shares: it takes all sites together and aligns their drives for every model.",
+        "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it, a signal perhaps nothing, "
+        "which does not count among all then. The diagnosis tells other shares: it takes all sites together and aligns their drives for every model.",
         *_of_reference(study),
         "; ".join(floors) + ".",
         *(f"{catalogue.label(site)}: {words}." for site, words in (*rungs.risen(titled), *rungs.disagreeing(titled))),
