@@ -126,9 +126,9 @@ def missing_effects(found: Diagnosis) -> Table:
     if proposal.get("form"):
         breaks.append(len(rows))
         for number, size in enumerate(proposal["sizes"]):
-            name, of_form = (f"{words(proposal['name'])} (proposed form)", proposal["p_value"]) if number == 0 else ("", None)
             told = (words(size["parameter"]), unit(size["unit"]), size["size"], *(size["interval"] or (None, None)))
-            rows.append((name, *told, "" if size["interval"] else "held", of_form, *(None,) * 3, ""))
+            of_form = proposal["p_value"] if number == 0 else None
+            rows.append((f"{words(proposal['name'])} (proposed form)", *told, "" if size["interval"] else "held", of_form, *(None,) * 3, ""))
     if not rows:
         beside = "" if found.model == BASE else f" beside {found.model.replace(JOIN, ', ').replace('_', ' ')}"
         rows.append((f"none{beside}", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
