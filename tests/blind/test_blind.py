@@ -81,6 +81,7 @@ def test_a_record_that_is_wrong_is_called_suspect(car_file, spoilt, reason):
     assert verdict.verdict == "suspect" and any(reason in words for words in verdict.reasons)
 
 
+@pytest.mark.long
 def test_a_trial_becomes_a_row_and_rows_a_table(car_file):
     number = next(k for k in range(40) if kinds.draw("clean", 3, k).hidden == ("damper_knee",) and kinds.draw("clean", 3, k).kappa >= 0.3)
     row = one(("clean", 3, number))

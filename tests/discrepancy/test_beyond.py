@@ -37,6 +37,7 @@ def holds(one, truth):
     return one.interval[0] < truth < one.interval[1] and not one.bounds[0] < one.value < one.bounds[1]
 
 
+@pytest.mark.long
 def test_a_bar_twice_as_stiff_and_an_inertia_of_seven_tenths_are_told_with_what_they_explain(car):
     wrong = {"anti_roll_stiffness_rear": 2.0, "roll_inertia": 0.7}
     told, _ = beyond.beyond_bounds(selected(measured(car, wrong), car))
@@ -57,6 +58,7 @@ def test_a_damper_that_ends_at_its_bound_is_told_where_nothing_is_missing(car):
     assert damper.words() == "damping_front at 2415 N s/m, its upper bound"
 
 
+@pytest.mark.long
 def test_beside_an_effect_that_is_named_the_verdict_tells_a_damper_at_its_bound(car):
     hidden = {"wheel_imbalance": library.find()["wheel_imbalance"].effect.values()}
     _, verdict, _ = diagnose(measured(car, {"damping_front": 1.17}, hidden), car, among=["wheel_imbalance"], workers=1)

@@ -37,6 +37,7 @@ def weakly_held_out(seed, is_there=True):
     return next(trial for trial in rounds(model, 1)[0].trials if trial.name == "effect_2")
 
 
+@pytest.mark.long
 def test_where_the_held_out_drive_is_too_weak_to_decide_a_fall_beyond_chance_confirms_what_the_others_leave_no_doubt_of():
     trials = [weakly_held_out(seed) for seed in range(1, 13)]
     accepted = [trial for trial in trials if not trial.objection]

@@ -61,6 +61,7 @@ def test_what_the_true_effect_would_show_lies_within_the_errors_in_the_curves_of
     assert float((off < 3.0).sum() / off.notnull().sum()) > 0.8
 
 
+@pytest.mark.long
 def test_stiffness_that_grows_less_than_the_load_shows_as_a_falling_line(car):
     found = drawn(car, "cornering_degression")
     curve = found.sel(seen="tyre load")

@@ -37,6 +37,7 @@ COLUMNS = {
 }
 
 
+@pytest.mark.long
 def test_a_car_of_others_is_calibrated_and_compared(project, shared):
     folder = resource(shared, "realcar")
     drive = {
