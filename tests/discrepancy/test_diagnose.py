@@ -177,10 +177,18 @@ def test_names_that_begin_a_reason_are_written_as_they_are():
 
 
 def test_what_is_left_is_said_in_percent_of_the_power_of_each_signal():
-    found = with_remainder(OUTSIDE, {"a_x": 0.004, "a_y": 0.012, "a_z": 0.0004, "yaw_rate": 0.25, "roll_rate": 0.002})
+    left = {"a_x": 0.004, "a_y": 0.012, "a_z": 0.0004, "yaw_rate": 0.25, "roll_rate": 0.002}
+    found = with_remainder(OUTSIDE, left, left)
     assert found.reasons[-1] == "left above the floor: 25.0 % of the power of yaw_rate, 1.2 % of the power of a_y and 0.4 % of the power of a_x"
     assert found.json()["remainder"]["roll_rate"] == 0.002
-    assert "less than 0.1 % of the power of any signal" in with_remainder(OUTSIDE, {"a_x": 0.0}).reasons[-1]
+    assert "less than 0.1 % of the power of any signal" in with_remainder(OUTSIDE, {"a_x": 0.0}, {}).reasons[-1]
+
+
+@pytest.mark.parametrize(("at_first", "is_little"), [(0.004, True), (0.4, False)])
+def test_where_there_was_little_to_explain_the_first_sentence_says_how_little(at_first, is_little):
+    found = with_remainder(replace(NOTHING, verdict="named", effects=(FOUND,)), {"a_x": 0.001}, {"a_x": 0.001, "a_z": at_first})
+    assert ("It is little: no signal has more than 0.4 % of its power above the floor." in found.words()) == is_little
+    assert "It is little" not in with_remainder(NOTHING, {}, {"a_z": at_first}).words()
 
 
 def test_parameters_beyond_their_bounds_are_a_reason_more():

@@ -124,6 +124,13 @@ def test_where_little_is_found_it_is_said_whether_what_is_left_matters(left, sai
     assert said in rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
 
 
+@pytest.mark.parametrize(("verdict", "at_first", "may_end"), [("named", 0.004, True), ("outside", 0.004, True), ("named", 0.4, False), ("suspect", 0.004, False)])
+def test_where_there_was_little_to_explain_the_loop_may_end_before_an_effect_is_switched_on(verdict, at_first, may_end):
+    told = rows(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": verdict, "at_first": {"a_z": at_first}}))["verdict"])
+    assert told[-1]["in_words"].startswith("The loop may end here. Else: ") == may_end
+    assert ("no signal has more than 0.4 % of its power above the floor" in told[0]["in_words"]) == may_end
+
+
 def test_where_no_form_is_found_either_it_is_said_whether_what_is_left_matters():
     for left, end in ((0.004, "the loop may end here"), (0.08, "is worth a look at where it lies")):
         found = {**made_up.nothing(), "verdict": "outside", "remainder": {"a_z": 0.002, "a_x": left}}

@@ -84,7 +84,7 @@ def ranked(
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
-    verdict = with_remainder(verdict, _remainder(selection))
+    verdict = with_remainder(verdict, _left_by(selection, -1), _left_by(selection, 0))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
     line = turns.left_by(selection)
@@ -121,10 +121,10 @@ def _is_material(selection: Selection) -> bool:
     return is_material(selection.frame, selection.states[-1].fit.residuals, _measured(selection.frame))
 
 
-def _remainder(selection: Selection) -> dict[str, float]:
-    """Share of the measured power of every signal that the last model leaves above the floor, of what is judged."""
+def _left_by(selection: Selection, number: int) -> dict[str, float]:
+    """Share of the measured power of every signal that a model of this number leaves above the floor, of what is judged."""
     frame = selection.frame
-    left = np.maximum(selection.states[-1].squares - selection.floor_squares, 0.0).mean(axis=0)
+    left = np.maximum(selection.states[number].squares - selection.floor_squares, 0.0).mean(axis=0)
     power = floor.squares(frame.experiment, _measured(frame)).mean(axis=0)
     return {name: float(own) for name, own in zip(frame.experiment.channels, left / np.where(power > 0, power, np.inf))}
 

@@ -24,6 +24,12 @@ UNNAMED = "Nothing is missing that would have a name; what is left above the flo
 SMALL = 0.02
 """Share of a signal's power; an error below it changes its rms by a hundredth at most."""
 
+IS_MISSING = ("named", "cluster", "outside")
+"""Verdicts that something is..."""
+
+LITTLE_TO_EXPLAIN = " It is little: no signal has more than {most:.1f} % of its power above the floor."
+"""...and what they say where that is SMALL."""
+
 
 @dataclass(frozen=True)
 class Named:
@@ -76,6 +82,8 @@ class Verdict:
     """Whether an error of the measurement would help beside the effects, which stands in for something else."""
     remainder: Mapping[str, float] = field(default_factory=dict)
     """Share of the power of each signal, of what is judged, that the last model leaves above the floor."""
+    at_first: Mapping[str, float] = field(default_factory=dict)
+    """The same of the model that was diagnosed, before anything was found."""
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
@@ -85,14 +93,16 @@ class Verdict:
         """The verdict as a few sentences."""
         told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
         names = [" or ".join((effect.name, *effect.like)) for effect in told]
-        return " ".join([first_sentence(self.verdict, names, self.remainder), *map(sentence, self.reasons)])
+        return " ".join([first_sentence(self.verdict, names, self.remainder, self.at_first), *map(sentence, self.reasons)])
 
 
-def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, float]) -> str:
-    """The sentence that a verdict begins with; ``remainder``: share of the power of each signal that is left."""
+def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, float], at_first: Mapping[str, float]) -> str:
+    """What a verdict begins with; ``remainder``: share of the power of each signal that is left, ``at_first``: that was before anything was
+    found."""
     if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
         return UNNAMED
-    return SAID[kind].format(names=", ".join(names) or "no effect is named")
+    said, most = SAID[kind].format(names=", ".join(names) or "no effect is named"), max(at_first.values(), default=1.0)
+    return said + LITTLE_TO_EXPLAIN.format(most=100 * most) if kind in IS_MISSING and most < SMALL else said
 
 
 def sentence(reason: str) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...discrepancy.balance import LITTLE
 from ...discrepancy.confirm import EQUAL
-from ...discrepancy.verdict import SMALL
+from ...discrepancy.verdict import IS_MISSING, SMALL
 from ...effects import library
 from ...schema import as_written
 from ...vehicle.parameters import PARAMETERS
@@ -34,6 +34,9 @@ GO_ON = (
 NO_FORM = "No form was found that would take the error away. "
 
 LITTLE_FOUND = "Nothing that was found explains much. "
+
+MAY_END = "The loop may end here. Else: "
+"""What comes before advice where all that there was to explain is little."""
 
 END = "What is left is no more than {most:.1f} % of the power of any signal: the loop may end here."
 
@@ -63,10 +66,12 @@ def next_step(found: Diagnosis) -> str:
     other = next((word for word in ("linear", "cubic") if f"interpolation: {word})" in found.ranking.attrs.get("road", "")), "")
     before = ROAD_FIRST.format(other=other) if other and said["verdict"] != "suspect" else ""
     named = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
-    if said["verdict"] == "outside":
-        return before + _outside(found, proposal, own, named)
     if said["verdict"] == "nothing":
         return f"{before}{NEXT['nothing']} {_left(said)}"
+    if said["verdict"] == "outside":
+        outside = _outside(found, proposal, own, named)
+        return before + (_may_end(said) if "effects: [" in outside else "") + outside
+    before += _may_end(said)
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
     return before + NEXT[said["verdict"]].format(keys=named) + caution
 
@@ -99,6 +104,12 @@ def _farther(one: Mapping) -> tuple[float, float]:
     """Bounds to calibrate a parameter in: a value at the end of the wider ones that were tried wants to go on, as far as any vehicle does."""
     known = PARAMETERS[one["parameter"]]
     return max(min(one["wider"][0], 0.5 * one["value"]), known.lower), min(max(one["wider"][1], 2.0 * one["value"]), known.upper)
+
+
+def _may_end(verdict: Mapping) -> str:
+    """What is said before an effect is to be switched on that can explain no more than little."""
+    most = max((verdict.get("at_first") or {}).values(), default=1.0)
+    return MAY_END if verdict["verdict"] in IS_MISSING and most < SMALL else ""
 
 
 def _left(verdict: Mapping) -> str:

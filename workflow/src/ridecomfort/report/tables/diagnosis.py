@@ -59,7 +59,7 @@ def verdict(found: Diagnosis) -> Table:
     told = [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
     names = [_alike(effect) for effect in told]
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
-    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, said.get("remainder") or {})
+    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, said.get("remainder") or {}, said.get("at_first") or {})
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [("reason", sentence(reason)) for reason in said["reasons"]]
     comes_first = bool(beyond) and not beyond.get("is_instead")
