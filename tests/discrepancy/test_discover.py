@@ -39,13 +39,12 @@ def test_every_term_of_every_place_can_be_written_as_an_effect(place, wheel, tmp
     for name, term in where.terms.items():
         entry = found[f"found_{name}"]
         own = {WHOLE: {"": 1.0}, AXLES: {AXLES[wheel // 2]: 1.0}}.get(term.parts)
-        if term.parts == TURNING:
-            angle = eval(term.turn, KNOWN, seen)
-            own = {f"{WHEELS[wheel]}_cosine": cos(angle), f"{WHEELS[wheel]}_sine": sin(angle)}
         states = {state.name: 0.3 + 0.1 * k for k, state in enumerate(term.states)}
         shape = {setting.name: setting.typical + 0.1 * (not setting.typical) for setting in settings(place, name) if setting is not LINEAR}
         worth = lambda expression: eval(expression, KNOWN, seen | states | shape)
-        if term.after:
+        if term.parts == TURNING:
+            own = {f"{WHEELS[wheel]}_cosine": cos(worth(term.turn)), f"{WHEELS[wheel]}_sine": sin(worth(term.turn))}
+        elif term.after:
             own = {part: (cos if "cosine" in part else sin)(worth(term.turn)) for part in term.parts}
         before = {result: seen.get(result, 0.0) for result in where.results}
         expected = dict(before)
@@ -103,17 +102,27 @@ def test_a_period_is_written_so_that_it_holds_for_kilometres_and_is_not_calibrat
 
 
 def test_what_comes_back_is_looked_for_where_it_was_heard_and_from_its_period_on():
-    names = lambda line: {candidate.name for place in PLACES for candidate in terms_of(place, line)}
+    names = lambda line: {candidate.name for place in PLACES for candidate in terms_of(place, line, 0.31)}
     comes_back = {after: {f"{place}:{name}" for place in PLACES for name, term in PLACES[place].terms.items() if term.after == after} for after in "ms"}
     assert "body:whirling" in comes_back["m"] and "body:humming_up" in comes_back["s"]
     assert not names(None) & (comes_back["m"] | comes_back["s"])
     for unit, other in ("ms", "sm"):
         heard = Line("a_z", 0.21, unit, 1e-9, 0.002)
         assert names(heard) - names(None) == comes_back[unit] and not names(heard) & comes_back[other]
-        for candidate in (one for one in terms_of("body", heard) if one.name in comes_back[unit]):
+        for candidate in (one for one in terms_of("body", heard, 0.31) if one.name in comes_back[unit]):
             (period,) = (one for one in candidate.shaping if one.key.endswith("period"))
             assert all(shape[period.key] == 0.21 for shape in candidate.shapes)
             assert (period.lower, period.upper) == pytest.approx((0.208, 0.212))
+
+
+def test_what_was_heard_may_turn_with_the_wheels_as_often_as_it_comes_back():
+    """2 pi times 0.31 m are 1.948 m; a wheel that turns 0.9 times on them is of none of the whole numbers."""
+    heard = Line("a_z", 2.0 * pi * 0.31 / 0.9, "m", 1e-9, 0.02)
+    (own,) = (one for one in terms_of("tyre", heard, 0.31) if one.name == "tyre:often_a_turn")
+    (order,) = own.shaping
+    assert order.neutral == pytest.approx(0.9) and order.upper - order.lower == pytest.approx(2 * 0.9 * 0.02 / heard.period)
+    assert [shape[order.key] for shape in own.shapes] == pytest.approx([0.9, (0.9 * order.lower) ** 0.5, (0.9 * order.upper) ** 0.5])
+    assert not any(one.name.startswith("tyre:often") for one in terms_of("tyre", replace(heard, unit="s"), 0.31))
 
 
 def test_what_was_heard_is_there_as_anything_that_comes_back_so():

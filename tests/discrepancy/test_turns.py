@@ -68,6 +68,22 @@ def test_repeats_that_have_no_error_in_common_hear_what_one_drive_would_not():
     assert heard >= 15 and alone <= 10
 
 
+def test_what_a_held_out_drive_hears_too_is_heard_where_the_fitted_ones_alone_are_not_sure():
+    """Unless both have it from one road, whose own peaks they share."""
+    drives = lambda seed, line: [frame([22.0, 22.3, 21.8], rng := np.random.default_rng([seed, 4]), line), frame([16.0], rng, 2.0 * line)]
+    fitted = [turns.line(*drives(seed, 0.14)[0], None, {}) is not None for seed in range(40)]
+    both = [turns.line(*drives(seed, 0.14)[0], *drives(seed, 0.14)[1]) is not None for seed in range(40)]
+    assert 10 < sum(fitted) < 30 and sum(both) >= sum(fitted) + 8
+    assert not any(turns.line(*drives(seed, 0.0)[0], *drives(seed, 0.0)[1]) for seed in range(40))
+
+
+@pytest.mark.parametrize(("coherence", "expected"), [(0.0, 30.0), (0.1, 23.5), (0.4, 20.0), (0.99, 20.0)])
+def test_what_two_drives_have_from_one_road_counts_once(coherence, expected):
+    """20 and 10 e-foldings: of independent drives their sum, of one cause the one of the fitted ones."""
+    assert turns._together(20.0, 10.0, coherence) == pytest.approx(expected, rel=0.05)
+    assert turns._together(20.0, 20.0, 0.999) == pytest.approx(20.0, rel=0.01)
+
+
 def test_a_hum_is_told_from_what_turns_by_the_drive_at_another_speed():
     """One of 20 Hz comes back every 1.1 m at one speed, and every 0.8 m at another."""
     rng = np.random.default_rng(2)

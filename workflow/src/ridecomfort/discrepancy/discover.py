@@ -31,7 +31,7 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection, shares
-from .terms import LINEAR, PERIOD, Term
+from .terms import LINEAR, ORDER, PERIOD, Term
 from .turns import Line
 from .verdict import Named, plain
 
@@ -135,12 +135,13 @@ def discovered(
     unknown = {_name(place, term): (place, term) for place in PLACES for term in _asked_for(place, line)}
     text = "A force that is looked for."
     with beside(effects_folder, {own: effect_source(own, place, {term: {}}, text) for own, (place, term) in unknown.items()}) as folder:
-        terms = [candidate for place in PLACES for candidate in terms_of(place, line)]
+        radius = float(rung.experiment.vehicle["tyre_radius"])
+        terms = [candidate for place in PLACES for candidate in terms_of(place, line, radius)]
         rung = replace(rung, experiment=rung.experiment.looking_for([*known, *terms], folder))
         selection = search(
             rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
             say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed,
-            known=heard_as(line, float(rung.experiment.vehicle["tyre_radius"])),
+            known=heard_as(line, radius),
         )  # fmt: skip
     evidence = dataset(rung.experiment, selection)
     return replace(proposed(replace(selection, probed={}), name, known), evidence=evidence)  # columns of all terms are large
@@ -236,30 +237,32 @@ def heard_as(line: Line | None, radius: float) -> dict[str, float]:
     made white by its own power, with all that goes along with it in other signals, so that the score test hardly sees it."""
     if line is None:
         return {}
-    turns = 2.0 * np.pi * radius / line.period if line.unit == "m" else 0.0
+    turns = line.turns(radius) if line.unit == "m" else 0.0
     comes_so = lambda term: bool(term.after) or bool(term.often) and abs(turns / term.often - 1.0) < ROLLING
     asked = {place: _asked_for(place, line) for place in PLACES}
     return {f"{place}:{name}": line.p_value for place, terms in asked.items() for name, term in terms.items() if comes_so(term)}
 
 
-def _heard(setting: Parameter, line: Line | None) -> Parameter:
-    """What shapes a term, from the period that was heard on if it is one."""
-    if setting.name != PERIOD or line is None:
+def _heard(setting: Parameter, line: Line | None, radius: float) -> Parameter:
+    """What shapes a term, from the period that was heard on if it is one, or what that is in turns of wheels of this ``radius`` in m."""
+    if setting.name not in (PERIOD, ORDER) or line is None:
         return setting
-    plausible = (line.period - line.width, line.period + line.width)
-    return replace(setting, neutral=line.period, typical=line.period, plausible=plausible)
+    value = line.period if setting.name == PERIOD else line.turns(radius)
+    width = value * line.width / line.period
+    return replace(setting, neutral=value, typical=value, plausible=(value - width, value + width))
 
 
-def terms_of(place: str, line: Line | None) -> tuple[Candidate, ...]:
+def terms_of(place: str, line: Line | None, radius: float) -> tuple[Candidate, ...]:
     """Every term of a place as a candidate: a factor for each part of the car, of either sign, and what shapes it; with those that come back
-    as the ``line`` that was heard does, if any."""
+    as the ``line`` that was heard does, if any, in a car on wheels of this ``radius`` in m."""
     candidates, strongest = [], PLACES[place].strongest
     for name, term in _asked_for(place, line).items():
         one = scale(place, name)
-        own = {_key(place, name, setting.name): _heard(setting, line) for setting in settings(place, name)}
+        own = {_key(place, name, setting.name): _heard(setting, line, radius) for setting in settings(place, name)}
         typical = {key: setting.typical for key, setting in own.items()}
-        # A linear part alone is what calibration changes: it is no other shape to try.
-        varied = {key: setting for key, setting in own.items() if setting is not LINEAR and is_varied(setting)}
+        # A linear part alone is what calibration changes: it is no other shape to try. Bends blur an order that is heard along the road.
+        is_tried = lambda setting: setting.name == ORDER or setting is not LINEAR and is_varied(setting)
+        varied = {key: setting for key, setting in own.items() if is_tried(setting)}
         shapes = [typical, *({**typical, key: towards(setting, end)} for key, setting in varied.items() for end in (0, 1))]
         shaping = tuple(shaping_size(setting, key) for key, setting in own.items())
         sizes = tuple(

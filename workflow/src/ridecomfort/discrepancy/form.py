@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from .places import FORCE, PLACES, expression, parameter, scale, settings
-from .terms import AXLES, CLOSE, LINEAR, PERIOD, WHEELS, Term
+from .terms import AXLES, CLOSE, FIRM, LINEAR, WHEELS, Term
 
 WIDTH = 3.0
 """Times the largest estimate of its term that a factor which was found may plausibly be."""
@@ -112,8 +112,8 @@ def _written(place: str, key: str, factors: Mapping[str, float], values: Mapping
             own[setting.name] = parameter(key, setting.name)
             value = values.get(setting.name, setting.typical)
             names.append(own[setting.name])
-            plausible = (value * (1 - CLOSE), value * (1 + CLOSE)) if setting.name == PERIOD else setting.plausible
-            written = f"{value:.{8 if setting.name == PERIOD else 6}g}"
+            plausible = (value * (1 - CLOSE), value * (1 + CLOSE)) if setting.name in FIRM else setting.plausible
+            written = f"{value:.{8 if setting.name in FIRM else 6}g}"
             parameters.append(_parameter(names[-1], setting.unit, written, written, plausible, setting.meaning))
     lines = []
     for result, parts in term.by_result().items():

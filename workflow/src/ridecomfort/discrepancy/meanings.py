@@ -50,6 +50,8 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "once_a_turn_by_spin": "an unbalanced wheel",
         "twice_a_turn": "an oval wheel or tyre",
         "thrice_a_turn": "a wheel or tyre with three lobes",
+        "often_a_turn": "a tyre worn to lobes, or a wheel out of round that rolls farther in a turn than it is thought to",
+        "often_a_turn_by_spin": "what creeps round in a tyre, or an unbalanced wheel that rolls farther in a turn than it is thought to",
         "sliding_direction": "friction that turns over a way: the tread on the road, filled rubber",
         "slow_velocity": "rubber that relaxes; soft ground",
     },

@@ -12,7 +12,7 @@ import numpy as np
 from ..effects.contract import Parameter
 from .terms import (
     ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, below, coming_back, on_spring, shape_setting,
-    sliding, swinging, turning,
+    sliding, swinging, turning, turning_as_heard,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -111,6 +111,8 @@ PLACES: Mapping[str, Place] = {
             "once_a_turn_by_spin": turning(1, "spin**2", "kg m"),
             "twice_a_turn": turning(2),
             "thrice_a_turn": turning(3),
+            "often_a_turn": turning_as_heard(),
+            "often_a_turn_by_spin": turning_as_heard("spin**2", "kg m"),
             "sliding_direction": sliding("strain", "N", "velocity"),
             "slow_velocity": below("slow", "velocity"),
         },

@@ -144,6 +144,20 @@ def turning(often: int, expression: str = "1.0", unit: str = "N") -> Term:
     return Term(expression, unit, parts=TURNING, turn="rotation" if often == 1 else f"{often:.1f} * rotation", often=often)
 
 
+ORDER = "order"
+"""What the setting is called that says how often a term comes in a turn of a wheel."""
+
+FIRM = (PERIOD, ORDER)
+"""Settings that are heard on, not looked for, and known to CLOSE."""
+
+
+def turning_as_heard(expression: str = "1.0", unit: str = "N") -> Term:
+    """What comes as often in a turn of each wheel as was heard, from an angle of its own: no whole number where something creeps round in a
+    tyre, or where wheels roll farther in a turn than they are thought to."""
+    order = shape_setting(ORDER, "1", 1.0, 0.1, 25.0, "how often it comes in a turn of the wheel")
+    return Term(expression, unit, parts=TURNING, settings=(order,), turn=f"{ORDER} * rotation", after="m")
+
+
 AT = {
     "place": shape_setting("place", "m", 0.0, -2.0, 2.0, "how far ahead of the centre of gravity it acts"),
     "height": shape_setting("height", "m", 0.0, -0.8, 0.8, "how far above the centre of gravity it acts"),

@@ -26,6 +26,9 @@ AROUND = 101
 """Bins of the spectrum whose median a line is held against."""
 
 
+LOBE, FEW = 3, 12
+"""Bins to either side of a line that its own power reaches to, and bins over which spectra of drives at two speeds are held together."""
+
 SURELY = 3.0
 """Standard errors that are added to the share of an error that repeats have in common."""
 
@@ -33,7 +36,7 @@ SURELY = 3.0
 @dataclass(frozen=True)
 class Line:
     """What comes back every ``period`` in a ``channel``, in ``unit`` m of way or s of time; ``p_value``: the probability that
-    any line of noise is so strong on the fitted records; ``width``: by how much a period may be another and look alike."""
+    any line of noise is so strong on the fitted records, and there on those held out if there are any; ``width``: by how much a period may be another and look alike."""
 
     channel: str
     period: float
@@ -41,12 +44,16 @@ class Line:
     p_value: float
     width: float = 0.0
 
+    def turns(self, radius: float) -> float:
+        """How often it comes in a turn of wheels of this ``radius`` in m, if after a way."""
+        return 2.0 * np.pi * radius / self.period
+
     def words(self, radius: float) -> str:
         """The line in words; ``radius`` of the wheels in m."""
         if self.unit == "s":
             how, what = f"s at any speed, {1.0 / self.period:.3g} Hz", "a machine that runs evenly, or the instrument hums"
         else:
-            how = f"m of way, {2.0 * np.pi * radius / self.period:.2f} times a turn of the wheels"
+            how = f"m of way, {self.turns(radius):.2f} times a turn of the wheels"
             what = "something turns with the wheels, or the road repeats itself"
         return f"an error of {self.channel} comes back every {self.period:.3g} {how} (p = {self.p_value:.1g}): {what}"
 
@@ -84,16 +91,51 @@ def line(
         if best[0] > 0:
             found.append((*best, unit))
     for surprise, channel, often, unit in sorted(found, reverse=True):
-        p_value = float(np.clip(count * np.exp(-surprise), np.finfo(float).tiny, 1.0))
-        if p_value > SURE:
+        if count * np.exp(-surprise) > LEVEL:
             return None
         held_out = [] if check_frame is None else [_at(check_frame, i, check, channel, often, unit) for i in check_frame.indices]
         held_out = [own for own in held_out if np.isfinite(own)]
-        mean = float(np.mean(held_out)) if held_out else float("nan")
-        if not held_out or 3.0 * np.exp(-mean) <= LEVEL:  # the strongest of three bins
+        if held_out:
+            again = float(np.mean(held_out)) - np.log(3.0)  # the strongest of three bins
+            if np.exp(-again) > LEVEL:
+                continue
+            surprise = _together(surprise, again, _coherence(frame, residuals, check_frame, check, channel, often, unit))
+        p_value = float(np.clip(count * np.exp(-surprise), np.finfo(float).tiny, 1.0))
+        if p_value <= SURE:
             often, width = _nearer(frame, residuals, channel, often, unit)
             return Line(channels[channel], 1.0 / often, unit, p_value, width / often**2)
     return None
+
+
+def _together(fitted: float, held_out: float, coherence: float) -> float:
+    """Negative logarithm of the probability that noise is so strong on fitted and on held-out drives, from those of either alone, where this
+    share of the one follows from the other: one road makes peaks in both."""
+    less, more = sorted((fitted, held_out))
+    if less <= coherence * more:
+        return fitted
+    return max(fitted, (less + more - 2.0 * np.sqrt(coherence * less * more)) / (1.0 - coherence))
+
+
+def _coherence(
+    frame: Frame, residuals: Mapping[int, np.ndarray], check_frame: Frame, check: Mapping[int, np.ndarray], channel: int, often: float, unit: str
+) -> float:
+    """Share of the power around what comes back so often that a held-out drive has in common with a fitted one of its site, the largest of
+    all pairs; the bins of a few at a time, over which what another speed does to their phases is alike."""
+    found = [0.0]
+    for i in frame.indices:
+        for j in check_frame.indices:
+            pair = frame.experiment.records[i], check_frame.experiment.records[j]
+            if pair[0].site != pair[1].site:
+                continue
+            white = [own[[channel]] for own in (_white(frame, i, residuals), _white(check_frame, j, check))]
+            every, bins = _spectra(pair, white, unit)
+            near = np.abs(np.arange(every.size) - np.searchsorted(every, often))
+            kept = [own[0, (near > LOBE) & (near <= AROUND // 2)] for own in bins]
+            one, other = (own[: own.size // FEW * FEW].reshape(-1, FEW) for own in kept)
+            powers = [np.sum(np.abs(own) ** 2, axis=1) for own in (one, other)]
+            shared = np.abs(np.sum(one * other.conj(), axis=1)) / np.maximum(np.sqrt(np.prod(powers, axis=0)), np.finfo(float).tiny)
+            found.append(float(np.mean(shared) ** 2) if shared.size else 1.0)
+    return max(found)
 
 
 def _nearer(frame: Frame, residuals: Mapping[int, np.ndarray], channel: int, often: float, unit: str) -> tuple[float, float]:
@@ -160,19 +202,26 @@ def _strength(records: Sequence[Record], white: Sequence[np.ndarray], unit: str)
     """How often (1/m or 1/s, by ``unit``); the power that comes back so often against that around it, mean over records, and the share of
     the power around it that records have in common, both (channel, bin); over the way, or the time from the start, that these have in
     common. No bins where that is too short."""
+    often, bins = _spectra(records, white, unit)
+    if not often.size:
+        return often, np.empty((len(white[0]), 0)), np.empty((len(white[0]), 0))
+    power = np.mean([np.abs(own) ** 2 for own in bins], axis=0)
+    around = median_filter(power, size=(1, AROUND), mode="nearest") / np.log(2.0)
+    return often, power / np.where(around > 0, around, np.inf), _common(bins, power)
+
+
+def _spectra(records: Sequence[Record], white: Sequence[np.ndarray], unit: str) -> tuple[np.ndarray, list[np.ndarray]]:
+    """How often (1/m or 1/s, by ``unit``), and the spectra (channel, bin) of these records over the way, or the time from the start, that they
+    have in common; no bins where that is too short."""
     axes = [_axis(record, unit) for record in records]
     first, last = max(axis[0] for axis in axes), min(axis[-1] for axis in axes)
     spacing = min(float(np.median(np.diff(axis))) for axis in axes)
     even = np.arange(first, last, spacing)
     if even.size < 2 * AROUND:
-        return np.empty(0), np.empty((len(white[0]), 0)), np.empty((len(white[0]), 0))
-    bins = []
-    for axis, series in zip(axes, white):
-        there = np.stack([np.interp(even, axis, row) for row in series])
-        bins.append(np.fft.rfft(there * np.hanning(even.size), axis=1))
-    power = np.mean([np.abs(own) ** 2 for own in bins], axis=0)
-    around = median_filter(power, size=(1, AROUND), mode="nearest") / np.log(2.0)
-    return np.fft.rfftfreq(even.size, spacing), power / np.where(around > 0, around, np.inf), _common(bins, power)
+        return np.empty(0), [np.empty((len(series), 0)) for series in white]
+    window = np.hanning(even.size)
+    bins = [np.fft.rfft(np.stack([np.interp(even, axis, row) for row in series]) * window, axis=1) for axis, series in zip(axes, white)]
+    return np.fft.rfftfreq(even.size, spacing), bins
 
 
 def _at(frame: Frame, index: int, residuals: Mapping[int, np.ndarray], channel: int, often: float, unit: str) -> float:
