@@ -53,7 +53,7 @@ class Line:
         if self.unit == "s":
             how, what = f"s at any speed, {1.0 / self.period:.3g} Hz", "a machine that runs evenly, or the instrument hums"
         else:
-            how = f"m of way, {self.turns(radius):.2f} times a turn of the wheels"
+            how = f"m of way, {self.turns(radius):.3g} times a turn of the wheels"
             what = "something turns with the wheels, or the road repeats itself"
         return f"an error of {self.channel} comes back every {self.period:.3g} {how} (p = {self.p_value:.1g}): {what}"
 
