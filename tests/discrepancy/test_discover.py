@@ -188,6 +188,22 @@ def test_a_strut_remembers_how_fast_it_moved_of_late(tmp_path):
     assert forces[11999] == pytest.approx(forces[9999] * exp(-1.0), rel=0.01)
 
 
+@pytest.mark.parametrize(("term", "to_its_side"), [("rebound_at_first", -0.1), ("bump_at_first", 0.1)])
+def test_a_valve_closes_in_the_course_of_a_stroke_to_one_side_and_is_open_again_at_once(term, to_its_side, tmp_path):
+    shaped = {term: {"frequency": 2.0, "linear": 0.0}}
+    (tmp_path / "found.py").write_text(effect_source("found", "strut", {term: {"front": 1000.0, "rear": 1000.0}}, "Found.", shaped))
+    entry = library.find(tmp_path)["found"]
+    closed, step, forces = 0.0, 1e-4, []
+    for velocity, lasts in ((to_its_side, 0.1), (-to_its_side, 0.1), (to_its_side, 0.01)):
+        for _ in range(round(lasts / step)):
+            force, slope = entry.act(0, 0.0, velocity, 0.0, 0.0, 0.0, 0.0, closed, **entry.effect.values())
+            closed += step * slope
+            forces.append(force)
+    assert forces[0] == pytest.approx(1000.0 * to_its_side)
+    assert forces[999] == pytest.approx(forces[0] * exp(-2.0 * pi * 2.0 * 0.1), rel=0.01)
+    assert set(forces[1000:2000]) == {0.0} and forces[2000] == pytest.approx(forces[0], rel=0.01)
+
+
 def test_a_proposal_is_told_by_its_place_what_makes_such_a_force_and_what_it_removes():
     terms = {"bump_beyond": {"front": 9000.0, "rear": 9000.0}}
     found = Discovery("discovered", "strut", "suspension", terms, {"bump_beyond": {}}, "", 0.774, 0.916, 0.0015, "", {}, None)

@@ -34,6 +34,8 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "sliding_damping": "a damper whose valves or bushes give way before it grips",
         "slow_velocity": "a damper on soft bushes, a valve that closes when quick; a Maxwell element",
         "late_velocity": "a mass on the links (inerter), a damper behind a top mount, a frequency-selective damper",
+        "bump_at_first": "a valve that opens, or closes, in the course of each compression",
+        "rebound_at_first": "a valve that opens, or closes, in the course of each rebound: a frequency-selective damper",
         "swinging_deflection": "a hydraulic bushing, an air spring with a second volume, a subframe on its mounts",
     },
     "tyre": {

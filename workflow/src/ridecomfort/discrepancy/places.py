@@ -11,7 +11,7 @@ import numpy as np
 
 from ..effects.contract import Parameter
 from .terms import (
-    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, below, coming_back, on_spring, shape_setting,
+    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back, on_spring, shape_setting,
     sliding, swinging, turning, turning_as_heard,
 )  # fmt: skip
 
@@ -90,6 +90,8 @@ PLACES: Mapping[str, Place] = {
             "sliding_damping": sliding("abs(velocity) * strain", "N s/m", "velocity"),
             "slow_velocity": below("slow", "velocity"),
             "late_velocity": below("slow - velocity"),
+            "bump_at_first": at_first("max(velocity, 0.0)", "velocity > 0.0"),
+            "rebound_at_first": at_first("min(velocity, 0.0)", "velocity < 0.0"),
             "swinging_deflection": swinging("deflection", 0.006, "deflection - way", "N/m", "force", AXLES, "deflection"),
         },
     ),

@@ -27,6 +27,9 @@ WAVES = ("cosine", "sine")
 WHIRL = ("up_cosine", "up_sine", "aside_cosine", "aside_sine")
 """The same of a force on the body that does so up and down and from side to side."""
 
+AT_ONCE = 100.0
+"""Per second, at which what a stroke has closed opens after its end."""
+
 SIDE = "(1.0 - 2.0 * (wheel % 2))"
 """1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
 
@@ -92,6 +95,14 @@ def below(expression: str, beside: str = "") -> Term:
     return Term(
         expression, "N s/m", states=(State("slow", f"{2 * pi:.4f} * frequency * (velocity - slow)", 0.1),), settings=(frequency,), beside=beside
     )
+
+
+def at_first(part: str, is_there: str) -> Term:
+    """A ``part`` of the velocity that counts in full at the beginning of each stroke to a side and less and less in its course, as if a valve
+    were ``closed``; it opens at once while the velocity is not to that side."""
+    frequency = shape_setting("frequency", "Hz", 3.0, 0.5, 20.0, "frequency of strokes up to which it is lost")
+    closed = State("closed", f"{2 * pi:.4f} * frequency * (1.0 - closed) if {is_there} else -{AT_ONCE} * closed", 0.4)
+    return Term(f"{part} * (1.0 - closed)", "N s/m", states=(closed,), settings=(frequency,), beside="velocity")
 
 
 def sliding(expression: str, unit: str, beside: str) -> Term:
