@@ -30,6 +30,7 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "forward_force_size_times_direction": "friction of a strut that braking or driving presses on",
         "side_force_times_deflection": "a roll centre that migrates with travel",
         "velocity_times_recent": "a damper that remembers how fast it moved of late: foam, heat, a latching or controlled valve",
+        "velocity_times_recent_travel": "a damper that stays firm for a while once it has travelled far: an adaptive one",
         "sliding_direction": "friction that turns over a way: bushes, a bar's or a leaf's",
         "sliding_damping": "a damper whose valves or bushes give way before it grips",
         "slow_velocity": "a damper on soft bushes, a valve that closes when quick; a Maxwell element",

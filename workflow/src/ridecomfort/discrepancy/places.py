@@ -11,7 +11,7 @@ import numpy as np
 
 from ..effects.contract import Parameter
 from .terms import (
-    ANGLE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back, on_spring, shape_setting,
+    ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back, on_spring, shape_setting,
     sliding, swinging, turning, turning_as_heard,
 )  # fmt: skip
 
@@ -85,6 +85,10 @@ PLACES: Mapping[str, Place] = {
             "velocity_times_recent": Term(
                 "recent * velocity", "N s2/m2", states=(State("recent", "(abs(velocity) - recent) / time", 0.1),),
                 settings=(shape_setting("time", "s", 1.0, 0.1, 10.0, "time for which it remembers how fast it moved"),), beside="velocity",
+            ),
+            "velocity_times_recent_travel": Term(
+                "recent * velocity", "N s/m2", states=(State("recent", f"max({AT_ONCE} * (abs(deflection) - recent), -recent / time)", 0.012),),
+                settings=(shape_setting("time", "s", 0.7, 0.1, 5.0, "time in which it forgets how far it travelled"),), beside="velocity",
             ),
             "sliding_direction": sliding("strain", "N", "velocity"),
             "sliding_damping": sliding("abs(velocity) * strain", "N s/m", "velocity"),
