@@ -124,11 +124,27 @@ def test_where_little_is_found_it_is_said_whether_what_is_left_matters(left, sai
     assert said in rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
 
 
-@pytest.mark.parametrize(("verdict", "at_first", "may_end"), [("named", 0.004, True), ("outside", 0.004, True), ("named", 0.4, False), ("suspect", 0.004, False)])
-def test_where_there_was_little_to_explain_the_loop_may_end_before_an_effect_is_switched_on(verdict, at_first, may_end):
-    told = rows(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": verdict, "at_first": {"a_z": at_first}}))["verdict"])
-    assert told[-1]["in_words"].startswith("The loop may end here. Else: ") == may_end
-    assert ("no signal has more than 0.4 % of its power above the floor" in told[0]["in_words"]) == may_end
+@pytest.mark.parametrize(
+    ("verdict", "at_first", "is_little"),
+    [("named", 0.004, True), ("outside", 0.004, True), ("cluster", 0.004, True), ("named", 0.4, False), ("suspect", 0.004, False)],
+)
+def test_where_there_was_little_to_explain_the_loop_may_end_unless_what_was_found_is_most_of_it(verdict, at_first, is_little):
+    told = lambda share: rows(
+        diagnosed.tables(
+            made_up.diagnosis({**made_up.VERDICT, "verdict": verdict, "share": share, "held_out_share": share, "at_first": {"a_z": at_first}})
+        )["verdict"]
+    )
+    assert ("no signal has more than 0.4 % of its power above the floor" in told(0.3)[0]["in_words"]) == is_little
+    assert told(0.3)[-1]["in_words"].startswith("The loop may end here. Else: ") == is_little
+    assert "The loop may end" not in told(0.9)[-1]["in_words"]
+
+
+def test_before_a_form_that_is_most_of_a_little_error_the_loop_does_not_end():
+    little = {**made_up.VERDICT, "verdict": "outside", "share": 0.1, "held_out_share": 0.1, "at_first": {"a_z": 0.015}}
+    for share, may_end in ((0.9, False), (0.3, True)):
+        found = {**little, "proposal": PROPOSAL | {"share": share, "held_out_share": share}}
+        said = rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
+        assert "Look at the proposed form" in said and said.startswith("The loop may end here.") == may_end
 
 
 def test_where_no_form_is_found_either_it_is_said_whether_what_is_left_matters():

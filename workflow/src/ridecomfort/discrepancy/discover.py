@@ -31,7 +31,7 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection, shares
-from .terms import LINEAR, ORDER, PERIOD, Term
+from .terms import FIRM, LINEAR, ORDER, PERIOD, Term
 from .turns import Line
 from .verdict import Named, plain
 
@@ -245,7 +245,7 @@ def heard_as(line: Line | None, radius: float) -> dict[str, float]:
 
 def _heard(setting: Parameter, line: Line | None, radius: float) -> Parameter:
     """What shapes a term, from the period that was heard on if it is one, or what that is in turns of wheels of this ``radius`` in m."""
-    if setting.name not in (PERIOD, ORDER) or line is None:
+    if setting.name not in FIRM or line is None:
         return setting
     value = line.period if setting.name == PERIOD else line.turns(radius)
     width = value * line.width / line.period

@@ -11,8 +11,8 @@ import numpy as np
 
 from ..effects.contract import Parameter
 from .terms import (
-    ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back, on_spring, shape_setting,
-    sliding, swinging, turning, turning_as_heard,
+    ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
+    on_spring, shape_setting, sliding, swinging, turning, turning_as_heard,
 )  # fmt: skip
 
 FORCE = 30.0

@@ -84,7 +84,7 @@ def ranked(
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
-    verdict = with_remainder(verdict, _left_by(selection, -1), _left_by(selection, 0))
+    verdict = with_remainder(verdict, *_left_by(selection, (-1, 0)))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
     line = turns.left_by(selection)
@@ -121,12 +121,13 @@ def _is_material(selection: Selection) -> bool:
     return is_material(selection.frame, selection.states[-1].fit.residuals, _measured(selection.frame))
 
 
-def _left_by(selection: Selection, number: int) -> dict[str, float]:
-    """Share of the measured power of every signal that a model of this number leaves above the floor, of what is judged."""
+def _left_by(selection: Selection, numbers: Sequence[int]) -> list[dict[str, float]]:
+    """Share of the measured power of every signal that each of the models of these numbers leaves above the floor, of what is judged."""
     frame = selection.frame
-    left = np.maximum(selection.states[number].squares - selection.floor_squares, 0.0).mean(axis=0)
     power = floor.squares(frame.experiment, _measured(frame)).mean(axis=0)
-    return {name: float(own) for name, own in zip(frame.experiment.channels, left / np.where(power > 0, power, np.inf))}
+    left = (np.maximum(selection.states[number].squares - selection.floor_squares, 0.0).mean(axis=0) for number in numbers)
+    shares_left = (own / np.where(power > 0, power, np.inf) for own in left)
+    return [dict(zip(frame.experiment.channels, own.tolist())) for own in shares_left]
 
 
 def _best_share(selection: Selection) -> float:

@@ -101,8 +101,13 @@ def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, floa
     found."""
     if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
         return UNNAMED
-    said, most = SAID[kind].format(names=", ".join(names) or "no effect is named"), max(at_first.values(), default=1.0)
-    return said + LITTLE_TO_EXPLAIN.format(most=100 * most) if kind in IS_MISSING and most < SMALL else said
+    said = SAID[kind].format(names=", ".join(names) or "no effect is named")
+    return said + LITTLE_TO_EXPLAIN.format(most=100 * max(at_first.values())) if is_of_little(kind, at_first) else said
+
+
+def is_of_little(kind: str, at_first: Mapping[str, float]) -> bool:
+    """Whether something is missing, and all that it could explain ``at_first``, by signal, is SMALL."""
+    return kind in IS_MISSING and max(at_first.values(), default=1.0) < SMALL
 
 
 def sentence(reason: str) -> str:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ...discrepancy.balance import LITTLE
+from ...discrepancy.balance import ENOUGH, LITTLE
 from ...discrepancy.confirm import EQUAL
-from ...discrepancy.verdict import IS_MISSING, SMALL
+from ...discrepancy.verdict import SMALL, is_of_little
 from ...effects import library
 from ...schema import as_written
 from ...vehicle.parameters import PARAMETERS
@@ -36,7 +36,7 @@ NO_FORM = "No form was found that would take the error away. "
 LITTLE_FOUND = "Nothing that was found explains much. "
 
 MAY_END = "The loop may end here. Else: "
-"""What comes before advice where all that there was to explain is little."""
+"""What comes before advice where all that there was to explain is little, and what was found is not most of it."""
 
 END = "What is left is no more than {most:.1f} % of the power of any signal: the loop may end here."
 
@@ -69,9 +69,8 @@ def next_step(found: Diagnosis) -> str:
     if said["verdict"] == "nothing":
         return f"{before}{NEXT['nothing']} {_left(said)}"
     if said["verdict"] == "outside":
-        outside = _outside(found, proposal, own, named)
-        return before + (_may_end(said) if "effects: [" in outside else "") + outside
-    before += _may_end(said)
+        return before + _outside(found, proposal, own, named)
+    before += _may_end(said, said)
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
     return before + NEXT[said["verdict"]].format(keys=named) + caution
 
@@ -106,10 +105,15 @@ def _farther(one: Mapping) -> tuple[float, float]:
     return max(min(one["wider"][0], 0.5 * one["value"]), known.lower), min(max(one["wider"][1], 2.0 * one["value"]), known.upper)
 
 
-def _may_end(verdict: Mapping) -> str:
-    """What is said before an effect is to be switched on that can explain no more than little."""
-    most = max((verdict.get("at_first") or {}).values(), default=1.0)
-    return MAY_END if verdict["verdict"] in IS_MISSING and most < SMALL else ""
+def _held(one: Mapping) -> float:
+    """Share that goes on drives held out, or without any on the fitted ones."""
+    return one["share"] if one["held_out_share"] is None else one["held_out_share"]
+
+
+def _may_end(verdict: Mapping, *found: Mapping) -> str:
+    """What is said before one of those ``found`` is to be switched on, of which none removes most of an error that is little."""
+    is_most = any(min(one["share"], _held(one)) >= ENOUGH for one in found)
+    return MAY_END if is_of_little(verdict["verdict"], verdict.get("at_first") or {}) and not is_most else ""
 
 
 def _left(verdict: Mapping) -> str:
@@ -127,16 +131,16 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     if is_file_alone(said):
         return NEXT["nothing"]
     go_on = GO_ON.format(keys=named)
+    may_end = _may_end(said, said, *([proposal] if proposal.get("form") else []))
     if not proposal.get("form"):
-        return go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM + _left(said)
-    held = lambda one: one["share"] if one["held_out_share"] is None else one["held_out_share"]
-    (fitted, held_out), (fitted_of_form, held_out_of_form) = ((one["share"], held(one)) for one in (said, proposal))
+        return may_end + go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM + _left(said)
+    (fitted, held_out), (fitted_of_form, held_out_of_form) = ((one["share"], _held(one)) for one in (said, proposal))
     if max(fitted_of_form, held_out_of_form) < LITTLE:
-        return go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
+        return may_end + go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
     file = Path(found.files.get("verdict", "")).parent / f"{proposal['name']}.py"
     try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"], *(proposal.get("beside") or ())]))
     if not library_helps(said) or said.get("is_beside_form"):
-        return try_form
+        return may_end + try_form
     library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form - AS_GOOD
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)
-    return f"{first} The second choice: {second[:1].lower()}{second[1:]}"
+    return f"{may_end}{first} The second choice: {second[:1].lower()}{second[1:]}"
