@@ -76,7 +76,7 @@ def test_a_form_is_said_with_its_sizes():
     )
     assert in_words("body", {"lift": {"": -0.5}}) == "force_z = (-0.5 N s2/m2) motion.speed**2"
     assert in_words("tyre", {"twice_a_turn": {"front_left_cosine": 60.0, "front_left_sine": -20.0}}) == (
-        "force = (60 N front_left_cosine and -20 N front_left_sine) of 2.0 * rotation"
+        "force = (63.25 N front_left at -18 deg) cos(2.0 * rotation - angle)"
     )
     shaped = {"slow_velocity": {"frequency": 7.5, "linear": 0.0}}
     assert in_words("strut", {"slow_velocity": {"front": 57.3, "rear": 48.0}}, shaped) == (
@@ -87,11 +87,19 @@ def test_a_form_is_said_with_its_sizes():
 def test_a_force_that_whirls_is_said_with_what_it_does_up_and_aside_and_after_which_way_it_comes_back():
     factors = {"up_cosine": 1.0, "up_sine": 2.0, "aside_cosine": 3.0, "aside_sine": -4.0}
     shaped = {"whirling": {"period": 0.62832, "place": -0.4, "height": -0.15}}
-    turn, settings = "of 6.283185 * motion.s / period", "period = 0.6283 m, place = -0.4 m, height = -0.15 m"
+    turn, settings = "cos(6.283185 * motion.s / period - angle)", "period = 0.6283 m, place = -0.4 m, height = -0.15 m"
     assert in_words("body", {"whirling": factors}, shaped) == (
-        f"force_z = (1 N up_cosine and 2 N up_sine) {turn} at place, {settings}; "
-        f"force_y = (3 N aside_cosine and -4 N aside_sine) {turn} at place and height, {settings}"
+        f"force_z = (2.236 N up at 63 deg) {turn} at place, {settings}; force_y = (5 N aside at -53 deg) {turn} at place and height, {settings}"
     )
+
+
+@pytest.mark.parametrize("angle", [-170.0, 0.0, 63.0])
+def test_a_wave_in_words_is_the_sum_of_its_cosine_and_sine(angle):
+    term, turns = PLACES["tyre"].terms["once_a_turn"], np.linspace(0.0, 7.0, 50)
+    cosine, sine = 40.0 * np.cos(np.radians(angle)), 40.0 * np.sin(np.radians(angle))
+    (part, (size, where)), *others = term.amplitudes({"rear_left_cosine": cosine, "rear_left_sine": sine}).items()
+    assert part == "rear_left" and not others
+    assert size * np.cos(turns - np.radians(where)) == pytest.approx(cosine * np.cos(turns) + sine * np.sin(turns))
 
 
 def test_a_period_is_written_so_that_it_holds_for_kilometres_and_is_not_calibrated_to_another(tmp_path):

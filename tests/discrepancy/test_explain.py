@@ -34,6 +34,13 @@ def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_com
     assert found.attrs["floor"] == "from repeats"
 
 
+def test_the_squares_by_stretch_are_parts_of_the_whole():
+    found = explain(comparison()[1])
+    whole = found["explainable_rmse"] ** 2 + found["floor_rmse"] ** 2
+    assert found.sizes["stretch_of_time"] > 3
+    np.testing.assert_allclose(found["square_by_stretch"].mean("stretch_of_time"), whole.transpose("state", "drive", "signal"), rtol=0.05)
+
+
 def test_without_repeats_the_floor_is_said_to_be_taken_as_nil():
     found = explain(comparison(repeats=1)[1])
     assert "nil" in found.attrs["floor"] and float(found["floor_rmse"].max()) == 0.0

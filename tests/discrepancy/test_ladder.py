@@ -10,14 +10,16 @@ from ridecomfort.discrepancy import critical
 from ridecomfort.discrepancy.ladder import Measured, disagreeing, ladder, risen
 
 
-def comparison(*squares, floor=1.0, states=("reference", "calibrated")):
-    """A comparison of a fitted and a check drive of one signal with these mean squares by state."""
+def comparison(*squares, floor=1.0, states=("reference", "calibrated"), by_stretch=None):
+    """A comparison of a fitted and a check drive of one signal with these mean squares by state, in each stretch if not given ``by_stretch``."""
     values = np.sqrt(np.array(squares))[:, None, None] * np.ones((1, 2, 1))
+    stretches = np.array(squares)[:, None] * np.ones(4) if by_stretch is None else np.array(by_stretch, float)
     return xr.Dataset(
         {
             "explainable_rmse": (("state", "drive", "signal"), np.sqrt(values**2 - floor)),
             "nrmse": (("state", "drive", "signal"), 0.1 * values),
             "floor_rmse": (("drive", "signal"), np.full((2, 1), np.sqrt(floor))),
+            "square_by_stretch": (("state", "drive", "signal", "stretch_of_time"), stretches[:, None, None] * np.ones((1, 2, 1, 1))),
             "role": ("drive", ["fit", "check"]),
         },
         {"state": list(states), "drive": ["one", "slow"], "signal": ["a_z"]},
@@ -52,6 +54,18 @@ def test_shares_left_fall_from_one_to_nought(found):
         assert chosen["left"].sel(signal="a_z").values == pytest.approx([2.0, 1.0, 0.5, 0.0])
         assert chosen["left_overall"].values == pytest.approx([2.0, 1.0, 0.5, 0.0])
     assert found["rmse"].sel(site="ts1", group="fitted", signal="a_z").values == pytest.approx(np.sqrt([9.0, 5.0, 3.0, 1.0]))
+
+
+def test_a_fall_is_as_sure_as_it_is_alike_from_stretch_to_stretch(found):
+    assert found["fall_error"].sel(group="fitted").values[1:, 0] == pytest.approx([0.0, 0.0, 0.0])
+    assert np.isnan(found["fall_error"].values[0]).all()
+    base, better = [[9.0] * 4, [4.0, 6.0, 5.0, 5.0]], [[9.0] * 4, [1.0, 1.0, 5.0, 5.0]]  # falls by 3, 5, 0 and 0 of the 4 above the floor
+    models = {"base": comparison(9.0, 5.0, by_stretch=base), "one": comparison(9.0, 3.0, by_stretch=better)}
+    graded = {name: sections((0, 0, 0, 0), (0, 0, 0, 0)) for name in models}
+    ladder_of = ladder({"ts1": Measured(models, graded, True)}, list(models), ["+ one"])
+    error = ladder_of["fall_error"].sel(site="ts1", group="held out").values
+    assert error[2] == pytest.approx(np.std([3.0, 5.0, 0.0, 0.0], ddof=1) / np.sqrt(4) / 4.0)
+    assert error[1] == pytest.approx(np.std([5.0, 3.0, 4.0, 4.0], ddof=1) / np.sqrt(4) / 4.0)
 
 
 def test_sections_are_compared_with_the_measured_and_with_the_rung_before(found):

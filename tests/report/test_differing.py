@@ -87,6 +87,8 @@ def test_the_ladder_begins_with_everything_and_ends_at_the_floor(tables, study):
     # The error falls from 0.4 to 0.1 of the signal, its square to a sixteenth.
     assert found[2]["all_left_pct"] == pytest.approx(100 / 16, abs=2.0)
     assert found[0]["all_left_pct"] == pytest.approx(100 * (0.5 / 0.4) ** 2, abs=6.0)
+    assert found[2]["all_fall_pct"] == pytest.approx(found[1]["all_left_pct"] - found[2]["all_left_pct"])
+    assert 0 < found[2]["all_fall_interval_pct"] < found[2]["all_fall_pct"] and np.isnan(found[0]["all_fall_pct"])
     assert found[3]["a_z_left_pct"] == 0 < found[3]["a_z_rmse_m_per_s2"] < found[2]["a_z_rmse_m_per_s2"]
 
 

@@ -249,8 +249,9 @@ def _of_starts(task: Problem, fits: Sequence[Descent], best: Descent, refused: S
     if above > DISAGREE:
         most = int(np.argmax(np.abs(worst.point - best.point)))
         ends = [f"{task.values(fit.point)[most]:.4g}" for fit in (worst, best)]
+        cost = f"a cost {100 * above:.1f} % above the best" if above < 1.0 else f"{1.0 + above:.3g} times the cost of the best"
         said.append(
-            f"starts disagree: the worst of {len(fits)} ends at a cost {100 * above:.1f} % above the best, which is taken; they differ most "
+            f"starts disagree: the worst of {len(fits)} ends at {cost}, which is taken; they differ most "
             f"in {task.parameters[most]}, {ends[0]} against {ends[1]}"
         )
     return said

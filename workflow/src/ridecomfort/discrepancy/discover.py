@@ -24,7 +24,7 @@ from .experiment import Candidate, Size
 from .form import effect_source, in_words
 from .judge import ANOTHER_SHAPE, standing
 from .made import beside
-from .meanings import such_as
+from .meanings import senses, such_as, told
 from .places import FORCE, PLACES, parameter, scale, settings
 from .probe import Job, Raw
 from .ranking import dataset
@@ -77,7 +77,7 @@ class Discovery:
         removed = ", ".join(f"{100 * share:.0f} % {where}" for where, share in shares.items() if np.isfinite(share))
         removes = f"Together with {', '.join(self.names_beside())} it removes" if self.beside else "It removes"
         little = ": too little to be what is missing" if self.share < LITTLE else ""
-        return f"at the {self.place}, such as {such_as(self.place, self.terms)}. {removes} {removed}{little}."
+        return f"at the {self.place}, such as {told(self.place, self.terms)}. {removes} {removed}{little}."
 
     def names_beside(self) -> list[str]:
         """Names of the effects of the library that are missing, too."""
@@ -86,7 +86,7 @@ class Discovery:
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
         names = ("name", "place", "port", "form", "terms", "settings", "sizes", "share", "held_out_share", "p_value", "by_place")
-        more = {"such_as": such_as(self.place, self.terms), "beside": self.names_beside()}
+        more = {"such_as": such_as(self.place, self.terms), "here": senses(self.place, self.terms), "beside": self.names_beside()}
         return plain({name: getattr(self, name) for name in names} | more)
 
 
@@ -169,7 +169,7 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     share, held_out = np.add(_removed(selection, ours), _removed(selection, [effect.name for effect in effects])).tolist()
     turn = selection.rounds[selection.accepted.index(ours[0])]
     p_value = float(turn.p_value[turn.names.index(ours[0])])
-    sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {such_as(place, terms)}."
+    sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {told(place, terms)}."
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(
         name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, turn.is_large,

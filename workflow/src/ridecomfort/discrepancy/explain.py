@@ -25,6 +25,9 @@ NIL = "taken as nil: no drive was repeated"
 ASSUMED = "assumed from the noise densities of the instruments: no drive was repeated; errors of path and road are not in it"
 """What a floor is known from, as in the attribute ``floor``."""
 
+STRETCH = 5.0
+"""s of a drive over which the error is averaged in ``square_by_stretch``: longer than an axle or a body swings on after what it met."""
+
 INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 """Instrument that a signal of this unit is recorded with."""
 
@@ -57,8 +60,9 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
 
     Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no
     model of this road and car could explain, from the differences of repeats at equal place in the best state;
-    ``explainable_rmse(state, drive, signal)``, the root of mean square less floor; and
-    ``explained_share(state, drive, signal)``, the share of the first state's explainable mean square that is gone. Without
+    ``explainable_rmse(state, drive, signal)``, the root of mean square less floor;
+    ``explained_share(state, drive, signal)``, the share of the first state's explainable mean square that is gone; and
+    ``square_by_stretch(state, drive, signal, stretch_of_time)``, mean squares of the error over STRETCH each, nan after the end. Without
     repeats the floor is that of the instruments alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz),
     "gyroscope": rad/s/sqrt(Hz)}, one-sided), or nil; attribute ``floor`` says which.
     """
@@ -66,7 +70,7 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
     for state, name in enumerate(comparison["state"].values):
         for drive, own in own_noise(comparison, name).items():
             floors[state, drive] = np.mean(own.noise**2, axis=1)
-    square = _squares(comparison)
+    square, by_stretch = _squares(comparison)
     if np.isfinite(floors).any():
         floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
     elif noise_density:
@@ -80,6 +84,7 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
         floor_rmse=(("drive", "signal"), np.sqrt(floor_squares)),
         explainable_rmse=(("state", "drive", "signal"), np.sqrt(above)),
         explained_share=(("state", "drive", "signal"), share, {"units": "1"}),
+        square_by_stretch=(("state", "drive", "signal", "stretch_of_time"), by_stretch),
     ).assign_attrs(floor=known_from)
 
 
@@ -130,15 +135,20 @@ def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral
     return len(passages) - 1
 
 
-def _squares(comparison: xr.Dataset) -> np.ndarray:
-    """Mean squares (state, drive, signal) of what is judged of the residuals."""
+def _squares(comparison: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Mean squares (state, drive, signal) of what is judged of the residuals, and the same by whole stretches of STRETCH (..., stretch)."""
     residual = comparison["residual"].transpose("state", "drive", "signal", "time").values
+    rate = rate_of(comparison["time"].values)
+    length = max(int(STRETCH * rate), 1)
     found = np.empty(residual.shape[:-1])
+    by_stretch = np.full((*residual.shape[:-1], residual.shape[-1] // length), np.nan)
     for state, drive in np.ndindex(found.shape[:2]):
         kept = np.isfinite(residual[state, drive]).all(axis=0)
-        part = judged(residual[state, drive][:, kept], rate_of(comparison["time"].values), comparison["signal"].values)
-        found[state, drive] = np.mean(part**2, axis=1)
-    return found
+        square = judged(residual[state, drive][:, kept], rate, comparison["signal"].values) ** 2
+        found[state, drive] = np.mean(square, axis=1)
+        count = square.shape[1] // length
+        by_stretch[state, drive, :, :count] = square[:, : count * length].reshape(len(square), count, length).mean(axis=-1)
+    return found, by_stretch
 
 
 def highest(comparison: xr.Dataset) -> np.ndarray:

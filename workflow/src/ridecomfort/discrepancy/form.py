@@ -24,7 +24,6 @@ def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
     by_result: dict[str, list[str]] = {}
     for name, factors in terms.items():
         term, own = PLACES[place].terms[name], shaped.get(name, {})
-        unit = "" if term.unit == "1" else f" {term.unit}"
         slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
         values = {setting: own.get(setting.name, setting.typical) for setting in settings(place, name)}
         written = term.written(expression(place, name, bool(values.get(LINEAR))))
@@ -32,10 +31,19 @@ def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
         said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
         for result, parts in term.by_result().items():
             at = " at " + " and ".join(term.arms(result)) if term.arms(result) else ""
-            size = " and ".join(f"{factors[part]:.4g}{unit} {part}".rstrip() for part in parts if part in factors)
+            size = _sizes(term, {part: factors[part] for part in parts if part in factors})
             by_result.setdefault(result, []).append(f"({size}) {written}{at}{slopes}{said}")
     sign = lambda result: "+=" if result in PLACES[place].arguments else "="
     return "; ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
+
+
+def _sizes(term: Term, factors: Mapping[str, float]) -> str:
+    """The ``factors`` of a term with their parts of the car; of a wave, its amplitudes and the angles at which these are met."""
+    unit = "" if term.unit == "1" else f" {term.unit}"
+    if term.turn:
+        waves = term.amplitudes(factors).items()
+        return " and ".join(f"{f'{size:.4g}{unit} {part}'.rstrip()} at {angle:.0f} deg" for part, (size, angle) in waves)
+    return " and ".join(f"{size:.4g}{unit} {part}".rstrip() for part, size in factors.items())
 
 
 def _factor(key: str, term: Term, parts: Sequence[str], own: Mapping[str, str]) -> str:

@@ -20,6 +20,8 @@ FITTED, HELD_OUT = "fitted", "held out"
 VISIBLE = 0.05
 """Share of the mean square error above the floor below which a signal has nothing left to explain."""
 
+SURE = 1.645
+"""Standard errors of a 90 % interval."""
 
 RISEN = 0.01
 """By how much more of what the reference leaves a model may leave on fitted drives than the one before it until that is said."""
@@ -41,7 +43,8 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     ``signal``: ``nrmse`` of the whole error; of what is judged (``judged.judged``) ``rmse`` and ``floor_rmse``, the least
     that is known from any rung (mean over drives of the square, as root), and ``left``, the mean square above the floor
     over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor;
-    ``left_overall`` weighs each of these signals by what was explainable of its own error. Over ``method`` in place of signal: numbers
+    ``left_overall`` weighs each of these signals by what was explainable of its own error, and ``fall_error`` is the standard error of its
+    fall from the rung before, by how unlike that is from stretch to stretch of the drives. Over ``method`` in place of signal: numbers
     of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
     ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
     Nan where there is no such drive, rung or repeat. ``starts`` (rung, site): what calibration says of its starts, where a site's own
@@ -56,6 +59,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     starts = np.full(sizes[:2], "", dtype=object)
     counts = {name: np.full((*sizes, len(critical.METHODS)), np.nan) for name in COUNTS}
     repeated = np.full((len(sites), 2, len(critical.METHODS)), np.nan)
+    falls: dict[tuple[int, int, int], np.ndarray] = {}
     for k, site in enumerate(sites.values()):
         for r, (model, state) in enumerate(_rungs(site, models)):
             if r and state is not None and site.fitted:
@@ -64,11 +68,14 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
             if not drives.any():
                 continue
             floor_squares[k, g] = _floor_squares(site, drives)
-            before = None
+            before, stretches = None, None
             for r, (model, state) in enumerate(_rungs(site, models)):
                 if state is None:
                     continue
                 rows = site.comparisons[model].sel(state=state).isel(drive=drives)
+                stretches, higher = rows["square_by_stretch"].transpose("drive", "signal", ...).values, stretches
+                if higher is not None:
+                    falls[r, k, g] = _mean_of_drives(higher - stretches)
                 squares[r, k, g] = (rows["explainable_rmse"] ** 2 + rows["floor_rmse"] ** 2).mean("drive").values
                 relative[r, k, g] = (rows["nrmse"] ** 2).mean("drive").values
                 before = _count(site.sections[model].isel(drive=drives), state, before, counts, (r, k, g))
@@ -84,6 +91,11 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     total = weight.sum(axis=-1)
     overall = np.sum(np.where(visible, weight * left, 0.0), axis=-1) / np.where(total > 0, total, np.nan)
     over = ("rung", "site", "group")
+    fall_error = np.full(sizes, np.nan)
+    for at, fall in falls.items():
+        of_all = np.where(visible, weight / np.where(visible, start, 1.0), 0.0)[at[1:]] @ fall
+        if total[at[1:]] > 0 and len(of_all) > 1:
+            fall_error[at] = np.std(of_all, ddof=1) / np.sqrt(len(of_all)) / total[at[1:]]
     return xr.Dataset(
         {
             "rmse": ((*over, "signal"), np.sqrt(squares)),
@@ -91,6 +103,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
             "floor_rmse": (("site", "group", "signal"), np.sqrt(floor_squares)),
             "left": ((*over, "signal"), left),
             "left_overall": (over, overall),
+            "fall_error": (over, fall_error),
             **{name: ((*over, "method"), values) for name, values in counts.items()},
             "repeats_agreeing": (("site", "group", "method"), repeated),
             "starts": (("rung", "site"), starts.astype(str)),
@@ -140,6 +153,14 @@ def _groups(site: Measured, model: str) -> tuple[np.ndarray, np.ndarray]:
     """Which drives were fitted, and which were not, (drive,)."""
     fitted = (site.comparisons[model]["role"].values == "fit") & site.fitted
     return fitted, ~fitted
+
+
+def _mean_of_drives(values: np.ndarray) -> np.ndarray:
+    """Mean over drives (drive, signal, stretch) of the stretches that any of them has: repeats meet the same road, so that they tell no more of it
+    than one."""
+    known = np.isfinite(values).all(axis=1)
+    counted = known.any(axis=0)
+    return np.where(known[:, None], values, 0.0).sum(axis=0)[:, counted] / known.sum(axis=0)[counted]
 
 
 def _floor_squares(site: Measured, drives: np.ndarray) -> np.ndarray:

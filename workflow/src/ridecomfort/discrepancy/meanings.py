@@ -145,6 +145,118 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
 """By place and term (``places.PLACES``), what usually makes such a force."""
 
 
+def _more(what: str, less: str, where: str = "") -> tuple[str, str]:
+    """What a factor above nil does, and one below."""
+    return tuple(f"{word} {where}".rstrip() for word in (what, less))
+
+
+def _of_sides(what: str) -> tuple[str, str]:
+    return f"{what} on the left", f"{what} on the right"
+
+
+FRICTION, FIRMER, STIFFER = ("more friction", "less friction"), ("firmer", "softer"), ("stiffer", "softer")
+
+RESISTANCE = ("less resistance", "more resistance")
+
+SENSES: Mapping[str, Mapping[str, tuple[str, str]]] = {
+    "strut": {
+        "velocity_direction": _more(*FRICTION),
+        "velocity_saturating": _more(*FIRMER, "at low velocities"),
+        "velocity_size": ("firmer in compression than in rebound", "firmer in rebound than in compression"),
+        "velocity_signed_square": _more(*FIRMER, "at high velocities"),
+        "velocity_cube": _more(*FIRMER, "at high velocities"),
+        "deflection_square": ("stiffer in compression than in rebound", "stiffer in rebound than in compression"),
+        "deflection_cube": _more(*STIFFER, "towards both ends of the travel"),
+        "deflection_size_times_velocity": _more(*FIRMER, "away from rest"),
+        "deflection_times_velocity": ("firmer while compressed than while extended", "firmer while extended than while compressed"),
+        "bump_beyond": _more(*STIFFER, "in compression beyond the clearance"),
+        "rebound_beyond": _more(*STIFFER, "in rebound beyond the clearance"),
+        "bump_damping_beyond": _more(*FIRMER, "in compression beyond the clearance"),
+        "rebound_damping_beyond": _more("softer", "firmer", "in rebound beyond the clearance"),
+        "deflection_direction": _more(*STIFFER, "about rest"),
+        "velocity_size_times_deflection_direction": ("firmer away from rest than back", "firmer back to rest than away"),
+        "deflection_size_times_direction": _more(*FRICTION, "away from rest"),
+        "deflection_of_sides": _of_sides("stiffer"),
+        "velocity_of_sides": _of_sides("firmer"),
+        "side_force_size_times_direction": _more(*FRICTION, "in bends"),
+        "forward_force_size_times_direction": _more(*FRICTION, "when braked or driven"),
+        "velocity_times_recent": _more(*FIRMER, "after quick motion"),
+        "velocity_times_recent_travel": _more(*FIRMER, "after far travel"),
+        "sliding_direction": _more(*FRICTION),
+        "sliding_damping": _more(*FIRMER, "once it grips"),
+        "slow_velocity": _more(*FIRMER, "in slow motion"),
+        "late_velocity": _more("softer", "firmer", "in quick motion"),
+        "bump_at_first": _more(*FIRMER, "at the beginning of each compression"),
+        "rebound_at_first": _more(*FIRMER, "at the beginning of each rebound"),
+        "swinging_deflection": _more(*STIFFER, "in quick motion"),
+    },
+    "tyre": {
+        "deflection_square": _more(*STIFFER, "the more it is pressed"),
+        "deflection_cube": _more(*STIFFER, "far from its rest"),
+        "bump_beyond": _more(*STIFFER, "pressed beyond the clearance"),
+        "velocity_direction": _more(*FRICTION),
+        "velocity_signed_square": _more(*FIRMER, "at high velocities"),
+        "deflection_times_velocity": _more(*FIRMER, "the more it is pressed"),
+        "velocity_per_spin": _more(*FIRMER, "at low speeds"),
+        "deflection_of_sides": _of_sides("stiffer"),
+        "velocity_of_sides": _of_sides("firmer"),
+        "sliding_direction": _more(*FRICTION),
+        "slow_velocity": _more(*FIRMER, "in slow motion"),
+    },
+    "contact": {
+        "pull_of_load": _more(*RESISTANCE),
+        "pull_of_load_and_speed": _more(*RESISTANCE, "at speed"),
+        "pull_of_slope_size": _more(*RESISTANCE, "on a rough road"),
+        "side_slip_of_load": _more(*STIFFER, "aside the more it bears"),
+        "side_slip_of_speed": _more(*STIFFER, "aside at speed"),
+        "side_slip_cube": _more(*STIFFER, "aside at large slip"),
+    },
+    "links": {
+        "recession": ("wheels move back as they rise", "wheels move forward as they rise"),
+        "recession_of_deflection": ("wheels move farther back the higher they are", "wheels move farther forward the higher they are"),
+    },
+    "body": {
+        "drag": _more(*RESISTANCE),
+        "lift": ("lifted", "pressed down"),
+        "heave_damping": ("less damping", "more damping"),
+        "heave_mass": ("lighter", "heavier"),
+        "roll_damping": ("less damping", "more damping"),
+        "roll_stiffness": ("softer", "stiffer"),
+        "roll_saturating": _more("softer", "stiffer", "at small angles"),
+        "roll_rate_direction": ("less friction", "more friction"),
+        "roll_sliding": ("less friction", "more friction"),
+        "roll_inertia": ("less inertia", "more inertia"),
+        "pitch_damping": ("less damping", "more damping"),
+        "pitch_stiffness": ("softer", "stiffer"),
+        "pitch_inertia": ("less inertia", "more inertia"),
+        "yaw_damping": ("less damping", "more damping"),
+    },
+}
+"""By place and term, what a factor above nil does against the model's own linear part, and what one below; none where that is no word's matter."""
+
+
 def such_as(place: str, terms: Iterable[str]) -> str:
     """What usually makes a force of these terms at a place, in words; empty without any."""
     return "; ".join(dict.fromkeys(MEANINGS[place][term] for term in terms))
+
+
+def told(place: str, terms: Mapping[str, Mapping[str, float]]) -> str:
+    """What usually makes such a force, and what it does here, of what such a force may do."""
+    here = senses(place, terms)
+    return f"{such_as(place, terms)}; here: {here}" if here else such_as(place, terms)
+
+
+def senses(place: str, terms: Mapping[str, Mapping[str, float]]) -> str:
+    """What a force of these terms does with these factors by part of the car, in words; empty where the terms have none."""
+    return "; ".join(filter(None, (_sense(SENSES.get(place, {}).get(term), factors) for term, factors in terms.items())))
+
+
+def _sense(words: tuple[str, str] | None, factors: Mapping[str, float]) -> str:
+    """Of a term with these ``words``, those of the ``factors`` that are not nil, each with the parts of the car that it holds for."""
+    if words is None:
+        return ""
+    parts: dict[str, list[str]] = {}
+    for part, factor in factors.items():
+        if factor:
+            parts.setdefault(words[factor < 0], []).append(part.replace("_", " "))
+    return ", ".join(f"{said} ({' and '.join(where)})" if any(where) else said for said, where in parts.items())

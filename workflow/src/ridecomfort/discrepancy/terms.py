@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import pi
+from math import atan2, degrees, hypot, pi
 
 from ..effects.contract import Parameter
 from ..effects.lag import SHORTEST
@@ -74,8 +75,15 @@ class Term:
     often: int = 0
 
     def written(self, expression: str) -> str:
-        """An ``expression`` of it, with the angle that it comes and goes with if it does."""
-        return f"{expression} of {self.turn}".removeprefix("1.0 ") if self.turn else expression
+        """An ``expression`` of it, with the wave that it comes and goes as if it does."""
+        return f"{expression} * cos({self.turn} - angle)".removeprefix("1.0 * ") if self.turn else expression
+
+    def amplitudes(self, factors: Mapping[str, float]) -> dict[str, tuple[float, float]]:
+        """By part of what comes and goes, the amplitude of its wave and the angle in degrees at which that is largest, of the ``factors`` of its
+        cosines and sines, as far as these are given."""
+        pairs = {cosine.removesuffix("cosine").strip("_"): (cosine, sine) for cosine, sine in zip(self.parts[::2], self.parts[1::2])}
+        own = {part: [factors.get(name, 0.0) for name in pair] for part, pair in pairs.items() if set(pair) & set(factors)}
+        return {part: (hypot(cosine, sine), degrees(atan2(sine, cosine))) for part, (cosine, sine) in own.items()}
 
     def arms(self, result: str) -> dict[str, tuple[str, str]]:
         """By the arm of a force, the moment that it makes about the centre of gravity, and with which sign."""

@@ -4,7 +4,7 @@ from ridecomfort import store
 from ridecomfort.discrepancy import ladder
 from ridecomfort.steps.command import Command, note
 
-NEEDED = ("nrmse", "explainable_rmse", "floor_rmse", "role")
+NEEDED = ("nrmse", "explainable_rmse", "floor_rmse", "square_by_stretch", "role")
 
 
 def main(comparisons, sections, config, output):

@@ -22,7 +22,7 @@ NEXT = {
 }
 
 TRY_FORM = (
-    "Look at the proposed form. To try it, put {file} into a folder of your own that effects_folder in config/study.yaml names, "
+    "Look at the proposed form in the rows above. To try it, put {file} into a folder of your own that effects_folder in config/study.yaml names, "
     "switch it on, effects: [{keys}], compare and diagnose again: beside it the rest shows better."
 )
 

@@ -76,6 +76,8 @@ def verdict(found: Diagnosis) -> Table:
         rows.append(("proposed form", f"At the {proposal['place']}: {formula(proposal['form'])}{of_side}."))
         rows.append(("in it", sentence(PORTS[proposal["port"]].meaning)))
         rows.append(("such as", sentence(proposal["such_as"])))
+        if proposal.get("here"):
+            rows.append(("here it is", sentence(proposal["here"])))
         beside = proposal.get("beside")
         rows.append((f"with {', '.join(map(words, beside))} it removes" if beside else "it removes", _promise(proposal)))
     rows.append(("next, after the vehicle" if comes_first else "next", advice.next_step(found)))

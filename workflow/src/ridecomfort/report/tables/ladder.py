@@ -7,6 +7,7 @@ import xarray as xr
 
 from ...discrepancy import critical, judged
 from ...discrepancy import ladder as rungs
+from ...discrepancy.explain import STRETCH
 from ...vocabulary import SIGNALS
 from .. import catalogue, notation
 from ..study import Difference
@@ -31,9 +32,12 @@ def error_ladder(study: Difference) -> Table:
         columns.append(Column(f"{signal}_rmse_{unit}", (title, "RMSE"), ".4f"))
         columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
     columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".0f"))
+    columns.append(Column("all_fall_pct", ("All signals", "fall [%]"), ".1f"))
+    columns.append(Column("all_fall_interval_pct", ("All signals", "± [%]"), ".1f"))
     rows, breaks, bold = [], [], set()
     for site, group, chosen in _groups(study.ladder):
         breaks.append(len(rows))
+        higher = np.nan
         for rung in chosen["rung"].values:
             one = chosen.sel(rung=rung)
             if not np.isfinite(one["rmse"]).any():
@@ -42,14 +46,19 @@ def error_ladder(study: Difference) -> Table:
             for signal in SIGNALS:
                 own = one.sel(signal=signal)
                 cells += [printed(signal)[0] * float(own["rmse"]), 100 * float(own["left"])]
-            bold.add((len(rows), len(columns) - 1))
-            rows.append((catalogue.label(site), group, rung_title(str(rung)), *cells, 100 * float(one["left_overall"])))
+            bold.add((len(rows), len(columns) - 3))
+            left = 100 * float(one["left_overall"])
+            of_all = left, higher - left, 100 * rungs.SURE * float(one["fall_error"])
+            rows.append((catalogue.label(site), group, rung_title(str(rung)), *cells, *of_all))
+            higher = left
         floor = [[printed(signal)[0] * float(chosen["floor_rmse"].sel(signal=signal)), 0] for signal in SIGNALS]
-        rows.append((catalogue.label(site), group, FLOOR, *np.ravel(floor).tolist(), 0))
+        rows.append((catalogue.label(site), group, FLOOR, *np.ravel(floor).tolist(), 0, None, None))
     file = study.ladder_file
     sources = (
         Source("RMSE", file, "rmse, floor_rmse", "root of the mean square over the drives"),
         Source("left", file, "left, left_overall", f"mean square above the floor over that of {study.ladder.attrs['reference']}"),
+        Source("fall", file, "left_overall", "of the row above less this"),
+        Source("±", file, "fall_error", f"times {rungs.SURE:g}"),
     )
     known = zip(study.ladder["site"].values, study.ladder["floor_known"].values)
     floors = [f"{catalogue.label(str(site))}: floor {how}" for site, how in known]
@@ -58,7 +67,8 @@ def error_ladder(study: Difference) -> Table:
         f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
-        "much as there was to explain of its own error. The lowest floor is the least that any rung shown reaches, so it lies below that "
+        "much as there was to explain of its own error. Fall: from the row above, ± half a 90 % interval, by how unlike it is from stretch to stretch "
+        f"of {STRETCH:g} s. An effect that does not lower the error of drives held out by more than that ± does not help them. The lowest floor is the least that any rung shown reaches, so it lies below that "
         "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it, a signal perhaps nothing, "
         "which does not count among all then. The diagnosis tells other shares: it takes all sites together and aligns their drives for every model.",
         *_of_reference(study),
