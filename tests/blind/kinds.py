@@ -39,7 +39,9 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "antiroll_bar_bush_friction", "damper_cold_oil", "oncoming_lorries", "puddle_drag", "rear_axle_steering",
            "toe_link_friction",
            "balance_control_damper", "drag_link_steer", "gyroscopic_steer", "hydraulic_bump_stop", "lateral_runout", "latching_valve",
-           "lorry_wake", "soft_ground", "trailer_porpoising")  # fmt: skip
+           "lorry_wake", "soft_ground", "trailer_porpoising",
+           "active_roll_bars", "airless_tyre", "bent_arm", "hydraulic_interconnection", "instrument_on_foam",
+           "ride_control_by_torque", "sticky_steering", "switched_air_chamber", "tie_rod_length", "worn_track_rod_end")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
