@@ -68,6 +68,7 @@ def test_a_proposed_form_is_shown():
     assert "84 % of the explainable error on the fitted drives, 92 % on drives held out (p = 0.0015)" in said
     row = rows(diagnosed.tables(found)["missing_effects"])[-1]
     assert row["effect"] == "discovered 2 (proposed form)" and float(row["interval_lower"]) == 78.0 and float(row["p_value"]) == 0.0015
+    assert (row["fitted_pct"], row["held_out_pct"], row["absorbed_pct"]) == (84.0, 92.0, None)
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
 
 
@@ -89,6 +90,15 @@ def test_effects_beside_a_proposed_form_are_switched_on_together_with_it():
     assert by_name["in the library"].endswith(", beside the proposed form.") and "second choice" not in said[-1]["in_words"]
     assert f"effects: [discovered, {', '.join(names)}]" in said[-1]["in_words"]
     assert any(what.startswith("with ") and what.endswith(" it removes") for what in by_name)
+    *effects, form = rows(diagnosed.tables(made_up.diagnosis(verdict))["missing_effects"])
+    assert sum(row["fitted_pct"] or 0.0 for row in effects) + form["fitted_pct"] == pytest.approx(84.0)
+
+
+def test_what_the_signs_of_a_form_mean_is_told_where_they_mean_something():
+    verdict = lambda **more: made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | more})
+    told = {row["what"]: row["in_words"] for row in rows(diagnosed.tables(verdict(here="more friction (front)"))["verdict"])}
+    assert told["here it is"] == "More friction (front)."
+    assert "here it is" not in {row["what"] for row in rows(diagnosed.tables(verdict(here=""))["verdict"])}
 
 
 def test_what_the_library_does_alone_is_no_share_beside_the_form_though_the_names_are_the_same():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -127,10 +127,11 @@ def missing_effects(found: Diagnosis) -> Table:
     proposal = found.verdict.get("proposal") or {}
     if proposal.get("form"):
         breaks.append(len(rows))
+        of_all = (proposal["p_value"], *_own_shares(proposal, found.verdict["effects"]), None)
         for number, size in enumerate(proposal["sizes"]):
             told = (words(size["parameter"]), unit(size["unit"]), size["size"], *(size["interval"] or (None, None)))
-            of_form = proposal["p_value"] if number == 0 else None
-            rows.append((f"{words(proposal['name'])} (proposed form)", *told, "" if size["interval"] else "held", of_form, *(None,) * 3, ""))
+            of_form = of_all if number == 0 else (None,) * 4
+            rows.append((f"{words(proposal['name'])} (proposed form)", *told, "" if size["interval"] else "held", *of_form, ""))
     if not rows:
         beside = "" if found.model == BASE else f" beside {found.model.replace(JOIN, ', ').replace('_', ' ')}"
         rows.append((f"none{beside}", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
@@ -149,6 +150,13 @@ def missing_effects(found: Diagnosis) -> Table:
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
+
+
+def _own_shares(proposal: Mapping, effects: Sequence[Mapping]) -> list[float | None]:
+    """What a proposed form removes of the error, on fitted and on held-out drives in percent, without the ``effects`` beside it."""
+    beside = [effect for effect in effects if effect["name"] in (proposal.get("beside") or ())]
+    own = lambda key: None if proposal[key] is None else proposal[key] - sum(effect[key] or 0.0 for effect in beside)
+    return [_percent(own(key)) for key in ("share", "held_out_share")]
 
 
 EVIDENCE = (
