@@ -12,7 +12,7 @@ import numpy as np
 from ..effects.contract import Parameter
 from .terms import (
     ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
-    on_spring, shape_setting, sliding, swinging, turning, turning_as_heard,
+    following, on_spring, shape_setting, sliding, swinging, turning, turning_as_heard,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -140,6 +140,10 @@ PLACES: Mapping[str, Place] = {
             "side_slip_of_speed": Term("slip_y * speed", "s/m", "slip_y", beside="slip_y"),
             "side_slip_cube": Term("slip_y**3", "1", "slip_y", beside="slip_y"),
             "side_slip_of_sides": Term(SIDE, "1", "slip_y"),
+            "side_slip_within": Term(
+                "min(max(slip_y, -play), play)", "1", "slip_y",
+                settings=(shape_setting("play", "1", 0.002, 0.0003, 0.02, "slip angle to either side within which it acts"),), beside="slip_y",
+            ),
             "side_slip_swinging": swinging("slip_y", 0.01, "way", "1", "slip_y", AXLES, "slip_y"),
             "side_slip_late": Term(
                 "late - slip_y", "1", "slip_y", states=(State("late", "speed * (slip_y - late) / length", 0.005),),
@@ -207,8 +211,10 @@ PLACES: Mapping[str, Place] = {
             ),
             "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x", WHOLE),
             "roll_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_x", WHOLE),
+            "roll_of_late_turning": following("motion.speed * motion.yaw_rate", 1.0, 0.1, "kg m", "moment_x", "motion.speed * motion.yaw_rate"),
             "lift_of_turning": Term("motion.speed * motion.yaw_rate", "kg", "force_z", WHOLE),
             "pitch_of_turning": Term("motion.speed * motion.yaw_rate", "kg m", "moment_y", WHOLE),
+            "push_of_pitching": following("motion.pitch_rate", 0.02, 0.05, "N s", "force_x", above="height"),
             "pitch_damping": Term("motion.pitch_rate", "N m s", "moment_y", WHOLE),
             "pitch_stiffness": Term("motion.pitch", "N m", "moment_y", WHOLE),
             "pitch_inertia": Term("motion.pitch_acceleration", "kg m2", "moment_y", WHOLE),

@@ -140,6 +140,13 @@ def on_spring(
     return Term(f"{base} + {against}", unit, result, WHOLE, states, (frequency, damping), ahead)
 
 
+def following(base: str, typical: float, time: float, unit: str, result: str, beside: str = "", above: str = "") -> Term:
+    """What follows ``base`` (typically ``typical``) with a lag of ``time`` (s), as what is driven by a controller does: ``late``."""
+    lag = shape_setting("time", "s", time, 0.2 * time, 5.0 * time, "time that it is late by")
+    states, at = (State("late", f"({base} - late) / time", typical),), (AT[above],) if above else ()
+    return Term("late", unit, result, WHOLE, states, (lag, *at), above=above, beside=beside)
+
+
 def swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
     """What follows ``base`` (typically ``typical``) as a mass on a spring does: ``way``, in units of it."""
     frequency = shape_setting("frequency", "Hz", 8.0, 3.0, 25.0, "frequency at which it swings")
