@@ -73,7 +73,7 @@ def error_ladder(study: Difference) -> Figure:
     panels[-1, 0].set_ylim(bottom=0.0)
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
     lines = [key(look, notation.signal(signal)) for signal, look in style.SIGNAL_LINES.items()]
-    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals (numbers; bar: ± of its fall)"))
+    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals (numbers)"))
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor"))
     lines += [Line2D([], [], **look, label=f"{METHODS[name]}, model") for name, look in LOOKS.items()]
     if np.isfinite(found["repeats_agreeing"]).any():
@@ -94,8 +94,6 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
         axes.plot(*_known(places, values), color=colour, marker=marker, markersize=3.5)
     overall = _known(places, 100 * chosen["left_overall"].values)
     axes.plot(*overall, color="black", linewidth=2.2, zorder=1)
-    half = 100 * rungs.SURE * np.nan_to_num(chosen["fall_error"].values[np.isfinite(chosen["left_overall"].values)])
-    axes.vlines(overall[0], overall[1] - half, overall[1] + half, color="black", linewidth=6.0, alpha=0.25, zorder=1)
     for place, value in zip(*overall):
         above, said = (6 if value < NEAR_TOP * HIGHEST else -9), f"{value:.0f}" if value <= HIGHEST else f"{value:.0f} ↑"
         axes.annotate(
