@@ -90,6 +90,10 @@ PLACES: Mapping[str, Place] = {
                 "recent * velocity", "N s/m2", states=(State("recent", f"max({AT_ONCE} * (abs(deflection) - recent), -recent / time)", 0.012),),
                 settings=(shape_setting("time", "s", 0.7, 0.1, 5.0, "time in which it forgets how far it travelled"),), beside="velocity",
             ),
+            "deflection_times_recent": Term(
+                "recent * deflection", "N s/m2", states=(State("recent", "(abs(velocity) - recent) / time", 0.1),),
+                settings=(shape_setting("time", "s", 4.0, 0.5, 20.0, "time for which it remembers how fast it moved"),), beside="deflection",
+            ),
             "sliding_direction": sliding("strain", "N", "velocity"),
             "sliding_damping": sliding("abs(velocity) * strain", "N s/m", "velocity"),
             "slow_velocity": below("slow", "velocity"),
@@ -221,6 +225,10 @@ PLACES: Mapping[str, Place] = {
             "pitch_of_speed": Term("motion.speed**2", "kg", "moment_y", WHOLE),
             "yaw_damping": Term("motion.yaw_rate", "N m s", "moment_z", WHOLE),
             "yaw_of_rolling": Term("motion.roll_acceleration", "kg m2", "moment_z", WHOLE),
+            "roll_of_yawing": Term(
+                f"{AT_ONCE} * (motion.yaw_rate - past)", "kg m2", "moment_x", WHOLE,
+                (State("past", f"{AT_ONCE} * (motion.yaw_rate - past)", 0.047),),
+            ),
             "roll_of_bounce": Term("motion.vertical_acceleration", "kg m", "moment_x", WHOLE),
             "lift_of_rolling": Term("motion.roll_acceleration", "kg m", "force_z", WHOLE),
             "pitch_of_bounce": Term("motion.vertical_acceleration", "kg m", "moment_y", WHOLE),
