@@ -304,16 +304,21 @@ def test_names_give_way_to_a_force_and_effects_beside_it_that_fit_better_beyond_
     found = reconsidered(named, WITH_FRICTION, fits_better=True)
     assert found.verdict == "outside" and beside_a_force(found, WITH_FRICTION).reasons.count(found.reasons[-1]) == 1
     assert reconsidered(named, WITH_FRICTION) is named
-    for weaker in (replace(WITH_FRICTION, share=0.89), replace(WITH_FRICTION, held_out_share=0.86), replace(WITH_FRICTION, p_value=0.03)):
-        assert reconsidered(named, weaker, fits_better=True) is named
+    # The mean of fitted drives and of those held out counts, and neither may be hardly better.
+    assert reconsidered(named, replace(WITH_FRICTION, held_out_share=0.86), fits_better=True).verdict == "outside"
+    weaker = {"share": 0.8}, {"held_out_share": 0.79}, {"share": 0.88, "held_out_share": 0.87}, {"p_value": 0.03}
+    for change in weaker:
+        assert reconsidered(named, replace(WITH_FRICTION, **change), fits_better=True) is named
 
 
 def test_what_explains_most_is_named_unless_such_a_force_leaves_half():
     left = replace(OUTSIDE, effects=(FOUND,))
-    assert named_all_the_same(left, replace(WITH_FRICTION, share=0.7, held_out_share=0.68)).verdict == "named"
+    found = named_all_the_same(left, replace(WITH_FRICTION, share=0.7, held_out_share=0.68))
+    assert found.verdict == "named" and "may be missing, too (70 % and 68 % together): beside what is named" in found.reasons[-1]
+    assert "no force of any form" in named_all_the_same(left, replace(WITH_FRICTION, share=0.6, held_out_share=0.58)).reasons[-1]
     assert named_all_the_same(left, WITH_FRICTION) is left
 
 
 def test_on_a_road_that_may_be_another_such_a_force_counts_where_it_leaves_half():
     assert reconsidered(LITTLE, WITH_FRICTION, is_road_open=True) is LITTLE
-    assert reconsidered(LITTLE, replace(WITH_FRICTION, share=0.6), is_road_open=True).verdict == "named"
+    assert reconsidered(LITTLE, replace(WITH_FRICTION, share=0.45), is_road_open=True).verdict == "named"

@@ -28,7 +28,7 @@ def search(*removed, kind="outside", suspected="", parameters=None):
 
 def outcome(kind="outside", form=None, is_sure=True):
     proposed = None if form is None else SimpleNamespace(selection=ends(*form), is_sure=is_sure)
-    return righted.Outcome(None, Verdict(kind, (), (), 0.0, 0.0), proposed, ends(0.0, 0.0))
+    return righted.Outcome(None, Verdict(kind, (), (), 0.0, 0.0), proposed, ends(0.0, 0.0), None)
 
 
 @pytest.fixture(autouse=True)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import curves, opening
+from ridecomfort.discrepancy.experiment import simulate
 from ridecomfort.discrepancy.rung import begin
 from ridecomfort.discrepancy.signature import _Estimate, signature
 from ridecomfort.effects import library
@@ -25,7 +26,8 @@ def drawn(car, name: str):
     experiment = opening.opened(trial.measured, car, among=(), workers=1)
     rung = begin(experiment, {**opening.start_values(experiment), **trial.truth["car"]})
     hidden = {f"{effect}.{key}": value for effect, sizes in trial.truth["effects"].items() for key, value in sizes.items()}
-    return signature(rung, named={**rung.fit.values, **trial.truth["car"], **hidden}, near=[name])
+    found = simulate(rung.experiment, {**rung.fit.values, **trial.truth["car"], **hidden}, rung.fit.residuals)
+    return signature(rung, found=found, ports=[library.find()[name].effect.port])
 
 
 @pytest.fixture(scope="module")

@@ -13,6 +13,7 @@ from .car import Car
 from .discover import Discovery, discovered
 from .explain import REPEATS
 from .judge import with_allowances, with_bounds, with_parameters
+from .missing_force import missing_force
 from .rank import ranked
 from .ranking import with_forms
 from .reconsider import beside_a_force, heard, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
@@ -30,21 +31,21 @@ def diagnose(
     workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,
 ) -> tuple[xr.Dataset, Verdict, Discovery | None]:  # fmt: skip
     """The evidence, the verdict, and where that is "outside" the search for a form, else None. Wherever such a search was made its evidence
-    stands beside that of the library (``ranking.forms``).
+    stands beside that of the library (``ranking.forms``). ``signatures``: with the curves of what is missing (``missing_force``).
 
     Where parameters of the vehicle beyond their bounds may explain more, a second search begins with them: it is the answer if it leaves nothing
     out or is the better explanation, else they are told beside the first (``righted``). Arguments as for ``rank``, but ``most``; ``name``: of
     the effect that is proposed.
     """
     experiment = opening.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
-    common = {"effects_folder": effects_folder, "seed": seed, "say": say}
-    common["each"] = pool.mapped(pool.workers() if workers is None else workers)
-    rung = begin(experiment, opening.start_values(experiment), common["each"])
-    first = Ranked(*ranked(experiment, rung, signatures=signatures, **common), rung)
-    outcome_of = lambda search: _outcome(search, experiment, name, common)
+    each = pool.mapped(pool.workers() if workers is None else workers)
+    common = {"seed": seed, "each": each, "say": say}
+    rung = begin(experiment, opening.start_values(experiment), each)
+    first = Ranked(*ranked(experiment, rung, **common), rung)
+    outcome_of = lambda search: _outcome(search, experiment, name, {**common, "effects_folder": effects_folder})
     found, second, is_tried = None, None, _may_lie_beyond(first)
     if is_tried:
-        found, second = searched_again(experiment, first.selection, signatures, common)
+        found, second = searched_again(experiment, first.selection, common)
     if second is not None and second.leaves_nothing_out:
         outcome, found = outcome_of(second), second.parameters
     elif is_tried:
@@ -58,7 +59,14 @@ def diagnose(
             found = None
         verdict = beside_a_force(verdict, proposal)
     verdict = with_bounds(with_parameters(verdict, found and found.of(vehicle)), at_bounds(outcome.stands_on, experiment.free))
-    return outcome.table, with_allowances(verdict, {candidate.name for candidate in experiment.candidates}), proposal
+    table = outcome.table
+    if signatures:
+        say("drawing the missing force")
+        curves = missing_force(
+            experiment, outcome.rung, outcome.selection, verdict, proposal, effects_folder=effects_folder, each=each
+        )
+        table = table.merge(curves)
+    return table, with_allowances(verdict, {candidate.name for candidate in experiment.candidates}), proposal
 
 
 def _may_lie_beyond(first: Ranked) -> bool:
@@ -75,7 +83,7 @@ def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Out
     is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
     is_road_alone = verdict.verdict == "suspect" and table.attrs["suspected"] == "road"
     if not (is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone):
-        return Outcome(table, verdict, None, search.selection)
+        return Outcome(table, verdict, None, search.selection, search.rung)
     library = experiment.candidates if verdict.verdict in ("named", "cluster", "outside") else ()
     line = turns.left_by(search.selection) if table.attrs["turns"] else None
     proposal = discovered(search.rung, name=name, known=library, probed=search.selection.probed, line=line, **common)
@@ -83,4 +91,4 @@ def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Out
     verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, surely_fits_better(proposal, search.selection))
     if not (table.attrs["turns"] or table.attrs["road"]):
         verdict = named_all_the_same(verdict, proposal)
-    return Outcome(table, verdict, proposal if verdict.verdict == "outside" else None, search.selection)
+    return Outcome(table, verdict, proposal if verdict.verdict == "outside" else None, search.selection, search.rung)

@@ -18,6 +18,7 @@ import xarray as xr
 from .. import pool
 from ..effects.contract import Parameter
 from . import event, opening
+from . import experiment as exp
 from .balance import LITTLE
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
@@ -70,6 +71,8 @@ class Discovery:
     sizes: tuple[dict, ...] = ()
     """Its factors and what shapes it as in an effect file, each with ``parameter``, ``unit``, ``size`` and, where it was fitted, the 90 %
     ``interval``."""
+    residuals: Mapping[int, np.ndarray] | None = None
+    """Those of the fitted drives, as they were aligned for the model that was diagnosed, with it and what stands beside it."""
 
     def words(self) -> str:
         """Where it acts, what usually makes such a force, and what it removes, as two sentences."""
@@ -143,8 +146,10 @@ def discovered(
             say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed,
             known=heard_as(line, radius),
         )  # fmt: skip
+        residuals = exp.simulate(rung.experiment, {**rung.fit.values, **selection.final.values}, rung.fit.residuals)
     evidence = dataset(rung.experiment, selection)
-    return replace(proposed(replace(selection, probed={}), name, known), evidence=evidence)  # columns of all terms are large
+    found = proposed(replace(selection, probed={}), name, known)
+    return replace(found, evidence=evidence, residuals=residuals)  # columns of all terms are large
 
 
 def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Discovery:

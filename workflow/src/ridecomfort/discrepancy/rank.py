@@ -17,7 +17,6 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection
-from .signature import signature
 from .shared import is_material
 from .verdict import Verdict
 
@@ -35,7 +34,6 @@ def rank(
     among: Sequence[str] | None = None,
     most: int = EFFECTS,
     seed: int = 0,
-    signatures: bool = False,
     noise_density: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
     workers: int | None = None,
     options: Mapping | None = None,
@@ -48,12 +46,11 @@ def rank(
     ``effects`` are those of the model; ``uncertain``: share by which parameters that are not calibrated may be wrong
     (default ``opening.UNCERTAIN``). ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
     default one for each core. ``noise_density``: of instruments by site and drive, the floor where no drive
-    was repeated. ``signatures``: estimate the missing force against what it could depend on as well.
+    was repeated.
 
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
-    their gains, shares and objections; over ``model``: the mean squares of its states; ``smoothness`` of the road (``suspect.smoothness``); and what
-    ``signature`` returns. In the attributes ``road`` what speaks for another road than that of the file, if that may be all that
+    their gains, shares and objections; over ``model``: the mean squares of its states; and ``smoothness`` of the road (``suspect.smoothness``). In the attributes ``road`` what speaks for another road than that of the file, if that may be all that
     repeats share, ``suspected`` whether the "data" are or the "road" alone, and ``turns`` what comes back with the
     way or the time (``turns.line``). Raises InputError.
     """
@@ -63,14 +60,11 @@ def rank(
     )  # fmt: skip
     each = pool.mapped(pool.workers() if workers is None else workers)
     rung = begin(experiment, opening.start_values(experiment), each)
-    return ranked(
-        experiment, rung, most=most, seed=seed, signatures=signatures, effects_folder=effects_folder, each=each, say=say
-    )[:2]
+    return ranked(experiment, rung, most=most, seed=seed, each=each, say=say)[:2]
 
 
 def ranked(
-    experiment: Car, rung: Rung, *, most: int = EFFECTS, seed: int = 0, signatures: bool = False, effects_folder=None, each=map,
-    say: Callable[[str], None] = lambda words: None,
+    experiment: Car, rung: Rung, *, most: int = EFFECTS, seed: int = 0, each=map, say: Callable[[str], None] = lambda words: None
 ) -> tuple[xr.Dataset, Verdict, Selection]:  # fmt: skip
     """``rank`` from an ``experiment`` as its drives came and the ``rung`` of its calibrated model, with the selection behind it."""
     selection = search(rung, most=most, seed=seed, each=each, say=say)
@@ -91,23 +85,7 @@ def ranked(
     table.attrs["turns"] = "" if line is None else line.words(float(experiment.vehicle["tyre_radius"]))
     has_decoys = any(turn.decoy_ranks for turn in selection.rounds)
     table.attrs["suspected"] = "" if not (doubts or has_decoys) else "road" if is_road_alone and not has_decoys else "data"
-    if signatures:
-        say("drawing the missing force")
-        near = [name for e in verdict.effects for name in (e.name, *e.like)]
-        if not near:
-            near = [trial.name for turn in selection.rounds[:1] for trial in turn.trials]
-        curves = signature(
-            rung, named=_with_named(selection, verdict, experiment), near=[*near, *experiment.effects], effects_folder=effects_folder, each=each
-        )
-        table = table.merge(curves)
     return table, verdict, selection
-
-
-def _with_named(selection: Selection, verdict: Verdict, experiment: Car) -> dict[str, float] | None:
-    """Values of the last model with nothing but the effects that the verdict names; None without any."""
-    named = [effect.name for effect in verdict.effects]
-    others = [c for c in experiment.candidates if c.name in selection.accepted and c.name not in named]
-    return {**selection.final.values, **{size.key: size.neutral for c in others for size in c.sizes}} if named else None
 
 
 def _measured(frame: Frame) -> dict[int, np.ndarray]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -111,7 +112,7 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
     It explains BETTER as much of the fitted drives, and no less of those held out; or what was found is DOUBTFUL or too large, and the
     force ``fits_better`` and leaves MOST_LEFT of it at most. Where repeats surely share an error beside what was found, EQUAL more of the
     fitted drives and not much less of the others will do, or, where little is left, leaving HALF of that. With effects of the library beside
-    it, a force ``fits_better`` and leaves HALF.
+    it, a force ``fits_better`` and leaves HALF (``_leaves_half``).
     """
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     if not is_sure(proposal):
@@ -150,11 +151,19 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     if theirs and is_better:
         return verdict
     kept = tuple(effect for effect in verdict.effects if _is_much(effect, verdict)) or verdict.effects[:1]
-    reasons = [*verdict.reasons, "no force of any form explains much more, alone or beside the library: what is left may be another one, or many small things"]
+    reasons = [*verdict.reasons, _no_better(theirs, shares, proposal)]
     reasons += [_not_named(effect) for effect in verdict.effects if effect not in kept]
     share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
     kind = "cluster" if any(effect.like for effect in kept) else "named"
     return replace(verdict, verdict=kind, effects=kept, reasons=tuple(reasons), share=share, held_out_share=held_out)
+
+
+def _no_better(theirs: Sequence[float], shares: Sequence[float], proposal: Discovery) -> str:
+    """What is said of a force that is no reason to name nothing, of its shares beside those of what is named."""
+    if any(share > own + EQUAL for share, own in zip(theirs, shares)):
+        removed = " and ".join(f"{100 * share:.0f} %" for share in theirs)
+        return f"{_said_of(proposal)} may be missing, too ({removed} together): beside what is named it shows better"
+    return "no force of any form explains much more, alone or beside the library: what is left may be another one, or many small things"
 
 
 def _not_named(effect: Named) -> str:
@@ -180,9 +189,11 @@ def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
 
 
 def _leaves_half(verdict: Verdict, proposal: Discovery) -> bool:
-    """Whether what a force and effects beside it leave is HALF of what the library alone does at most, on fitted drives and on those held out."""
+    """Whether what a force and effects beside it leave is HALF of what the library alone does at most, and MOST_LEFT of that on fitted drives
+    and on those held out alike."""
     pairs = (proposal.share, verdict.share), (proposal.held_out_share, verdict.held_out_share)
-    return all(1.0 - ours <= HALF * (1.0 - theirs) for ours, theirs in pairs if np.isfinite(ours) and np.isfinite(theirs))
+    known = [(1.0 - ours, 1.0 - theirs) for ours, theirs in pairs if np.isfinite(ours) and np.isfinite(theirs)]
+    return left(proposal) <= HALF * left(verdict) and all(ours <= MOST_LEFT * theirs for ours, theirs in known)
 
 
 def beside_a_force(verdict: Verdict, proposal: Discovery) -> Verdict:

@@ -55,6 +55,8 @@ class Outcome:
     verdict: Verdict
     proposed: Discovery | None
     selection: Selection
+    rung: Rung
+    """Of the model that the search began with."""
 
     @property
     def sure(self) -> Discovery | None:
@@ -67,11 +69,11 @@ class Outcome:
         return self.selection if self.sure is None else self.sure.selection
 
 
-def searched_again(experiment: Car, before: Selection, signatures: bool, common: Mapping) -> tuple[BeyondBounds | None, Ranked | None]:
+def searched_again(experiment: Car, before: Selection, common: Mapping) -> tuple[BeyondBounds | None, Ranked | None]:
     """Parameters of the vehicle beyond their bounds, if they explain more beside the effects of the search ``before``; and a search that
     begins with such parameters put right, if its model is the better one.
 
-    ``experiment``: as its drives came. ``signatures`` and ``common``: arguments of ``rank.ranked``.
+    ``experiment``: as its drives came. ``common``: arguments of ``rank.ranked``.
     """
     common["say"]("trying parameters of the vehicle beyond their bounds")
     found, wide = beyond_bounds(before, common["each"]) or (None, None)
@@ -80,7 +82,7 @@ def searched_again(experiment: Car, before: Selection, signatures: bool, common:
         return found, None
     common["say"]("searching again with those parameters put right")
     came = replace(experiment, free=rung.experiment.free)
-    table, verdict, after = ranked(came, rung, signatures=signatures, **common)
+    table, verdict, after = ranked(came, rung, **common)
     parameters = searched(before, after)
     return found, Ranked(table, verdict, after, rung, parameters) if parameters is not None else None
 

@@ -18,9 +18,7 @@ import numpy as np
 import xarray as xr
 from scipy.linalg import block_diag
 
-from ..effects import library
 from . import curves, event, evidence, probe
-from . import experiment as exp
 from .curves import LINE, Seen
 from .experiment import Frame
 from .made import beside
@@ -32,32 +30,30 @@ LEAST_PLACES = 3.0
 
 
 def signature(
-    rung: Rung, *, named: Mapping[str, float] | None = None, near: Sequence[str] = (), effects_folder=None, each: Callable = map
+    rung: Rung, *, found: Mapping[int, np.ndarray] | None = None, ports: Sequence[str] = (), effects_folder=None, each: Callable = map
 ) -> xr.Dataset:
     """Curves of what a ``rung`` misses, from the drives that are fitted.
 
-    ``named``: values of the model with the named effects, to compare with; ``near``: names of effects at whose ports curves are estimated
-    beside those of struts and tyres; ``each``: a ``map`` over curves.
+    ``found``: residuals of the model with what was found, to compare with; ``ports``: at which curves are estimated beside those of struts
+    and tyres; ``each``: a ``map`` over curves.
     Returns over ``seen`` (what it depends on), ``axle`` and ``knot``: ``seen_at`` (in ``seen_unit``, of what ``seen_axis`` says),
     ``missing`` (``missing_what``, in ``missing_unit``) with its standard ``missing_error``, and ``named_missing``: what the estimate
-    would show were the model with the named effects the truth (nan without any); nan where drives hardly come. ``seen_share`` of the
+    would show were the model with what was found the truth (nan without any); nan where drives hardly come. ``seen_share`` of the
     error when white, noise included, that the curves of a place, those of both axles, take says which explains most.
     """
     frame, values, residuals = rung.frame, rung.fit.values, rung.fit.residuals
     free = evidence.basis(frame.flats(list(rung.raw.values())).astype(float))
     to_explain = [evidence.without(frame.flat(residuals), free)]
-    if named is not None:
-        explained = exp.simulate(rung.experiment, named, residuals)
-        to_explain.append(evidence.without(frame.flat({i: residuals[i] - explained[i] for i in residuals}), free))
-    known = library.find(effects_folder)
-    chosen = curves.at([known[name].effect.port for name in near])
+    if found is not None:
+        to_explain.append(evidence.without(frame.flat({i: residuals[i] - found[i] for i in residuals}), free))
+    chosen = curves.at(ports)
     sources = {_name(number): curves.source(_name(number), seen) for number, seen in enumerate(chosen.values())}
     with beside(effects_folder, sources) as folder:
         candidates = [curves.candidate(_name(number), seen) for number, seen in enumerate(chosen.values())]
         experiment = rung.experiment.looking_for(candidates, folder)
         sooner, base = probe.coarsely(experiment, values, residuals)
-        found = each(probe.Probe(sooner, values, base), [(c.name, 0) for c in candidates])
-        estimates = list(each(_Estimate(frame, np.stack(to_explain), free), list(zip(found, chosen.values()))))
+        columns = each(probe.Probe(sooner, values, base), [(c.name, 0) for c in candidates])
+        estimates = list(each(_Estimate(frame, np.stack(to_explain), free), list(zip(columns, chosen.values()))))
     return _dataset(chosen, estimates)
 
 

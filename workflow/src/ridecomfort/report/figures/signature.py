@@ -30,7 +30,7 @@ AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
 
 def signature(found: Diagnosis) -> Figure:
     """Estimates of what is missing with their 90 % intervals, a row each thing that it may depend on, a column each axle, one scale for all
-    panels of what acts at the same place, and what the named effects would show together."""
+    panels of what acts at the same place, and what was found would show together."""
     ranking = found.ranking
     if "missing" not in ranking:
         drawn = style.figure(style.DOUBLE, ROW)
@@ -61,7 +61,9 @@ def signature(found: Diagnosis) -> Figure:
             axes.set_title(f"{axle} {place}" + (f"; both: {share:.0f} % of the error" if axes is panel[-1] else ""))
             axes.set_xlabel(f"{one['seen_axis'].item()} [{unit}]")
         panel[0].set_ylabel(fill(f"{one['missing_what'].item()} [{missing_unit}]", LONGEST))
-    together = " and ".join(words(effect["name"]) for effect in found.verdict["effects"])
+    proposal = found.verdict.get("proposal") or {}
+    names = [words(effect["name"]) for effect in found.verdict["effects"] if not proposal.get("form") or effect["name"] in (proposal.get("beside") or ())]
+    together = " and ".join([*names, *(["the proposed form"] if proposal.get("form") else [])])
     handles = [
         Line2D([], [], color=colour, marker=marker, markersize=3.5, label=f"estimated, {axle}")
         for axle, (colour, marker) in AXLE_LINES.items()
