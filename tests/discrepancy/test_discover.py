@@ -13,7 +13,7 @@ from ridecomfort.discrepancy import select
 from ridecomfort.discrepancy.car import LONGEST
 from ridecomfort.discrepancy.discover import Discovery, heard_as, may_follow, proposed, terms_of
 from ridecomfort.discrepancy.experiment import Candidate
-from ridecomfort.discrepancy.form import effect_source, in_words
+from ridecomfort.discrepancy.form import effect_source, in_words, typically
 from ridecomfort.discrepancy.places import PLACES, parameter, scale, settings
 from ridecomfort.discrepancy.terms import AXLES, LINEAR, TURNING, WHEELS, WHOLE
 from ridecomfort.discrepancy.turns import Line
@@ -93,6 +93,21 @@ def test_a_force_that_whirls_is_said_with_what_it_does_up_and_aside_and_after_wh
     )
 
 
+def test_a_form_is_told_with_its_size_at_typical_motion_of_what_it_sees():
+    assert typically("strut", {"velocity_direction": {"front": 57.3, "rear": -48.0}}) == "57 N front and 48 N rear at velocity 0.12 m/s"
+    toe = typically("links", {"toe_of_deflection_square_on_sides": {"front": 2.76, "rear": -2.5}})
+    assert toe == "0.4 mrad front and 0.36 mrad rear at deflection 0.012 m"
+    wave = typically("tyre", {"once_a_turn_by_spin": {"rear_left_cosine": 0.01, "rear_left_sine": 0.0}})
+    assert wave == "49 N rear left at spin 70 rad/s"
+    assert typically("body", {"drag": {"": -0.3}}) == "120 N at speed 20 m/s"
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_every_term_has_a_size_in_words(place):
+    for name, term in PLACES[place].terms.items():
+        assert typically(place, {name: {part: 1.0 for part in term.parts}})
+
+
 @pytest.mark.parametrize("angle", [-170.0, 0.0, 63.0])
 def test_a_wave_in_words_is_the_sum_of_its_cosine_and_sine(angle):
     term, turns = PLACES["tyre"].terms["once_a_turn"], np.linspace(0.0, 7.0, 50)
@@ -151,7 +166,7 @@ def test_a_force_may_have_a_linear_part_of_its_own(tmp_path):
     entry = library.find(tmp_path)["found"]
     force = lambda deflection: entry.act(0, deflection, 0.1, 0.0, 0.0, 0.0, 0.0, **entry.effect.values())
     assert force(0.0) == pytest.approx(-50.0, rel=1e-3) and force(0.02) == pytest.approx(0.0, abs=0.05)
-    assert "linear = -1.667" in in_words("strut", terms, shaped)
+    assert "(abs(deflection) * velocity - 0.02 * velocity)" in in_words("strut", terms, shaped)
     plain = effect_source("found", "strut", terms, "Found.", {"deflection_size_times_velocity": {"linear": 0.0}})
     assert "linear" not in plain
 

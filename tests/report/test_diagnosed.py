@@ -77,7 +77,7 @@ def test_a_form_is_written_in_usual_notation_and_says_what_a_side_is():
     verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"form": form, "place": "contact", "port": "tyre_planar"}}
     (row,) = [row for row in rows(diagnosed.tables(made_up.diagnosis(verdict))["verdict"]) if row["what"] == "proposed form"]
     assert row["in_words"] == (
-        "At the contact: slip_x → slip_x + (−2.4e−06 1/N front) (load + linear · 1.333e+06 · slip_x), linear = 0.14; "
+        "At the contact: slip_x → slip_x + (−2.4e−06 1/N front) (load + 1.867e+05 · slip_x); "
         "slip_y → slip_y + (0.0076 front) side; side is +1 on the left, −1 on the right."
     )
 

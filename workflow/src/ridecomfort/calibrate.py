@@ -235,7 +235,7 @@ def _of_clocks(result: xr.Dataset) -> list[str]:
     """What is to be said of drives whose clock would go farther than it may."""
     eager = result["drive"].values[np.abs(result["clock_correction"].values) >= CLOCK_LEFT]
     said = f"the clock of {', '.join(eager)} would move by more than the {1e3 * CLOCK_LEFT:g} ms it is trusted to: "
-    lacks = "the model lacks a delay or a damping, or s is the distance of another point of the vehicle (alignment.md)"
+    lacks = "the model lacks something (mostly a delay, a damping or friction), or s is the distance of another point of the vehicle (alignment.md)"
     return [said + lacks] if eager.size else []
 
 

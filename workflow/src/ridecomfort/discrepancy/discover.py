@@ -22,7 +22,7 @@ from . import experiment as exp
 from .balance import LITTLE
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
-from .form import effect_source, in_words
+from .form import effect_source, in_words, typically
 from .judge import ANOTHER_SHAPE, standing
 from .made import beside
 from .meanings import senses, such_as, told
@@ -89,7 +89,8 @@ class Discovery:
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
         names = ("name", "place", "port", "form", "terms", "settings", "sizes", "share", "held_out_share", "p_value", "by_place")
-        more = {"such_as": such_as(self.place, self.terms), "here": senses(self.place, self.terms), "beside": self.names_beside()}
+        said = {"such_as": such_as, "here": senses, "typically": typically}
+        more = {name: tell(self.place, self.terms) for name, tell in said.items()} | {"beside": self.names_beside()}
         return plain({name: getattr(self, name) for name in names} | more)
 
 

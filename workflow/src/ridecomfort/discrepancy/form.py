@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from .places import FORCE, PLACES, expression, parameter, scale, settings
+from .places import FORCE, PLACES, at_typical, expression, parameter, scale, settings
 from .terms import AXLES, CLOSE, FIRM, LINEAR, WHEELS, Term
 
 WIDTH = 3.0
@@ -26,15 +26,43 @@ def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
         term, own = PLACES[place].terms[name], shaped.get(name, {})
         slopes = "".join(f", {state.name}' = {state.slope}" for state in term.states)
         values = {setting: own.get(setting.name, setting.typical) for setting in settings(place, name)}
-        written = term.written(expression(place, name, bool(values.get(LINEAR))))
-        written = f"({written})" if " + " in written or term.states and not term.turn and " " in written else written
-        said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR or value)
+        written = term.written(expression(place, name, bool(values.get(LINEAR)), values.get(LINEAR)))
+        is_sum = " + " in written or bool(values.get(LINEAR)) or term.states and " " in written
+        written = f"({written})" if is_sum and not term.turn else written
+        said = "".join(f", {s.name} = {value:.4g} {s.unit}".removesuffix(" 1") for s, value in values.items() if s is not LINEAR)
         for result, parts in term.by_result().items():
             at = " at " + " and ".join(term.arms(result)) if term.arms(result) else ""
             size = _sizes(term, {part: factors[part] for part in parts if part in factors})
             by_result.setdefault(result, []).append(f"({size}) {written}{at}{slopes}{said}")
     sign = lambda result: "+=" if result in PLACES[place].arguments else "="
     return "; ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
+
+
+RETURNED = {"force": "N", "pull": "N", "moment": "N m", "toe": "mrad", "angle": "mrad", "a": "m/s2"}
+"""Unit of what a port returns, by the name of that up to its axis; shares have none."""
+
+SEEN = {
+    "deflection": "m", "velocity": "m/s", "speed": "m/s", "side_speed": "m/s", "vertical_speed": "m/s", "force_x": "N", "force_y": "N", "load": "N",
+    "angle": "rad", "spin": "rad/s", "roll": "rad", "pitch": "rad", "roll_rate": "rad/s", "pitch_rate": "rad/s", "yaw_rate": "rad/s",
+    "vertical_acceleration": "m/s2", "roll_acceleration": "rad/s2", "pitch_acceleration": "rad/s2", "slip_x": "", "slip_y": "", "slope": "",
+}  # fmt: skip
+"""Unit of what a place sees, where it is told."""
+
+
+def typically(place: str, terms: Factors) -> str:
+    """How large each term of a force is at typical motion of what it sees, by part of the car."""
+    return "; ".join(_typically(place, name, factors) for name, factors in terms.items() if factors)
+
+
+def _typically(place: str, name: str, factors: Mapping[str, float]) -> str:
+    term = PLACES[place].terms[name]
+    one, seen = at_typical(place, name)
+    unit = RETURNED.get(term.result.partition("_")[0], "")
+    times = 1e3 * one if unit == "mrad" else one
+    sizes = {part: size for part, (size, _) in term.amplitudes(factors).items()} if term.turn else factors
+    told = " and ".join(" ".join(filter(None, (f"{float(f'{abs(times * size):.2g}'):g}", unit, part.replace("_", " ")))) for part, size in sizes.items())
+    at = ", ".join(f"{seen_name.replace('_', ' ')} {value:g} {SEEN[seen_name]}".rstrip() for seen_name, value in seen.items() if seen_name in SEEN)
+    return f"{told} at {at}" if at else told
 
 
 def _sizes(term: Term, factors: Mapping[str, float]) -> str:

@@ -221,6 +221,13 @@ SENSES: Mapping[str, Mapping[str, tuple[str, str]]] = {
     "links": {
         "recession": ("wheels move back as they rise", "wheels move forward as they rise"),
         "recession_of_deflection": ("wheels move farther back the higher they are", "wheels move farther forward the higher they are"),
+        "scrub": ("wheels move to the left as they rise", "wheels move to the right as they rise"),
+        "scrub_of_sides": ("wheels move out as they rise", "wheels move in as they rise"),
+        "toe_of_deflection": ("both wheels turn left as they rise", "both wheels turn right as they rise"),
+        "toe_of_deflection_on_sides": ("toe out as wheels rise", "toe in as wheels rise"),
+        "toe_of_deflection_square_on_sides": ("toe out away from rest, up and down", "toe in away from rest, up and down"),
+        "toe_late_on_sides": ("toe out while wheels rise", "toe in while wheels rise"),
+        "toe_dragged_on_sides": ("toe out as wheels rise, held by friction", "toe in as wheels rise, held by friction"),
     },
     "body": {
         "drag": _more(*RESISTANCE),

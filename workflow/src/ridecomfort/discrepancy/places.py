@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import pi
@@ -314,7 +315,21 @@ def scale(place: str, term: str) -> float:
     return _size(place, term, own.expression) * PLACES[place].worth.get(own.result, 1.0)
 
 
+def at_typical(place: str, term: str) -> tuple[float, dict[str, float]]:
+    """What a term with a factor of one returns at typical motion, in the unit of that per unit of the factor, and what it sees there by name."""
+    own = PLACES[place].terms[term]
+    known = _known(place, term, own.expression)
+    seen = {name: known[name] for name in dict.fromkeys(re.findall(r"[a-z_]+", own.expression)) if name in PLACES[place].typical}
+    seen |= {name: getattr(MOTION, name) for name in dict.fromkeys(re.findall(r"motion\.(\w+)", own.expression))}
+    return _size(place, term, own.expression), {name: abs(value) for name, value in seen.items() if not isinstance(value, SimpleNamespace)}
+
+
 def _size(place: str, term: str, expression: str) -> float:
+    return abs(float(eval(expression, {"__builtins__": {}}, _known(place, term, expression))))  # an expression of this file, not of a user
+
+
+def _known(place: str, term: str, expression: str) -> dict[str, object]:
+    """What the ``expression`` of a term is evaluated with at typical motion."""
     own, typical = PLACES[place].terms[term], PLACES[place].typical
     known = {**typical, "wheel": 0, "tanh": np.tanh, "abs": abs, "max": max, "min": min}
     known |= {state.name: state.typical for state in own.states} | {one.name: one.typical for one in own.settings}
@@ -322,13 +337,15 @@ def _size(place: str, term: str, expression: str) -> float:
         known |= {key: 2 * value for key, value in typical.items() if key != "rest"}
     if "min(" in expression:
         known |= {key: -known[key] for key in typical}
-    return abs(float(eval(expression, {"__builtins__": {}}, known)))  # an expression of this file, not of a user
+    return known
 
 
-def expression(place: str, term: str, linear: bool) -> str:
-    """The expression of a term, with its linear part where that is wanted."""
+def expression(place: str, term: str, linear: bool, share: float | None = None) -> str:
+    """The expression of a term, with its linear part where that is wanted: as a number for a ``share`` of the term that is known."""
     own = PLACES[place].terms[term]
     if not (own.beside and linear):
         return own.expression
     times = _size(place, term, own.expression) / _size(place, term, own.beside)
+    if share is not None:
+        return f"{own.expression} {'-' if share < 0 else '+'} {abs(share) * times:.4g} * {own.beside}"
     return f"{own.expression} + linear * {times:.4g} * {own.beside}".replace(" * 1 * ", " * ")

@@ -14,7 +14,8 @@ from ...vehicle.parameters import PARAMETERS
 from ..study import Diagnosis
 
 NEXT = {
-    "named": "Switch on what is missing, effects: [{keys}] in config/study.yaml, and compare again. If enough is left then, diagnose again.",
+    "named": "Switch on what is missing, effects: [{keys}] in config/study.yaml, compare and diagnose again: something smaller may show beside it. "
+    "The loop ends where this row says so.",
     "cluster": "Switch one of each cluster on, effects: [{keys}] in config/study.yaml, and compare again; then another in its place. Keep the "
     "one with which the error ladder is lowest on drives held out; drive what would tell them apart.",
     "nothing": "Nothing is to be switched on.",

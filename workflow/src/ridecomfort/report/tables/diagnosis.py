@@ -76,8 +76,7 @@ def verdict(found: Diagnosis) -> Table:
         rows.append(("proposed form", f"At the {proposal['place']}: {formula(proposal['form'])}{of_side}."))
         rows.append(("in it", sentence(PORTS[proposal["port"]].meaning)))
         rows.append(("such as", sentence(proposal["such_as"])))
-        if proposal.get("here"):
-            rows.append(("here it is", sentence(proposal["here"])))
+        rows += [(what, sentence(proposal[key])) for key, what in (("here", "here it is"), ("typically", "at typical motion")) if proposal.get(key)]
         beside = proposal.get("beside")
         rows.append((f"with {', '.join(map(words, beside))} it removes" if beside else "it removes", _promise(proposal)))
     rows.append(("next, after the vehicle" if comes_first else "next", advice.next_step(found)))
@@ -105,8 +104,10 @@ def missing_effects(found: Diagnosis) -> Table:
         Column("like", ("", "Not told from")),
     )
     rows, breaks = [], []
+    stands_in = found.verdict["verdict"] == "outside" and not found.verdict.get("is_beside_form")
     for effect in found.verdict["effects"]:
         breaks.append(len(rows))
+        name = f"{words(effect['name'])} (may stand in)" if stands_in else words(effect["name"])
         shares = [_percent(effect[key]) for key in ("share", "held_out_share", "absorbed")]
         like = ", ".join(words(name) for name in effect["like"]) or "–"
         of_all = (effect["p_value"], *shares, like)
@@ -121,7 +122,7 @@ def missing_effects(found: Diagnosis) -> Table:
             if size.get("plausible"):
                 plausible += " ({:.4g} to {:.4g})".format(*size["plausible"])
             rows.append(
-                (words(effect["name"]), words(size.get("parameter", "")), unit(size.get("unit", "")), size.get("size"), lower, upper,
+                (name, words(size.get("parameter", "")), unit(size.get("unit", "")), size.get("size"), lower, upper,
                  plausible, *(of_all if number == 0 else (*(None,) * 4, "")))
             )  # fmt: skip
     proposal = found.verdict.get("proposal") or {}
@@ -145,7 +146,7 @@ def missing_effects(found: Diagnosis) -> Table:
         "where the drives asked for another value, else held at its typical one or the best of a few.",
         "Of two intervals believe the wider: what is uncertain of the rest of the vehicle counts here, and so does another effect that the drives "
         "leave open; calibrated.md holds these and rests on one site, but fits what only shapes an effect, which may be held here. Where the "
-        "two sizes are farther apart than either tells, the effect may stand in for another. May be nil: the interval of this size alone holds "
+        "size of one there and here are farther apart than the wider interval, the effect may stand in for another. May be nil: the interval of this size alone holds "
         "nil; the effect is named for what all its sizes do together.",
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )

@@ -32,8 +32,8 @@ def error_ladder(study: Difference) -> Table:
         columns.append(Column(f"{signal}_rmse_{unit}", (title, "RMSE"), ".4f"))
         columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
     columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".0f"))
-    columns.append(Column("all_fall_pct", ("All signals", "fall [%]"), ".1f"))
-    columns.append(Column("all_fall_interval_pct", ("All signals", "± [%]"), ".1f"))
+    columns.append(Column("all_fall_pct", ("All signals", "fall [%]"), ".2f"))
+    columns.append(Column("all_fall_interval_pct", ("All signals", "± [%]"), ".2f"))
     rows, breaks, bold = [], [], set()
     for site, group, chosen in _groups(study.ladder):
         breaks.append(len(rows))
