@@ -60,9 +60,15 @@ def _typically(place: str, name: str, factors: Mapping[str, float]) -> str:
     unit = RETURNED.get(term.result.partition("_")[0], "")
     times = 1e3 * one if unit == "mrad" else one
     sizes = {part: size for part, (size, _) in term.amplitudes(factors).items()} if term.turn else factors
-    told = " and ".join(" ".join(filter(None, (f"{float(f'{abs(times * size):.2g}'):g}", unit, part.replace("_", " ")))) for part, size in sizes.items())
-    at = ", ".join(f"{seen_name.replace('_', ' ')} {value:g} {SEEN[seen_name]}".rstrip() for seen_name, value in seen.items() if seen_name in SEEN)
+    rounded = {part: float(f"{abs(times * size):.2g}") for part, size in sizes.items()}
+    told = " and ".join(_spaced(f"{size:g}", unit, part) for part, size in rounded.items())
+    at = ", ".join(_spaced(what, f"{value:g}", SEEN[what]) for what, value in seen.items() if what in SEEN)
     return f"{told} at {at}" if at else told
+
+
+def _spaced(*words: str) -> str:
+    """Those of the words that are not empty, names of the code as words."""
+    return " ".join(filter(None, words)).replace("_", " ")
 
 
 def _sizes(term: Term, factors: Mapping[str, float]) -> str:
