@@ -86,7 +86,7 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
     panels[-1][0].set_xlabel("gain of 2 ln(likelihood), scale of roots [-]")
     panels[-1][1].set_xlabel("error removed [%]")
     handles = [
-        Patch(color=ACCEPTED, label="accepted"),
+        Patch(color=ACCEPTED, label="accepted into the next round"),
         Patch(color=SIGNIFICANT, label=f"significant over all (p ≤ {LEVEL:g})"),
         Patch(color=OTHER, label="not significant"),
         Line2D([], [], **DOT, label="on fitted drives"),
