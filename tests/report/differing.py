@@ -183,3 +183,21 @@ def curves() -> xr.Dataset:
         },
         {"seen": ["strut velocity", "strut deflection"], "axle": ["front", "rear"]},
     )
+
+
+PROPOSAL = {
+    "name": "discovered", "form": "80 N tanh(velocity / 0.005)", "place": "strut", "port": "suspension", "such_as": "friction of seals",
+    "share": 0.84, "held_out_share": 0.92, "p_value": 0.0015,
+    "sizes": [{"parameter": "velocity_direction", "unit": "N", "size": 80.0, "interval": [78.0, 82.0]}],
+}  # fmt: skip
+"""A proposed form, as in a verdict."""
+
+
+def rows(made):
+    """Rows of a table as dictionaries by the keys of its columns."""
+    return [dict(zip([column.key for column in made.columns], row)) for row in made.rows]
+
+
+def words(made):
+    """All cells of a table as one text."""
+    return " ".join(str(cell) for row in made.rows for cell in row)

@@ -13,6 +13,7 @@ from ridecomfort.report import catalogue, differing, style, table
 from ridecomfort.report.figures import conditions, ladder, located
 from ridecomfort.report.study import Compared, Difference
 from tests.report import differing as made_up
+from tests.report.differing import rows
 
 UNIT = re.compile(r"\[[^\]]+\]$")
 
@@ -35,10 +36,6 @@ def drawn(study):
             found[name] = draw()
             FigureCanvasAgg(found[name]).draw()
     return found
-
-
-def rows(made):
-    return [dict(zip([column.key for column in made.columns], row)) for row in made.rows]
 
 
 def test_names_are_those_of_the_catalogue(study, tables):

@@ -20,9 +20,6 @@ FITTED, HELD_OUT = "fitted", "held out"
 VISIBLE = 0.05
 """Share of the mean square error above the floor below which a signal has nothing left to explain."""
 
-SURE = 1.645
-"""Standard errors of a 90 % interval."""
-
 RISEN = 0.01
 """By how much more of what the reference leaves a model may leave on fitted drives than the one before it until that is said."""
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..effects.contract import Parameter
 from .terms import (
     ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
-    following, on_spring, shape_setting, sliding, swinging, turning, turning_as_heard,
+    following, on_spring, remembering, shape_setting, sliding, swinging, turning, turning_as_heard,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -83,18 +83,12 @@ PLACES: Mapping[str, Place] = {
             "side_force_size_times_direction": Term("abs(force_y) * tanh(velocity / 0.005)", "1", beside="velocity"),
             "forward_force_size_times_direction": Term("abs(force_x) * tanh(velocity / 0.005)", "1", beside="velocity"),
             "side_force_times_deflection": Term(f"deflection * force_y * {SIDE}", "1/m"),
-            "velocity_times_recent": Term(
-                "recent * velocity", "N s2/m2", states=(State("recent", "(abs(velocity) - recent) / time", 0.1),),
-                settings=(shape_setting("time", "s", 1.0, 0.1, 10.0, "time for which it remembers how fast it moved"),), beside="velocity",
-            ),
+            "velocity_times_recent": remembering("velocity", "N s2/m2", 1.0, 0.1, 10.0),
             "velocity_times_recent_travel": Term(
                 "recent * velocity", "N s/m2", states=(State("recent", f"max({AT_ONCE} * (abs(deflection) - recent), -recent / time)", 0.012),),
                 settings=(shape_setting("time", "s", 0.7, 0.1, 5.0, "time in which it forgets how far it travelled"),), beside="velocity",
             ),
-            "deflection_times_recent": Term(
-                "recent * deflection", "N s/m2", states=(State("recent", "(abs(velocity) - recent) / time", 0.1),),
-                settings=(shape_setting("time", "s", 4.0, 0.5, 20.0, "time for which it remembers how fast it moved"),), beside="deflection",
-            ),
+            "deflection_times_recent": remembering("deflection", "N s/m2", 4.0, 0.5, 20.0),
             "sliding_direction": sliding("strain", "N", "velocity"),
             "sliding_damping": sliding("abs(velocity) * strain", "N s/m", "velocity"),
             "slow_velocity": below("slow", "velocity"),

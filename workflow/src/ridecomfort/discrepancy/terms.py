@@ -113,6 +113,13 @@ def at_first(part: str, is_there: str) -> Term:
     return Term(f"{part} * (1.0 - closed)", "N s/m", states=(closed,), settings=(frequency,), beside="velocity")
 
 
+def remembering(what: str, unit: str, *times: float) -> Term:
+    """What a damper or spring makes of ``what`` it sees, times how fast it moved of late; ``times`` for which it remembers that: the typical
+    one, the least and the largest (s)."""
+    time = shape_setting("time", "s", *times, "time for which it remembers how fast it moved")
+    return Term(f"recent * {what}", unit, states=(State("recent", "(abs(velocity) - recent) / time", 0.1),), settings=(time,), beside=what)
+
+
 def sliding(expression: str, unit: str, beside: str) -> Term:
     """The direction of motion, which ``strain`` follows over some millimetres; no faster than the step of the kernel bears."""
     presliding = shape_setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")

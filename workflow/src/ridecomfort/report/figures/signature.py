@@ -12,9 +12,7 @@ from matplotlib.patches import Patch
 from .. import style
 from ..notation import words
 from ..study import Diagnosis
-
-BAND = 1.645
-"""Standard errors of a 90 % interval."""
+from ..units import BAND
 
 POORLY_KNOWN = 8.0
 """Times the usual standard error beyond which an estimate is not drawn: where the car was hardly ever."""

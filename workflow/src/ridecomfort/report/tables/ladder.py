@@ -12,7 +12,7 @@ from ...vocabulary import SIGNALS
 from .. import catalogue, notation
 from ..study import Difference
 from ..table import Column, Source, Table
-from ..units import printed
+from ..units import BAND, printed
 
 METHODS = {key: notation.METHODS[key] for key in critical.METHODS}
 FLOOR = "lowest floor"
@@ -48,7 +48,7 @@ def error_ladder(study: Difference) -> Table:
                 cells += [printed(signal)[0] * float(own["rmse"]), 100 * float(own["left"])]
             bold.add((len(rows), len(columns) - 3))
             left = 100 * float(one["left_overall"])
-            of_all = left, higher - left, 100 * rungs.SURE * float(one["fall_error"])
+            of_all = left, higher - left, 100 * BAND * float(one["fall_error"])
             rows.append((catalogue.label(site), group, rung_title(str(rung)), *cells, *of_all))
             higher = left
         floor = [[printed(signal)[0] * float(chosen["floor_rmse"].sel(signal=signal)), 0] for signal in SIGNALS]
@@ -58,7 +58,7 @@ def error_ladder(study: Difference) -> Table:
         Source("RMSE", file, "rmse, floor_rmse", "root of the mean square over the drives"),
         Source("left", file, "left, left_overall", f"mean square above the floor over that of {study.ladder.attrs['reference']}"),
         Source("fall", file, "left_overall", "of the row above less this"),
-        Source("±", file, "fall_error", f"times {rungs.SURE:g}"),
+        Source("±", file, "fall_error", f"times {BAND:g}"),
     )
     known = zip(study.ladder["site"].values, study.ladder["floor_known"].values)
     floors = [f"{catalogue.label(str(site))}: floor {how}" for site, how in known]

@@ -1,0 +1,139 @@
+"""What to do next after a verdict."""
+
+from dataclasses import replace
+
+import pytest
+import yaml
+
+from ridecomfort import config as configuration
+from ridecomfort.report import diagnosed
+from ridecomfort.report.tables import advice
+from tests.report import differing as made_up
+from tests.report.differing import PROPOSAL, rows, words
+
+
+@pytest.mark.parametrize(("held_out", "first", "second"), [(0.72, "Go on from", "look at the form"), (0.7499, "Go on from", "look at the form"), (0.78, "Look at", "go on from")])
+def test_the_better_of_library_and_proposed_form_comes_first(held_out, first, second):
+    proposal = PROPOSAL | {"share": 0.70, "held_out_share": held_out}
+    tables = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside", "proposal": proposal}))
+    said = rows(tables["verdict"])[-1]["in_words"]
+    assert said.startswith(first) and f"The second choice: {second[:7]}" in said
+
+
+@pytest.mark.parametrize(("library", "said"), [(0.15, "Go on from what the library has"), (0.05, "Nothing that was found explains much")])
+def test_a_form_that_explains_little_is_not_to_be_switched_on(library, said):
+    proposal = PROPOSAL | {"share": 0.08, "held_out_share": 0.12}
+    little = {**made_up.VERDICT, "verdict": "outside", "share": library, "held_out_share": library, "proposal": proposal}
+    next_step = rows(diagnosed.tables(made_up.diagnosis(little))["verdict"])[-1]["in_words"]
+    assert next_step.startswith(said) and "discovered.py" not in next_step
+
+
+@pytest.mark.parametrize(("left", "said"), [(0.011, "1.1 % of the power of any signal: the loop may end here"), (0.08, "8.0 % of the power of a_x, is worth a look")])
+def test_where_little_is_found_it_is_said_whether_what_is_left_matters(left, said):
+    found = {**made_up.VERDICT, "verdict": "outside", "share": 0.05, "held_out_share": 0.05, "remainder": {"a_z": 0.002, "a_x": left}}
+    found["proposal"] = PROPOSAL | {"share": 0.08, "held_out_share": 0.12}
+    assert said in rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
+
+
+@pytest.mark.parametrize(
+    ("verdict", "at_first", "is_little"),
+    [("named", 0.004, True), ("outside", 0.004, True), ("cluster", 0.004, True), ("named", 0.4, False), ("suspect", 0.004, False)],
+)
+def test_where_there_was_little_to_explain_the_loop_may_end_unless_what_was_found_is_most_of_it(verdict, at_first, is_little):
+    told = lambda share: rows(
+        diagnosed.tables(
+            made_up.diagnosis({**made_up.VERDICT, "verdict": verdict, "share": share, "held_out_share": share, "at_first": {"a_z": at_first}})
+        )["verdict"]
+    )
+    assert ("no signal has more than 0.4 % of its power above the floor" in told(0.3)[0]["in_words"]) == is_little
+    assert told(0.3)[-1]["in_words"].startswith("The loop may end here. Else: ") == is_little
+    assert "The loop may end" not in told(0.9)[-1]["in_words"]
+
+
+def test_before_a_form_that_is_most_of_a_little_error_the_loop_does_not_end():
+    little = {**made_up.VERDICT, "verdict": "outside", "share": 0.1, "held_out_share": 0.1, "at_first": {"a_z": 0.015}}
+    for share, may_end in ((0.9, False), (0.3, True)):
+        found = {**little, "proposal": PROPOSAL | {"share": share, "held_out_share": share}}
+        said = rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
+        assert "Look at the proposed form" in said and said.startswith("The loop may end here.") == may_end
+
+
+def test_where_no_form_is_found_either_it_is_said_whether_what_is_left_matters():
+    for left, end in ((0.004, "the loop may end here"), (0.08, "is worth a look at where it lies")):
+        found = {**made_up.nothing(), "verdict": "outside", "remainder": {"a_z": 0.002, "a_x": left}}
+        said = rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
+        assert said.startswith("No form was found") and end in said
+
+
+def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_from():
+    said = words(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside"}))["verdict"])
+    assert "suspension friction takes 80 % on the fitted drives, 75 % on drives held out" in said
+    assert "effects: [suspension_friction]" in said
+
+
+def test_what_does_not_help_on_drives_held_out_is_not_to_be_gone_on_from():
+    useless = {**made_up.VERDICT, "verdict": "outside", "held_out_share": -0.004}
+    assert "in the library" not in [row["what"] for row in rows(diagnosed.tables(made_up.diagnosis(useless))["verdict"])]
+
+
+def test_a_road_that_fits_better_when_it_is_interpolated_otherwise_comes_before_all_else():
+    found = made_up.diagnosis()
+    found.ranking.attrs["road"] = "the drives fit the road better with linear interpolation between its points (road: options: interpolation: linear)"
+    assert "next First set road: options: interpolation: linear in the site file" in words(diagnosed.tables(found)["verdict"])
+
+
+def test_what_comes_next_keeps_the_order_of_what_is_switched_on():
+    """In another order the models of the error ladder would be others, and calibrated anew."""
+    on = ("tyre_relaxation", "damper_knee")
+    found = replace(made_up.diagnosis(), model="damper_knee+tyre_relaxation", switched_on=on)
+    assert "effects: [tyre_relaxation, damper_knee, suspension_friction]" in words(diagnosed.tables(found)["verdict"])
+
+
+def test_names_beside_a_form_of_ones_own_are_said_with_a_caution():
+    own = replace(made_up.diagnosis(), model="discovered", switched_on=("discovered",))
+    assert "take out again what does not lower the error ladder" in words(diagnosed.tables(own)["verdict"])
+    assert "take out again" not in words(diagnosed.tables(made_up.diagnosis())["verdict"])
+
+
+def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_configuration():
+    bar = {"parameter": "anti_roll_stiffness_rear", "unit": "N m/rad", "given": 10000.0, "bounds": [8500.0, 11500.0],
+           "wider": [2833.3, 34500.0], "value": 34500.0, "interval": [20000.0, 49000.0]}  # fmt: skip
+    inertia = {**bar, "parameter": "roll_inertia", "wider": [257.4, 1258.4], "value": 406.2}
+    beyond = {"parameters": [inertia, bar], "share": 0.27, "held_out_share": 0.16, "is_first": True}
+    said = words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": beyond}))["verdict"])
+    assert "Add roll_inertia, anti_roll_stiffness_rear to calibration: parameters in config/study.yaml, unless they are there" in said
+    # Half to twice what was found is within the bounds, too: a bar that ends where it was allowed to wants to go on.
+    assert "put roll_inertia: [203, 1260], anti_roll_stiffness_rear: [2830, 69000] into calibration: bounds" in said
+    assert said.startswith("verdict No effect of the library is missing: parameters of the vehicle lie far from its file. (outside)")
+    less_sure = beyond | {"parameters": [inertia], "less_sure": [bar]}
+    assert words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": less_sure}))["verdict"]) == said
+    named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
+    assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
+    # Beside an error that nothing explains, a few percent that go with the file are not all that is missing.
+    little = beyond | {"share": 0.06, "held_out_share": 0.06, "is_first": False}
+    said = words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": little}))["verdict"])
+    assert said.startswith("verdict Something is missing that is not in the library. (outside)") and "Nothing is to be switched on" not in said
+
+
+def test_parameters_that_are_another_explanation_come_last():
+    bar = {"parameter": "anti_roll_stiffness_rear", "unit": "N m/rad", "given": 10000.0, "bounds": [8500.0, 11500.0],
+           "wider": [2833.3, 34500.0], "value": 19900.0, "interval": [19000.0, 20800.0]}  # fmt: skip
+    beyond = {"parameters": [bar], "share": 0.27, "held_out_share": 0.16, "is_first": False, "is_instead": True}
+    told = rows(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": beyond}))["verdict"])
+    assert [row["what"] for row in told][-2:] == ["next", "or, the vehicle"]
+    assert told[-1]["in_words"].startswith("In place of that: if the vehicle's file may be that wrong")
+    assert told[0]["in_words"].startswith("Something is missing that is not in the library.")
+
+
+def test_bounds_that_are_proposed_are_those_of_a_vehicle_and_read_as_numbers(project):
+    """What the verdict says, put into config/study.yaml as it stands, is taken."""
+    tyre = {"parameter": "tyre_radial_stiffness", "unit": "N/m", "given": 320e3, "bounds": [250e3, 400e3], "wider": [83333.3, 1.2e6],
+            "value": 155e3, "interval": [150e3, 160e3]}  # fmt: skip
+    damper = {**tyre, "parameter": "damping_front", "unit": "N s/m", "wider": [700.0, 20000.0], "value": 18e3}
+    said = advice.farther({"parameters": [tyre, damper]})
+    bounds = said.partition(" put ")[2].partition(" into ")[0]
+    assert bounds == "tyre_radial_stiffness: [80000, 1200000], damping_front: [700, 30000]"
+    given = yaml.safe_load("{" + bounds + "}")
+    names = ["tyre_radial_stiffness", "damping_front"]
+    study = configuration.load({"sites": ["own"], "calibration": {"parameters": names, "bounds": given}}, project)
+    assert study.settings["calibration"]["bounds"]["damping_front"] == [700, 30000]
