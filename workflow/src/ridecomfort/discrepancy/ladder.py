@@ -89,8 +89,9 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     overall = np.sum(np.where(visible, weight * left, 0.0), axis=-1) / np.where(total > 0, total, np.nan)
     over = ("rung", "site", "group")
     fall_error = np.full(sizes, np.nan)
+    per_square = weight / np.where(visible, start, 1.0)
     for at, fall in falls.items():
-        of_all = np.where(visible, weight / np.where(visible, start, 1.0), 0.0)[at[1:]] @ fall
+        of_all = per_square[at[1:]] @ fall
         if total[at[1:]] > 0 and len(of_all) > 1:
             fall_error[at] = np.std(of_all, ddof=1) / np.sqrt(len(of_all)) / total[at[1:]]
     return xr.Dataset(
