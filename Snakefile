@@ -98,6 +98,7 @@ rule compare:
     input:
         expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
         expand("results/tables/{name}.md", name=catalogue.DIFFERENCE_TABLES) if study.measured else [],
+        expand("results/figures/{name}.png", name=catalogue.difference_figures(study.measured)) if study.measured else [],
 
 
 rule diagnose:

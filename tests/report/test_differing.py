@@ -18,6 +18,11 @@ from tests.report.differing import rows
 UNIT = re.compile(r"\[[^\]]+\]$")
 
 
+def _figures(study):
+    of_sites = [differing.figures_of_site(site, study.model) for site in study.sites]
+    return {name: draw for own in [*of_sites, differing.figures(study)] for name, draw in own.items()}
+
+
 @pytest.fixture(scope="module")
 def study():
     return made_up.difference()
@@ -31,7 +36,7 @@ def tables(study):
 @pytest.fixture(scope="module")
 def drawn(study):
     found = {}
-    for name, draw in differing.figures(study).items():
+    for name, draw in _figures(study).items():
         with style.styled():
             found[name] = draw()
             FigureCanvasAgg(found[name]).draw()
@@ -41,7 +46,7 @@ def drawn(study):
 def test_names_are_those_of_the_catalogue(study, tables):
     assert list(tables) == list(catalogue.DIFFERENCE_TABLES)
     names = [site.name for site in study.sites]
-    assert sorted(differing.figures(study)) == sorted(catalogue.difference_figures(names))
+    assert sorted(_figures(study)) == sorted(catalogue.difference_figures(names))
 
 
 def test_every_form_can_be_written(tables):
@@ -152,7 +157,7 @@ def test_what_is_written_below_the_maps_has_room(study, monkeypatch):
     monkeypatch.setattr(type(long), "words", lambda self: f"{self.signal}, " + "relatively most at suspension velocities above 0.04 m/s, " * 4)
     monkeypatch.setattr(findings, "findings", lambda found: [long] * 5)
     with style.styled():
-        made = located.located(Difference((site,), study.ladder), site.name)
+        made = located.located(site, study.model)
         FigureCanvasAgg(made).draw()
     written = next(text for text in made.findobj(Text) if text.get_text().startswith("1  ")).get_window_extent()
     assert made.bbox.x0 <= written.x0 and written.x1 <= made.bbox.x1 and made.bbox.y0 < written.y0
@@ -165,7 +170,7 @@ def test_maps_of_two_models_compare_by_their_colours(study):
     maps, said = [], []
     for each in (site, better, perfect):
         with style.styled():
-            made = located.located(Difference((each,), study.ladder), site.name)
+            made = located.located(each, study.model)
         maps.append(next(axes.collections[0] for axes in made.axes if axes.get_ylabel().startswith("$a_z$")))
         said.append(" ".join(text.get_text() for text in made.findobj(Text)))
     assert len({(image.norm.vmin, image.norm.vmax) for image in maps}) == 1
@@ -190,7 +195,7 @@ def test_axes_are_labelled_with_units_and_nothing_is_cut_off(name, drawn):
 def test_conditions_have_the_same_axis_for_every_model_with_ticks_to_read_it_by(drawn, study):
     better = Compared("ts1", study.sites[0].measured, made_up.comparison((0.5, 0.1)))
     with style.styled():
-        other = conditions.conditions(Difference((better,), study.ladder), "ts1").axes[0]
+        other = conditions.conditions(better).axes[0]
     axes = drawn["conditions_ts1"].axes[0]
     assert axes.get_ylim() == other.get_ylim()
     low, high = axes.get_ylim()

@@ -8,7 +8,7 @@ import pytest
 from ridecomfort import store
 from ridecomfort.errors import InputError
 from ridecomfort.report import catalogue, style, table
-from ridecomfort.steps import compared, diagnosed, figures, report, results, tables
+from ridecomfort.steps import compared, diagnosed, figures, located, report, results, tables
 from tests.report import differing, synthetic
 
 
@@ -42,7 +42,9 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     tables.main(folder, config, folder / "tables")
     figures.main(folder, config, folder / "figures", "2")
     looped = {**config, "diagnosed": ["ts1"], "scored": False, "switched_on": []}
-    compared.main(folder, {**config, "sites": {"ts1": config["sites"]["ts1"]}}, folder, "1")
+    measured = {**config, "sites": {"ts1": config["sites"]["ts1"]}}
+    located.main(folder, measured, folder / "figures")
+    compared.main(folder, measured, folder)
     diagnosed.main(folder, looped, folder, "1")
     report.main(folder, looped, folder / "report.html")
     names = [*catalogue.tables(config["sites"]), *catalogue.DIFFERENCE_TABLES, *catalogue.DIAGNOSIS_TABLES]

@@ -94,7 +94,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     assert starts.startswith("starts disagree") and f"{NOTE}{starts}" in capsys.readouterr().err
 
     model |= {"noise_density": {}}
-    compare.main(**common, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc")
+    compare.main(**common, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc", workers="1")
     compared = store.read(files / "comparison.nc")
     nrmse = compared["nrmse"].sel(signal="pitch_rate")
     assert (nrmse.sel(state="calibrated") < 0.3 * nrmse.sel(state="reference")).all()
@@ -103,7 +103,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
 
     # Without a calibration the effects of a model are compared as they are, beside the vehicle without them.
     friction = model | {"effects": {"suspension_friction": {}}}
-    compare.main(**common, calibration=None, config=friction, output=files / "comparison.nc")
+    compare.main(**common, calibration=None, config=friction, output=files / "comparison.nc", workers="1")
     assert list(store.read(files / "comparison.nc")["state"].values) == ["reference", "with_effects"]
 
     # A wrong sign is for the person who waits, too.
@@ -111,7 +111,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     turned = drives.load()
     turned["pitch_rate"] *= -1.0
     store.write(turned, files / "turned.nc", title="Turned", configuration={})
-    compare.main(**common | {"measured": files / "turned.nc"}, calibration=None, config=model, output=files / "comparison.nc")
+    compare.main(**common | {"measured": files / "turned.nc"}, calibration=None, config=model, output=files / "comparison.nc", workers="1")
     assert f"{NOTE}pitch_rate runs against the model" in capsys.readouterr().err
 
 

@@ -19,10 +19,12 @@ rule comparison:
         "results/logs/comparison/{site}/{model}.log",
     benchmark:
         "results/benchmarks/comparison/{site}/{model}.tsv"
+    # Several sites are compared side by side; the drives of one share as many threads, and would each do linear algebra in two as well.
+    threads: 1 if len(study.measured) > 1 else 2
     shell:
-        "python -m ridecomfort.steps.compare --road {input.road:q} --measured {input.measured:q}"
+        "OPENBLAS_NUM_THREADS=1 python -m ridecomfort.steps.compare --road {input.road:q} --measured {input.measured:q}"
         " --vehicle {input.vehicle:q} --calibration {input.calibration:q}"
-        " --config {params.config:q} --output {output:q} 2> {log:q}"
+        " --config {params.config:q} --output {output:q} --workers {threads} 2> {log:q}"
 
 
 # What that does to comfort: sections of the measured drives, and of the model on the same path.
@@ -62,7 +64,35 @@ rule ladder:
         " --config {params.config:q} --output {output:q} 2> {log:q}"
 
 
-# Tables and figures of all that.
+# Where model and measurement differ on a site, drawn while the ladder is made.
+rule located:
+    input:
+        code=modules.of_step("located"),
+        measured="results/{site}/measured.nc",
+        comparison=f"results/{{site}}/{study.model}/comparison.nc",
+    output:
+        expand("results/figures/{name}.pdf", name=catalogue.site_figures("{site}")),
+        png=[
+            report(
+                f"results/figures/{name}.png",
+                caption="../report/figure.rst",
+                category="Model and measurement",
+                labels={"figure": name, "shows": caption},
+            )
+            for name, caption in catalogue.site_figures("{site}").items()
+        ],
+    params:
+        config=lambda wildcards: settings("located", wildcards.site, study.model),
+    log:
+        "results/logs/located/{site}.log",
+    benchmark:
+        "results/benchmarks/located/{site}.tsv"
+    shell:
+        "python -m ridecomfort.steps.located --results results"
+        " --config {params.config:q} --output results/figures 2> {log:q}"
+
+
+# Tables of all that, and the error ladder.
 rule compared:
     input:
         code=modules.of_step("compared"),
@@ -76,7 +106,7 @@ rule compared:
         ladder=rules.ladder.output,
     output:
         expand("results/tables/{name}.{suffix}", name=catalogue.DIFFERENCE_TABLES, suffix=["csv", "md", "tex", "trace.csv"]),
-        expand("results/figures/{name}.pdf", name=catalogue.difference_figures(study.measured)),
+        expand("results/figures/{name}.pdf", name=catalogue.DIFFERENCE_FIGURES),
         html=[
             report(
                 f"results/tables/{name}.html",
@@ -93,7 +123,7 @@ rule compared:
                 category="Model and measurement",
                 labels={"figure": name, "shows": caption},
             )
-            for name, caption in catalogue.difference_figures(study.measured).items()
+            for name, caption in catalogue.DIFFERENCE_FIGURES.items()
         ],
     params:
         config=settings("compared", model=study.model),
@@ -101,7 +131,6 @@ rule compared:
         "results/logs/compared/study.log",
     benchmark:
         "results/benchmarks/compared/study.tsv"
-    threads: 2
     shell:
         "python -m ridecomfort.steps.compared --results results"
-        " --config {params.config:q} --output results --workers {threads} 2> {log:q}"
+        " --config {params.config:q} --output results 2> {log:q}"

@@ -79,6 +79,7 @@ rule report:
             *(rules.diagnosed.output if study.forward else []),
             *(rules.standin_score.output if study.scored else []),
             *(rules.compared.output if study.measured else []),
+            *expand("results/figures/{name}.png", name=catalogue.difference_figures(study.measured) if study.measured else []),
         ],
         code=modules.of_step("report"),
     output:

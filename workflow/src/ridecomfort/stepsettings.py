@@ -59,6 +59,8 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 "thresholds": comfort["thresholds"],
                 "iso2631": weighted,
             }
+        case "located":
+            return {"model": model, "sites": _shown(study, [site])}
         case "compared":
             return {"model": model, "sites": _shown(study, study.measured)}
         case "diagnosed":

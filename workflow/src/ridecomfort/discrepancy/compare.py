@@ -45,6 +45,7 @@ def compare(
     simulate: Callable[..., xr.Dataset],
     options: Mapping | None = None,
     noise_density: Mapping[str, Mapping[str, float]] | None = None,
+    each: Callable = map,
 ) -> xr.Dataset:
     """The model driven over every measured path, state by state, beside what was measured there.
 
@@ -57,7 +58,8 @@ def compare(
     ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
     recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``, ``cut_off``,
     of the last state ``suspension_velocity``, ``tyre_velocity``, ``road_heave`` and ``road_tilt`` (``wheels.wheels``), and
-    the floor and the explainable error (``explain.explain``, which ``noise_density`` is for).
+    the floor and the explainable error (``explain.explain``, which ``noise_density`` is for). ``each`` maps a function over drives
+    (``map``, or that of threads).
     """
     drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
     length = max(drive.sizes["time"] for drive in drives)
@@ -67,7 +69,9 @@ def compare(
     residual = np.full((len(states), *shape), np.nan)
     clock = np.zeros((len(states), len(drives)))
     series = {name: np.full((len(drives), length), np.nan) for name in (*DRIVEN, *BELOW)}
-    for i, drive in enumerate(drives):
+
+    def fill(i: int) -> None:
+        drive = drives[i]
         count = drive.sizes["time"]
         again = replay(drive, road, simulate, options=options)
         measured[i, :, :count] = again.measured()
@@ -79,6 +83,9 @@ def compare(
             simulated[j, i, :, :count] = again.measured() + difference
         for name, values in zip(BELOW, _below(again, vehicle, simulated[-1, i, :, :count])):
             series[name][i, :count] = values
+
+    for _ in each(fill, range(len(drives))):
+        pass
     longest = max(drives, key=lambda drive: drive.sizes["time"])
     result = xr.Dataset(
         {

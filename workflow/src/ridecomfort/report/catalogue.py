@@ -172,26 +172,30 @@ def calibrated_on(sites: Mapping[str, Mapping]) -> list[str]:
     return list(dict.fromkeys(name for name in named if name and name != "none"))
 
 
-def difference_figures(sites: Iterable[str]) -> dict[str, str]:
-    """Name and caption of every figure of the comparison with the drives measured on these sites."""
-    found = {}
-    for name in sites:
-        found[f"located_{name}"] = (
+def site_figures(name: str) -> dict[str, str]:
+    """Name and caption of every figure of the comparison with the drives measured on one site."""
+    return {
+        f"located_{name}": (
             f"{label(name)}: where simulated and measured drives differ. Left: error above the floor by place and frequency, in colours "
             "that mean the same for every model and site, and in all; numbered boxes are the findings in words below, at most five "
             "errors of 1 % of the signal's power or more in a band. Right: spectra of signal, error and floor."
-        )
-        found[f"conditions_{name}"] = (
+        ),
+        f"conditions_{name}": (
             f"{label(name)}: error above the floor in percent of the signal's power under the same condition of the drive. "
             "Each point is a fifth of the driving time; the axis is the same for every model."
-        )
-        found[f"responses_{name}"] = (
+        ),
+        f"responses_{name}": (
             f"{label(name)}: how the signals answer to the road. Left: gain from the road, of the measured drives (dark) and of the model "
             "on the same paths (blue). Middle: gain of drives over model, above 1 where the model moves too little. Right: coherence, of "
             "each with the road (dashed) and of drives with model (orange); below 1 it shows noise, a wrong path or clock, other inputs, "
             "or what is not linear, such as friction."
-        )
-    return found | DIFFERENCE_FIGURES
+        ),
+    }
+
+
+def difference_figures(sites: Iterable[str]) -> dict[str, str]:
+    """Name and caption of every figure of the comparison with the drives measured on these sites, and of the error ladder."""
+    return {figure: caption for name in sites for figure, caption in site_figures(name).items()} | DIFFERENCE_FIGURES
 
 
 def of_the_paper(sites: Iterable[str]) -> bool:

@@ -7,7 +7,7 @@ from functools import partial
 
 from . import style
 from .figures import conditions, ladder, located
-from .study import Difference
+from .study import Compared, Difference
 from .table import Table
 from .tables import calibration, difference
 from .tables import ladder as rungs
@@ -25,9 +25,17 @@ def tables(found: Difference) -> dict[str, Table]:
     }
 
 
+def figures_of_site(site: Compared, model: str) -> dict[str, Callable]:
+    """Functions without arguments that draw the figures of ``catalogue.site_figures`` of a ``model`` on a site."""
+    kinds = {
+        "located": partial(located.located, site, model),
+        "conditions": partial(conditions.conditions, site),
+        "responses": partial(conditions.responses, site),
+    }
+    marked = lambda draw: style.marked(draw(), site.standin_mark())
+    return {f"{kind}_{site.name}": partial(marked, draw) for kind, draw in kinds.items()}
+
+
 def figures(found: Difference) -> dict[str, Callable]:
-    """Functions without arguments that draw the figures of ``catalogue.difference_figures``."""
-    kinds = {"located": located.located, "conditions": conditions.conditions, "responses": conditions.responses}
-    of_site = lambda draw, name: style.marked(draw(found, name), found.standin_mark(name))
-    of_sites = {f"{kind}_{site.name}": partial(of_site, draw, site.name) for site in found.sites for kind, draw in kinds.items()}
-    return {**of_sites, "error_ladder": lambda: style.marked(ladder.error_ladder(found), found.standin_mark())}
+    """The same for ``catalogue.DIFFERENCE_FIGURES``, over all sites."""
+    return {"error_ladder": lambda: style.marked(ladder.error_ladder(found), found.standin_mark())}

@@ -58,6 +58,10 @@ class Compared:
         """How the site is called in print."""
         return label(self.name)
 
+    def standin_mark(self) -> str | None:
+        """As of a Study."""
+        return standin_mark([self.label] if self.standin else [])
+
 
 @dataclass(frozen=True)
 class Difference:
@@ -77,9 +81,9 @@ class Difference:
         """As of a Study."""
         return standin_note([site.label for site in self.sites if site.standin])
 
-    def standin_mark(self, site: str | None = None) -> str | None:
+    def standin_mark(self) -> str | None:
         """As of a Study."""
-        return standin_mark([each.label for each in self.sites if each.standin and site in (None, each.name)])
+        return standin_mark([each.label for each in self.sites if each.standin])
 
 
 @dataclass(frozen=True)

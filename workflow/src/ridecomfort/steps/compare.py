@@ -2,13 +2,13 @@
 
 import sys
 
-from ridecomfort import calibrated, simulate, store
+from ridecomfort import calibrated, pool, simulate, store
 from ridecomfort.discrepancy import compare, findings, locate
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
 
-def main(road, measured, vehicle, calibration, config, output):
+def main(road, measured, vehicle, calibration, config, output, workers):
     car = parameters.read(vehicle)
     states = {"reference": (car, {})}
     if calibration is not None:
@@ -23,6 +23,7 @@ def main(road, measured, vehicle, calibration, config, output):
         simulate=simulate.run,
         options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
         noise_density=config["noise_density"],
+        each=pool.side_by_side(int(workers)),
     )
     located = locate.locate(result)
     words, doubts = findings.words(located), findings.doubts(located)
@@ -38,4 +39,4 @@ def main(road, measured, vehicle, calibration, config, output):
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("road", "measured", "vehicle"), optional=("calibration",)).run()
+    Command(main, inputs=("road", "measured", "vehicle"), optional=("calibration",), texts=("workers",)).run()

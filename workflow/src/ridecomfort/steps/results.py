@@ -41,17 +41,20 @@ def difference(results: Path, config: dict) -> Difference:
     """Comparisons and aligned drives of the measured sites with the model of ``config``, its calibrations, and the error ladder."""
     model = config["model"]
     ladder = results / "ladder" / f"{model}.nc"
-    sites = []
-    for name in with_drives(config["sites"]):
-        files = {"measured": results / name / "measured.nc", "comparison": results / name / model / "comparison.nc"}
-        loaded = {key: store.read(file) for key, file in files.items()}
-        standin = config["sites"][name]["standin"]
-        sites.append(Compared(name, **loaded, standin=standin, files={key: file.as_posix() for key, file in files.items()}))
     calibrations = _calibration_files(results, config)
     return Difference(
-        tuple(sites), store.read(ladder), ladder.as_posix(), model, {name: store.read(file) for name, file in calibrations.items()},
+        tuple(compared(results, config, name) for name in with_drives(config["sites"])), store.read(ladder), ladder.as_posix(), model, {name: store.read(file) for name, file in calibrations.items()},
         {name: file.as_posix() for name, file in calibrations.items()},
     )  # fmt: skip
+
+
+def compared(results: Path, config: dict, name: str) -> Compared:
+    """Comparison and aligned drives of a measured site with the model of ``config``."""
+    files = {"measured": results / name / "measured.nc", "comparison": results / name / config["model"] / "comparison.nc"}
+    loaded = {key: store.read(file) for key, file in files.items()}
+    return Compared(
+        name, **loaded, standin=config["sites"][name]["standin"], files={key: file.as_posix() for key, file in files.items()}
+    )
 
 
 def diagnosis(results: Path, config: dict) -> Diagnosis | None:

@@ -9,7 +9,7 @@ from matplotlib.ticker import LogLocator, NullLocator
 from ...discrepancy.response import INPUT
 from ...vocabulary import SIGNALS
 from .. import notation, style
-from ..study import Difference
+from ..study import Compared
 from ..units import printed
 
 AXES = {
@@ -39,9 +39,9 @@ READ = (
 """How the figure is read."""
 
 
-def conditions(study: Difference, site: str) -> Figure:
+def conditions(site: Compared) -> Figure:
     """Error above the floor in percent of the signal's power under the same condition, a panel each condition, a line each signal."""
-    found = next(each for each in study.sites if each.name == site).comparison
+    found = site.comparison
     names = [name for name in AXES if name in found["condition"].values]
     drawn = style.figure(style.DOUBLE, 5.8)
     panels = drawn.subplots(2, 3, sharey=True).ravel()
@@ -74,9 +74,9 @@ def conditions(study: Difference, site: str) -> Figure:
     return drawn
 
 
-def responses(study: Difference, site: str) -> Figure:
+def responses(site: Compared) -> Figure:
     """Columns: gain from the road, of drives and model; gain of drives over model; coherences. A row for each signal."""
-    found = next(each for each in study.sites if each.name == site).comparison
+    found = site.comparison
     drawn = style.figure(style.DOUBLE, 8.6)
     panels = drawn.subplots(len(SIGNALS), 3, sharex=True)
     frequency = found["frequency"].values

@@ -15,7 +15,7 @@ from ...discrepancy.locate import BANDS
 from ...study import JOIN
 from ...vocabulary import SIGNALS
 from .. import notation, style
-from ..study import Difference
+from ..study import Compared
 from ..tables.difference import floor_note
 from ..units import printed
 
@@ -37,17 +37,16 @@ SMALL = f"No error above the floor reaches {100 * findings.NAMED:g} % of its sig
 """What is said where no finding is worth it."""
 
 
-def located(study: Difference, site: str) -> Figure:
+def located(site: Compared, model: str) -> Figure:
     """Error above the floor by place and frequency and the spectra beside it, a row for each signal; findings as numbered boxes."""
-    chosen = next(each for each in study.sites if each.name == site)
-    found = chosen.comparison
+    found = site.comparison
     errors = findings.findings(found)
     lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
     lines = [f"!  {doubt}" for doubt in findings.doubts(found)] + lines
     lines = [SMALL] * findings.are_small(errors) + lines
     lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines]
-    model = study.model.replace(JOIN, f" {JOIN} ")
-    words = [*lines, fill(f"{chosen.label}, model {model}, {found.attrs['located_state']}; {floor_note(chosen)}", LONGEST)]
+    named = model.replace(JOIN, f" {JOIN} ")
+    words = [*lines, fill(f"{site.label}, model {named}, {found.attrs['located_state']}; {floor_note(site)}", LONGEST)]
     count = "\n".join(words).count("\n") + 1
     drawn = style.figure(style.DOUBLE, 8.3 + 0.16 * count)
     panels = drawn.subplots(
