@@ -227,7 +227,9 @@ class _Search:
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         likely = refit.information(rung.frame, base.residuals)
         self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self.sooner, likely)
-        tried = [trial for trial in self.each(_Try(self.tries), [found.best[name] for name in order]) if trial is not None]
+        jobs, attempt = [found.best[name] for name in order], _Try(self.tries)
+        # The first shares its records among all cores: five by twos would leave one of two idle while the last is tried.
+        tried = [trial for trial in (*map(attempt, jobs[:1]), *self.each(attempt, jobs[1:])) if trial is not None]
         least = MINOR * max((trial.gain for trial in tried), default=0.0)
         trials, winner = [], None
         for stage in ([t for t in tried if t.gain >= least], [t for t in tried if t.gain < least]):
