@@ -36,7 +36,7 @@ def plan(repository, tmp_path_factory):
 
 def test_compare_needs_neither_a_diagnosis_nor_the_simulated_study(plan):
     jobs = plan("compare")
-    assert {"comparison ts3 base", "critical ts2 base", "ladder", "compared"} <= jobs
+    assert {"comparison ts3 base", "critical ts2 base", "located ts1", "ladder", "compared"} <= jobs
     assert not any(job.startswith(("diagnosis", "simulate", "iri")) for job in jobs)
 
 
@@ -77,5 +77,5 @@ def test_sites_without_drives_have_nothing_to_compare(project):
     answer = project.snakemake("--dry-run")
     assert answer.status == 0, answer.text
     assert "report" in answer.jobs
-    assert not any(job.split()[0] in ("comparison", "ladder", "compared", "diagnosis", "diagnosed") for job in answer.jobs)
+    assert not any(job.split()[0] in ("comparison", "located", "ladder", "compared", "diagnosis", "diagnosed") for job in answer.jobs)
     assert project.snakemake("--dry-run", "compare", "diagnose").jobs == []
