@@ -76,6 +76,7 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "side_slip_late": "a relaxation length",
         "side_slip_of_late_load": "side force that follows the load late",
         "side_slip_of_push": "toe that gives way to braking and driving",
+        "side_slip_once_a_turn": "wheels that run out aside, tyres with crooked belts",
     },
     "links": {
         "recession": "wheels that move back as they rise",

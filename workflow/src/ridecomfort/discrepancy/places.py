@@ -13,7 +13,7 @@ import numpy as np
 from ..effects.contract import Parameter
 from .terms import (
     ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
-    following, on_spring, remembering, shape_setting, sliding, swinging, turning, turning_as_heard,
+    following, on_spring, remembering, running_out_aside, shape_setting, sliding, swinging, turning, turning_as_heard,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -153,6 +153,7 @@ PLACES: Mapping[str, Place] = {
                 settings=(shape_setting("length", "m", 0.5, 0.1, 3.0, "way over which the force follows the load"),),
             ),
             "side_slip_of_push": Term(f"force_x * {SIDE}", "1/N", "slip_y"),
+            "side_slip_once_a_turn": running_out_aside(),
         },
         ("slip_x", "slip_y", "pull"),
         {"slip_x": CORNERING, "slip_y": CORNERING},

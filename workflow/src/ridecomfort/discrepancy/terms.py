@@ -191,6 +191,14 @@ def turning_as_heard(expression: str = "1.0", unit: str = "N") -> Term:
     return Term(expression, unit, parts=TURNING, settings=(order,), turn=f"{ORDER} * rotation", after="m")
 
 
+def running_out_aside() -> Term:
+    """What turns each wheel aside and back, from an angle of its own, after the way of a turn that was heard: the contact does not see its wheel
+    turn, and counts its way."""
+    period = shape_setting(PERIOD, "m", 2.0, 0.2, 7.0, "way after which it comes back")
+    turn = State("turn", f"{2 * pi:.6f} * (1.0 + slip_x) * speed / {PERIOD}", 1.0)
+    return Term("1.0", "1", "slip_y", TURNING, (turn,), (period,), turn="turn", after="m")
+
+
 AT = {
     "place": shape_setting("place", "m", 0.0, -2.0, 2.0, "how far ahead of the centre of gravity it acts"),
     "height": shape_setting("height", "m", 0.0, -0.8, 0.8, "how far above the centre of gravity it acts"),

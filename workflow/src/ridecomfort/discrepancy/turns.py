@@ -91,15 +91,15 @@ def line(
         if best[0] > 0:
             found.append((*best, unit))
     for surprise, channel, often, unit in sorted(found, reverse=True):
-        if count * np.exp(-surprise) > LEVEL:
-            return None
         held_out = [] if check_frame is None else [_at(check_frame, i, check, channel, often, unit) for i in check_frame.indices]
         held_out = [own for own in held_out if np.isfinite(own)]
         if held_out:
             again = float(np.mean(held_out)) - np.log(3.0)  # the strongest of three bins
             if np.exp(-again) > LEVEL:
                 continue
-            surprise = _together(surprise, again, _coherence(frame, residuals, check_frame, check, channel, often, unit))
+            both = _together(surprise, again, _coherence(frame, residuals, check_frame, check, channel, often, unit))
+            # Whether the one is strong or the other is all the same: of all ways to be so unlikely together.
+            surprise = max(surprise, both - np.log1p(both))
         p_value = float(np.clip(count * np.exp(-surprise), np.finfo(float).tiny, 1.0))
         if p_value <= SURE:
             often, width = _nearer(frame, residuals, channel, often, unit)
