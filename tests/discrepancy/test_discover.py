@@ -148,6 +148,20 @@ def test_what_was_heard_may_turn_with_the_wheels_as_often_as_it_comes_back():
     assert not any(one.name.startswith("tyre:often") for one in terms_of("tyre", replace(heard, unit="s"), 0.31))
 
 
+def test_wheels_that_run_out_aside_are_turned_by_angles_of_their_own_once_in_the_way_that_was_heard(tmp_path):
+    factors = {"front_left_cosine": 0.001, "front_left_sine": 0.0, "rear_right_cosine": 0.0, "rear_right_sine": 0.002}
+    form = {"side_slip_once_a_turn": factors}
+    (tmp_path / "found.py").write_text(effect_source("found", "contact", form, "Found.", {"side_slip_once_a_turn": {"period": 2.0}}))
+    found = library.find(tmp_path)["found"]
+    sizes = {one.name: one.neutral for one in found.effect.parameters}
+    sizes |= {f"side_slip_once_a_turn_{part}": size for part, size in factors.items()}
+    of_wheel = lambda wheel, turn: found.act(wheel, 0.01, 0.004, 4000.0, 20.0, 0.0, 0.0, turn, **sizes)
+    for turn in (0.0, 1.0, 4.0):
+        aside = [of_wheel(wheel, turn)[1] - 0.004 for wheel in range(4)]
+        assert aside == pytest.approx([0.001 * np.cos(turn), 0.0, 0.0, 0.002 * np.sin(turn)])
+    assert of_wheel(0, 0.0)[-1] == pytest.approx(2 * np.pi * 1.01 * 20.0 / 2.0, rel=1e-6)
+
+
 def test_what_was_heard_is_there_as_anything_that_comes_back_so():
     """A tyre of 0.31 m rolls some percent less than its circumference."""
     twice = heard_as(Line("a_z", 0.98 * pi * 0.31, "m", 1e-9, 0.002), radius=0.31)
