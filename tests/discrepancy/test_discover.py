@@ -162,6 +162,16 @@ def test_wheels_that_run_out_aside_are_turned_by_angles_of_their_own_once_in_the
     assert of_wheel(0, 0.0)[-1] == pytest.approx(2 * np.pi * 1.01 * 20.0 / 2.0, rel=1e-6)
 
 
+@pytest.mark.parametrize(("heard", "whole"), [(1.940, 1), (1.955, 1), (0.971, 2), (1.80, 0)])
+def test_what_turns_each_wheel_aside_is_tried_once_a_turn_of_these_too_where_that_is_near(heard, whole):
+    """Over 2 pi times 0.31 m or a half of it: along the road it is heard beside that, since wheels outside in bends turn faster."""
+    (own,) = (one for one in terms_of("contact", Line("a_y", heard, "m", 1e-9, 0.004), 0.31) if one.name.endswith("once_a_turn"))
+    (period,) = own.shaping
+    expected = [heard] + ([2 * pi * 0.31 / whole] if whole else [])
+    assert [shape[period.key] for shape in own.shapes] == pytest.approx(expected)
+    assert all(period.lower <= value <= period.upper for value in expected)
+
+
 def test_what_was_heard_is_there_as_anything_that_comes_back_so():
     """A tyre of 0.31 m rolls some percent less than its circumference."""
     twice = heard_as(Line("a_z", 0.98 * pi * 0.31, "m", 1e-9, 0.002), radius=0.31)

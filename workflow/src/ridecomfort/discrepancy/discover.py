@@ -32,12 +32,15 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection, shares
-from .terms import FIRM, LINEAR, ORDER, PERIOD, Term
+from .terms import FIRM, LINEAR, ORDER, PERIOD, TURNING, Term
 from .turns import Line
 from .verdict import Named, plain
 
 ROLLING = 0.05
 """Share by which the way of a turn may differ from the circumference of a wheel that is not loaded."""
+
+NEAR = 3.0
+"""Widths of a line within which what is once a turn of each wheel may be heard."""
 
 TERMS = 3
 """Terms of a force at most: the rod that nods on a tail pushes with three accelerations."""
@@ -258,6 +261,15 @@ def _heard(setting: Parameter, line: Line | None, radius: float) -> Parameter:
     return replace(setting, neutral=value, typical=value, plausible=(value - width, value + width))
 
 
+def _whole_turn(line: Line | None, radius: float) -> float | None:
+    """The way in m after which comes what does so a whole number of times in a turn of wheels of this ``radius`` in m, None where none is near
+    what was heard: along the road, not along the wheels' own ways, which are longer outside in bends than inside."""
+    if line is None or line.unit != "m":
+        return None
+    way = 2.0 * np.pi * radius / max(1, round(line.turns(radius)))
+    return way if abs(way - line.period) < NEAR * line.width else None
+
+
 def terms_of(place: str, line: Line | None, radius: float) -> tuple[Candidate, ...]:
     """Every term of a place as a candidate: a factor for each part of the car, of either sign, and what shapes it; with those that come back
     as the ``line`` that was heard does, if any, in a car on wheels of this ``radius`` in m."""
@@ -265,11 +277,17 @@ def terms_of(place: str, line: Line | None, radius: float) -> tuple[Candidate, .
     for name, term in _asked_for(place, line).items():
         one = scale(place, name)
         own = {_key(place, name, setting.name): _heard(setting, line, radius) for setting in settings(place, name)}
+        period = _key(place, name, PERIOD)
+        whole = _whole_turn(line, radius) if term.parts == TURNING and period in own else None
+        if whole is not None:
+            lower, upper = own[period].plausible
+            own[period] = replace(own[period], plausible=(min(lower, whole), max(upper, whole)))
         typical = {key: setting.typical for key, setting in own.items()}
         # A linear part alone is what calibration changes: it is no other shape to try. Bends blur an order that is heard along the road.
         is_tried = lambda setting: setting.name == ORDER or setting is not LINEAR and is_varied(setting)
         varied = {key: setting for key, setting in own.items() if is_tried(setting)}
         shapes = [typical, *({**typical, key: towards(setting, end)} for key, setting in varied.items() for end in (0, 1))]
+        shapes += [{**typical, period: whole}] if whole is not None else []
         shaping = tuple(shaping_size(setting, key) for key, setting in own.items())
         sizes = tuple(
             Size(_key(place, name, part), term.unit, 0.0, -strongest / one, strongest / one, FORCE / one)
