@@ -79,7 +79,7 @@ rule report:
             *(rules.diagnosed.output if study.forward else []),
             *(rules.standin_score.output if study.scored else []),
             *(rules.compared.output if study.measured else []),
-            *expand("results/figures/{name}.png", name=catalogue.difference_figures(study.measured) if study.measured else []),
+            *expand("results/figures/{name}.png", name=[name for site in study.measured for name in catalogue.site_figures(site)]),
         ],
         code=modules.of_step("report"),
     output:

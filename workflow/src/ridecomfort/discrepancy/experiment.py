@@ -159,7 +159,8 @@ class Frame:
 
     def own_shares(self, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:
         """Share of the power of each column that its nuisances leave, (column,)."""
-        left, whole = sum(by_record(self.experiment, lambda i: np.array(self.spans[i].shares(self._white(i, columns))), self.indices).values())
+        shares = lambda i: np.array(self.spans[i].shares(self._white(i, columns)))
+        left, whole = sum(self.experiment.each_record(shares, self.indices))
         return left / np.where(whole > 0, whole, 1.0)
 
     def _white(self, index: int, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:

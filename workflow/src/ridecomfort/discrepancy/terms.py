@@ -191,12 +191,17 @@ def turning_as_heard(expression: str = "1.0", unit: str = "N") -> Term:
     return Term(expression, unit, parts=TURNING, settings=(order,), turn=f"{ORDER} * rotation", after="m")
 
 
+def _period(after: str) -> Parameter:
+    """The way (m) or the time (s) ``after`` which a term comes back."""
+    typical, longest = (2.0, 7.0) if after == "m" else (0.1, 0.33)
+    return shape_setting(PERIOD, after, typical, 0.1 * typical, longest, f"{'way' if after == 'm' else 'time'} after which it comes back")
+
+
 def running_out_aside() -> Term:
     """What turns each wheel aside and back, from an angle of its own, after the way of a turn that was heard: the contact does not see its wheel
     turn, and counts its way."""
-    period = shape_setting(PERIOD, "m", 2.0, 0.2, 7.0, "way after which it comes back")
     turn = State("turn", f"{2 * pi:.6f} * (1.0 + slip_x) * speed / {PERIOD}", 1.0)
-    return Term("1.0", "1", "slip_y", TURNING, (turn,), (period,), turn="turn", after="m")
+    return Term("1.0", "1", "slip_y", TURNING, (turn,), (_period("m"),), turn="turn", after="m")
 
 
 AT = {
@@ -212,10 +217,8 @@ def coming_back(
     """What comes back ``after`` a way (m) or a time (s), with one phase in all drives, counted from the beginning of the road or of a drive."""
     times = f"{2 * pi:.6f}"
     turn, states = (f"{times} * motion.s / {PERIOD}", ()) if after == "m" else ("phase", (State("phase", f"{times} / {PERIOD}", 1.0),))
-    typical, longest = (2.0, 7.0) if after == "m" else (0.1, 0.33)
-    period = shape_setting(PERIOD, after, typical, 0.1 * typical, longest, f"{'way' if after == 'm' else 'time'} after which it comes back")
     at = (AT[name] for name in (ahead, above) if name)
-    return Term(expression, unit, result, parts, states, (period, *at), ahead, above, turn=turn, after=after)
+    return Term(expression, unit, result, parts, states, (_period(after), *at), ahead, above, turn=turn, after=after)
 
 
 KNEE = shape_setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")

@@ -43,9 +43,13 @@ def difference(results: Path, config: dict) -> Difference:
     ladder = results / "ladder" / f"{model}.nc"
     calibrations = _calibration_files(results, config)
     return Difference(
-        tuple(compared(results, config, name) for name in with_drives(config["sites"])), store.read(ladder), ladder.as_posix(), model, {name: store.read(file) for name, file in calibrations.items()},
-        {name: file.as_posix() for name, file in calibrations.items()},
-    )  # fmt: skip
+        sites=tuple(compared(results, config, name) for name in with_drives(config["sites"])),
+        ladder=store.read(ladder),
+        ladder_file=ladder.as_posix(),
+        model=model,
+        calibrations={name: store.read(file) for name, file in calibrations.items()},
+        calibration_files={name: file.as_posix() for name, file in calibrations.items()},
+    )
 
 
 def compared(results: Path, config: dict, name: str) -> Compared:
