@@ -27,7 +27,7 @@ from .library import FOLDER, Entry, of_the_library
 
 PACKAGE = Path(__file__).parent.parent
 SOURCES = ("vehicle/kernel.py", "vehicle/ground.py", "vehicle/driver.py", "vehicle/motion.py",
-           "vehicle/constants.py", "vehicle/tyre.py", "road/surface.py", "effects/neutral.py", "effects/lag.py", "effects/wave.py",
+           "vehicle/constants.py", "vehicle/scratch.py", "vehicle/tyre.py", "road/surface.py", "effects/neutral.py", "effects/lag.py", "effects/wave.py",
            "vocabulary.py")  # fmt: skip
 """What the compiled kernel is made of; a change in any of them compiles anew."""
 

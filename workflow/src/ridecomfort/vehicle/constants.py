@@ -49,24 +49,24 @@ class Constants(NamedTuple):
 
 
 def wheel_table(vehicle: Vehicle) -> np.ndarray:
-    """Constants of each wheel, shape (4, 11): front left, front right, rear left, rear right."""
+    """Constants of each wheel, shape (11, 4): front left, front right, rear left, rear right."""
     axles = lambda name: np.repeat([vehicle[f"{name}_front"], vehicle[f"{name}_rear"]], 2)
     front = vehicle["cg_to_front_axle"]
     rear = front - vehicle["wheelbase"]
     track, mass = axles("track"), axles("unsprung_mass")
     load = static_loads(vehicle)
-    table = np.empty((4, 11))
-    table[:, X] = [front, front, rear, rear]
-    table[:, Y] = np.array([1, -1, 1, -1]) * track / 2
-    table[:, MASS] = mass
-    table[:, SPRING] = axles("spring_stiffness")
-    table[:, DAMPING] = axles("damping")
-    table[:, ANTI_ROLL] = axles("anti_roll_stiffness") / track**2
-    table[:, ROLL_CENTRE] = axles("roll_centre_height")
-    table[:, ROLL_ARM] = vehicle["cg_height"] - axles("roll_centre_height")
-    table[:, SCRUB] = axles("roll_centre_height") / table[:, Y]
-    table[:, STATIC_FORCE] = load
-    table[:, STATIC_DEFLECTION] = (load + mass * STANDARD_GRAVITY) / vehicle["tyre_radial_stiffness"]
+    table = np.empty((11, 4))
+    table[X] = [front, front, rear, rear]
+    table[Y] = np.array([1, -1, 1, -1]) * track / 2
+    table[MASS] = mass
+    table[SPRING] = axles("spring_stiffness")
+    table[DAMPING] = axles("damping")
+    table[ANTI_ROLL] = axles("anti_roll_stiffness") / track**2
+    table[ROLL_CENTRE] = axles("roll_centre_height")
+    table[ROLL_ARM] = vehicle["cg_height"] - axles("roll_centre_height")
+    table[SCRUB] = axles("roll_centre_height") / table[Y]
+    table[STATIC_FORCE] = load
+    table[STATIC_DEFLECTION] = (load + mass * STANDARD_GRAVITY) / vehicle["tyre_radial_stiffness"]
     return table
 
 
@@ -88,10 +88,10 @@ def lateral_mass_matrix(vehicle: Vehicle) -> np.ndarray:
     The wheels follow the body sideways at their roll centre, so rolling moves them.
     """
     wheels = wheel_table(vehicle)
-    coupling = np.stack([np.ones(4), wheels[:, X], wheels[:, ROLL_ARM]])
-    matrix = (coupling * wheels[:, MASS]) @ coupling.T
+    coupling = np.stack([np.ones(4), wheels[X], wheels[ROLL_ARM]])
+    matrix = (coupling * wheels[MASS]) @ coupling.T
     matrix[0, 0] += vehicle["sprung_mass"]
-    matrix[1, 1] += vehicle["yaw_inertia"] + np.sum(wheels[:, MASS] * wheels[:, Y] ** 2)
+    matrix[1, 1] += vehicle["yaw_inertia"] + np.sum(wheels[MASS] * wheels[Y] ** 2)
     matrix[2, 2] += vehicle["roll_inertia"]
     return matrix
 
@@ -101,7 +101,7 @@ def longitudinal_mass_matrix(vehicle: Vehicle) -> np.ndarray:
 
     The wheels follow the body forward at the height of their centres.
     """
-    mass, arm = wheel_table(vehicle)[:, MASS].sum(), pitch_arm(vehicle)
+    mass, arm = wheel_table(vehicle)[MASS].sum(), pitch_arm(vehicle)
     return np.array(
         [
             [vehicle["sprung_mass"] + mass, -mass * arm],
@@ -113,15 +113,15 @@ def longitudinal_mass_matrix(vehicle: Vehicle) -> np.ndarray:
 def constants(vehicle: Vehicle) -> Constants:
     """The vehicle's scalars as the kernel takes them."""
     wheels = wheel_table(vehicle)
-    mass = wheels[:, MASS]
+    mass = wheels[MASS]
     lateral = np.linalg.inv(lateral_mass_matrix(vehicle))
     longitudinal = np.linalg.inv(longitudinal_mass_matrix(vehicle))
     return Constants(
         sprung_mass=vehicle["sprung_mass"],
         total_mass=float(vehicle["sprung_mass"] + mass.sum()),
         unsprung_mass=float(mass.sum()),
-        unsprung_x=float(mass @ wheels[:, X]),
-        unsprung_roll=float(mass @ wheels[:, ROLL_ARM]),
+        unsprung_x=float(mass @ wheels[X]),
+        unsprung_roll=float(mass @ wheels[ROLL_ARM]),
         pitch_arm=pitch_arm(vehicle),
         cg_height=vehicle["cg_height"],
         wheelbase=vehicle["wheelbase"],

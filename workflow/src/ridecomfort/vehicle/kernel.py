@@ -9,6 +9,9 @@ Forces are evaluated once a step in a leapfrog scheme: positions at full steps, 
 half a step later and extrapolated to the full step where forces depend on them, the
 damping of the wheels taken implicitly. Second order, and symplectic where nothing dissipates.
 
+What is reckoned for each wheel stands in loops of its own, without what effects add between them: the
+compiler then reckons all four wheels at once.
+
 Ports for further physics come from a module of the form of ``effects.neutral``;
 ``effects.compose`` makes a copy of this file for each set of effects in use.
 """
@@ -71,6 +74,7 @@ from ridecomfort.vehicle.motion import (
     sensor_acceleration,
     sin_cos,
 )
+from ridecomfort.vehicle.scratch import zeros
 from ridecomfort.vehicle.tyre import brush
 from ridecomfort.vocabulary import STANDARD_GRAVITY
 
@@ -104,30 +108,26 @@ def drive(
     ``parameters``, ``state_count``: of the effects. Filled: ``record`` (records, COLUMNS), all
     but what is SENSED, and ``sensed`` (6, steps): accelerations and rates of the sensor at every step.
     """
-    body = np.zeros((5, 6))
-    feels = np.zeros((2, 3))
-    wheel = np.zeros((17, 4))
-    ground = np.zeros((4, 4))
     states = np.zeros((4, state_count))
     return _drive(
         car, wheels, surface, elevation, targets, friction * car.tyre_friction, start, end, step, every,
-        sensor, parameters, record, sensed, feels[0], feels[1],
-        body[0], body[1], body[2], body[3], body[4],
-        wheel[0], wheel[1], wheel[2], wheel[3], wheel[4], wheel[5], wheel[6], wheel[7], wheel[8], wheel[9],
-        wheel[10], wheel[11], wheel[12], wheel[13], wheel[14], wheel[15], wheel[16], ground, states[0], states[1], states[2], states[3],
+        sensor, parameters, record, sensed, states[0], states[1], states[2], states[3],
     )  # fmt: skip
 
 
-# Without reference counts on the arrays, which would cost as much as the physics: nothing is allocated here.
+# Without reference counts on the arrays, which would cost as much as the physics: nothing is allocated on the heap here.
 # Products and sums may be fused, which rounds once instead of twice, and regrouped, which shortens what waits for what.
 @njit(error_model="numpy", _nrt=False, fastmath={"contract", "arcp", "reassoc", "nsz"})
 def _drive(
     car, wheels, surface, elevation, targets, friction, start, end, step, every,
-    sensor, parameters, record, sensed, felt, rates,
-    pose, pose_rate, speeds, change, now,
-    wheel_z, wheel_v, wheel_change, spin, spin_change, rotation, force_x, force_y, load, torque,
-    suspension, travel_rate, recession, toe, scrub, fore_push, side_push, ground, states, slopes, slopes_before, slopes_earlier,
+    sensor, parameters, record, sensed, states, slopes, slopes_before, slopes_earlier,
 ):  # fmt: skip
+    felt, rates = zeros(3), zeros(3)
+    pose, pose_rate, speeds, change, now = zeros(6), zeros(3), zeros(6), zeros(6), zeros(6)
+    wheel_z, wheel_v, wheel_change, spin, spin_change, rotation = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    force_x, force_y, load, torque, suspension = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    travel_rate, recession, toe, scrub, fore_push, side_push = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    ground = zeros(4, 4)
     half = 0.5 * step
     _settle(
         car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
@@ -216,7 +216,7 @@ def _plane(car, ground):
     return 0.5 * (front - rear) * car.per_wheelbase, 0.5 * across
 
 
-@njit(error_model="numpy", _nrt=False)
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _settle(
     car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
     pose, pose_rate, speeds, wheel_z, wheel_v, spin, rotation, ground,
@@ -236,12 +236,12 @@ def _settle(
     slope_x, slope_y = _plane(car, ground[0])
     middle = 0.0
     for i in range(4):
-        middle += 0.25 * (ground[0, i] - wheels[i, X] * slope_x - wheels[i, Y] * slope_y)
+        middle += 0.25 * (ground[0, i] - wheels[X, i] * slope_x - wheels[Y, i] * slope_y)
     pose[Z], pose[ROLL], pose[PITCH] = middle + car.cg_height, slope_y, -slope_x
     speeds[V_X], speeds[YAW_RATE], speeds[V_Z] = speed, curvature * speed, slope_x * speed
     for i in range(4):
-        plane = middle + wheels[i, X] * slope_x + wheels[i, Y] * slope_y
-        wheel_z[i] = plane + car.tyre_radius - wheels[i, STATIC_DEFLECTION]
+        plane = middle + wheels[X, i] * slope_x + wheels[Y, i] * slope_y
+        wheel_z[i] = plane + car.tyre_radius - wheels[STATIC_DEFLECTION, i]
         wheel_v[i] = slope_x * speed
         spin[i] = speed / car.tyre_radius
 
@@ -269,19 +269,22 @@ def _feel(
     sine, cosine = sin_cos(pose[HEADING] + step * pose_rate[2])
     s = pose[S] + step * pose_rate[0]
     e = pose[E] + step * pose_rate[1]
+    u, v, turn = zeros(4), zeros(4), zeros(4)
     for i in range(4):
-        along = wheels[i, X] * cosine - wheels[i, Y] * sine
-        across = e + wheels[i, X] * sine + wheels[i, Y] * cosine
+        along = wheels[X, i] * cosine - wheels[Y, i] * sine
+        across = e + wheels[X, i] * sine + wheels[Y, i] * cosine
         bend = curvature * across
         stretch = 1.0 + bend * (1.0 + bend * (1.0 + bend))
-        u = s + along * stretch
-        v = across - 0.5 * curvature * along * along * stretch
-        raw = height(surface, elevation, u, v)
+        u[i] = s + along * stretch
+        v[i] = across - 0.5 * curvature * along * along * stretch
+        turn[i] = rotation[i] + step * spin[i]
         ground[3, i] = ground[2, i]
         ground[2, i] = ground[1, i]
         ground[1, i] = ground[0, i]
-        turn = rotation[i] + step * spin[i]
-        ground[0, i] = raw + road_port(i, u, v, raw, turn, surface, elevation, parameters, states, slopes)
+    for i in range(4):
+        ground[0, i] = height(surface, elevation, u[i], v[i])
+    for i in range(4):
+        ground[0, i] += road_port(i, u[i], v[i], ground[0, i], turn[i], surface, elevation, parameters, states, slopes)
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
@@ -294,44 +297,48 @@ def _vertical(
     half = 0.5 * step
     per_step = 1.0 / (6.0 * step)
     rest = pose[Z] - car.cg_height + car.tyre_radius
+    travel, corner_speed, lean = zeros(4), zeros(4), zeros(4)
+    held, deflection, rate, damper, radial = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    lean[0], lean[2] = wheel_z[0] - wheel_z[1], wheel_z[2] - wheel_z[3]
+    lean[1], lean[3] = -lean[0], -lean[2]
     for i in range(4):
-        other = i + 1 if i % 2 == 0 else i - 1
-        side = wheels[i, Y] * pose[ROLL]
-        travel = wheel_z[i] - (rest - wheels[i, STATIC_DEFLECTION] - wheels[i, X] * pose[PITCH] + side)
-        twist = wheel_z[i] - wheel_z[other] - 2.0 * side
-        corner_speed = now[V_Z] - wheels[i, X] * now[PITCH_RATE] + wheels[i, Y] * now[ROLL_RATE]
-        wheel_speed = wheel_v[i] + half * wheel_change[i]
-        held = wheels[i, STATIC_FORCE] + wheels[i, SPRING] * travel + wheels[i, ANTI_ROLL] * twist
-        held += suspension_port(
-            i, travel, wheel_speed - corner_speed, wheels[i, SPRING], wheels[i, DAMPING], force_x[i], force_y[i],
+        side = wheels[Y, i] * pose[ROLL]
+        travel[i] = wheel_z[i] - (rest - wheels[STATIC_DEFLECTION, i] - wheels[X, i] * pose[PITCH] + side)
+        twist = lean[i] - 2.0 * side
+        corner_speed[i] = now[V_Z] - wheels[X, i] * now[PITCH_RATE] + wheels[Y, i] * now[ROLL_RATE]
+        travel_rate[i] = wheel_v[i] + half * wheel_change[i] - corner_speed[i]
+        held[i] = wheels[STATIC_FORCE, i] + wheels[SPRING, i] * travel[i] + wheels[ANTI_ROLL, i] * twist
+    for i in range(4):
+        held[i] += suspension_port(
+            i, travel[i], travel_rate[i], wheels[SPRING, i], wheels[DAMPING, i], force_x[i], force_y[i],
             parameters, states, slopes,
         )  # fmt: skip
-        recession[i], toe[i], scrub[i] = kinematics_port(i, travel, parameters, states, slopes)
-        held -= wheels[i, DAMPING] * corner_speed + (wheels[i, SCRUB] + scrub[i]) * side_push[i]
-        held += recession[i] * fore_push[i]
-
-        deflection = ground[1, i] + car.tyre_radius - wheel_z[i]
-        damper = car.tyre_damping * min(max(deflection * PER_CONTACT_DEPTH, 0.0), 1.0)
-        rate = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
-        radial = car.tyre_stiffness * deflection + damper * rate
-        radial += tyre_vertical_port(
-            i, deflection, rate - wheel_speed, car.tyre_stiffness, wheels[i, STATIC_DEFLECTION], rotation[i], spin[i],
-            parameters, states, slopes,
+        recession[i], toe[i], scrub[i] = kinematics_port(i, travel[i], parameters, states, slopes)
+    for i in range(4):
+        held[i] -= wheels[DAMPING, i] * corner_speed[i] + (wheels[SCRUB, i] + scrub[i]) * side_push[i]
+        held[i] += recession[i] * fore_push[i]
+        deflection[i] = ground[1, i] + car.tyre_radius - wheel_z[i]
+        damper[i] = car.tyre_damping * min(max(deflection[i] * PER_CONTACT_DEPTH, 0.0), 1.0)
+        rate[i] = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
+        radial[i] = car.tyre_stiffness * deflection[i] + damper[i] * rate[i]
+    for i in range(4):
+        radial[i] += tyre_vertical_port(
+            i, deflection[i], rate[i] - travel_rate[i] - corner_speed[i], car.tyre_stiffness, wheels[STATIC_DEFLECTION, i],
+            rotation[i], spin[i], parameters, states, slopes,
         )  # fmt: skip
+    for i in range(4):
         # The wheel's own damping, implicit: its speed now is that before plus half a step of its change.
-        weight = wheels[i, MASS] * STANDARD_GRAVITY
-        damping = damper + wheels[i, DAMPING]
-        push = radial - held - weight - damping * wheel_v[i]
-        wheel_change[i] = push / (wheels[i, MASS] + half * damping)
+        weight = wheels[MASS, i] * STANDARD_GRAVITY
+        damping = damper[i] + wheels[DAMPING, i]
+        change = (radial[i] - held[i] - weight - damping * wheel_v[i]) / (wheels[MASS, i] + half * damping)
+        pressing = radial[i] - damper[i] * (wheel_v[i] + half * change)
+        lifted = pressing < 0.0 or deflection[i] <= 0.0
+        free = (-held[i] - weight - wheels[DAMPING, i] * wheel_v[i]) / (wheels[MASS, i] + half * wheels[DAMPING, i])
+        load[i] = 0.0 if lifted else pressing
+        wheel_change[i] = free if lifted else change
         wheel_speed = wheel_v[i] + half * wheel_change[i]
-        load[i] = radial - damper * wheel_speed
-        if load[i] < 0.0 or deflection <= 0.0:
-            load[i] = 0.0
-            push = -held - weight - wheels[i, DAMPING] * wheel_v[i]
-            wheel_change[i] = push / (wheels[i, MASS] + half * wheels[i, DAMPING])
-            wheel_speed = wheel_v[i] + half * wheel_change[i]
-        suspension[i] = held + wheels[i, DAMPING] * wheel_speed
-        travel_rate[i] = wheel_speed - corner_speed
+        suspension[i] = held[i] + wheels[DAMPING, i] * wheel_speed
+        travel_rate[i] = wheel_speed - corner_speed[i]
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
@@ -346,37 +353,46 @@ def _planar(
     sine, cosine = sin_cos(angle)
     half = 0.5 * step
     per_two_steps = 0.5 / step
+    per_radius = 1.0 / car.tyre_radius
     share_front = car.drive_share_front if demand > 0.0 else car.brake_share_front
+    ahead, aside, share = zeros(4), zeros(4), zeros(4)
+    c, d, rolling, per_speed, pushed = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    slip_x, slip_y, slope, pull = zeros(4), zeros(4), zeros(4), zeros(4)
     for i in range(4):
-        along = now[V_X] - wheels[i, Y] * now[YAW_RATE] - car.pitch_arm * now[PITCH_RATE]
-        across = now[V_Y] + wheels[i, X] * now[YAW_RATE] + car.cg_height * now[ROLL_RATE]
-        across += (wheels[i, SCRUB] + scrub[i]) * travel_rate[i]
+        ahead[i] = cosine if i < 2 else 1.0
+        aside[i] = sine if i < 2 else 0.0
+        share[i] = share_front if i < 2 else 1.0 - share_front
+    for i in range(4):
+        along = now[V_X] - wheels[Y, i] * now[YAW_RATE] - car.pitch_arm * now[PITCH_RATE]
+        across = now[V_Y] + wheels[X, i] * now[YAW_RATE] + car.cg_height * now[ROLL_RATE]
+        across += (wheels[SCRUB, i] + scrub[i]) * travel_rate[i]
         along -= recession[i] * travel_rate[i]
-        c, d = (cosine, sine) if i < 2 else (1.0, 0.0)
-        c, d = c - d * toe[i], d + c * toe[i]
-        rolling = along * c + across * d
-        sliding = across * c - along * d
-        per_speed = 1.0 / max(abs(rolling), MINIMUM_SPEED)
-        slope = (ground[0, i] - ground[2, i]) * per_speed * per_two_steps - slope_x
-        pushed = (torque[i] - car.spin_inertia * spin_change[i]) / car.tyre_radius
-        slip_x, slip_y, pull = tyre_planar_port(
-            i, (spin[i] * car.tyre_radius - rolling) * per_speed, -sliding * per_speed, load[i], rolling, slope,
-            pushed, parameters, states, slopes,
+        c[i], d[i] = ahead[i] - aside[i] * toe[i], aside[i] + ahead[i] * toe[i]
+        rolling[i] = along * c[i] + across * d[i]
+        sliding = across * c[i] - along * d[i]
+        per_speed[i] = 1.0 / max(abs(rolling[i]), MINIMUM_SPEED)
+        slope[i] = (ground[0, i] - ground[2, i]) * per_speed[i] * per_two_steps - slope_x
+        pushed[i] = (torque[i] - car.spin_inertia * spin_change[i]) * per_radius
+        slip_x[i] = (spin[i] * car.tyre_radius - rolling[i]) * per_speed[i]
+        slip_y[i] = -sliding * per_speed[i]
+    for i in range(4):
+        slip_x[i], slip_y[i], pull[i] = tyre_planar_port(
+            i, slip_x[i], slip_y[i], load[i], rolling[i], slope[i], pushed[i], parameters, states, slopes,
         )  # fmt: skip
+    for i in range(4):
         tyre_x, tyre_y, give = brush(
-            slip_x, slip_y, load[i], friction, car.slip_per_load, car.cornering_per_load
+            slip_x[i], slip_y[i], load[i], friction, car.slip_per_load, car.cornering_per_load
         )
-        share = share_front if i < 2 else 1.0 - share_front
-        torque[i] = 0.5 * share * demand * car.tyre_radius
+        torque[i] = 0.5 * share[i] * demand * car.tyre_radius
         # Spin and slip force half a step on, implicit: slip answers fast at low speed.
-        grip = half * give * car.tyre_radius * car.slip_per_load * load[i] * per_speed
+        grip = half * give * car.tyre_radius * car.slip_per_load * load[i] * per_speed[i]
         spin_change[i] = (torque[i] - car.tyre_radius * tyre_x) / (car.spin_inertia + car.tyre_radius * grip)
-        tyre_x += grip * spin_change[i] + pull
+        tyre_x += grip * spin_change[i] + pull[i]
         spin[i] += step * spin_change[i]
         rotation[i] += step * spin[i]
         # The road pushes along its normal: on a slope the load has a level part.
-        force_x[i] = tyre_x * c - tyre_y * d - load[i] * slope_x
-        side = tyre_x * d + tyre_y * c - load[i] * slope_y
+        force_x[i] = tyre_x * c[i] - tyre_y * d[i] - load[i] * slope_x
+        side = tyre_x * d[i] + tyre_y * c[i] - load[i] * slope_y
         side_push[i] = 2.0 * side - force_y[i]
         force_y[i] = side
 
@@ -396,24 +412,24 @@ def _accelerate(
         now[ROLL_RATE], now[PITCH_RATE], now[YAW_RATE],
         change[V_Z], change[ROLL_RATE], change[PITCH_RATE],
         suspension[0] + suspension[1], suspension[2] + suspension[3],
-        car.sprung_mass, wheels[0, X], wheels[2, X],
+        car.sprung_mass, wheels[X, 0], wheels[X, 2],
     )  # fmt: skip
     x, y, z, roll, pitch, yaw = body_port(motion, parameters, states, slopes)
     for i in range(4):
         # A wheel that moves back as it rises pushes the body forward by its inertia.
-        rising = wheel_change[i] - change[V_Z] + wheels[i, X] * change[PITCH_RATE] - wheels[i, Y] * change[ROLL_RATE]
-        push = force_x[i] + recession[i] * wheels[i, MASS] * rising
-        fore_push[i] = push - wheels[i, MASS] * (change[V_X] - car.pitch_arm * change[PITCH_RATE])
+        rising = wheel_change[i] - change[V_Z] + wheels[X, i] * change[PITCH_RATE] - wheels[Y, i] * change[ROLL_RATE]
+        push = force_x[i] + recession[i] * wheels[MASS, i] * rising
+        fore_push[i] = push - wheels[MASS, i] * (change[V_X] - car.pitch_arm * change[PITCH_RATE])
         x += push
         y += force_y[i]
         z += suspension[i]
         # Where the load passes the centre of gravity: tilted with the body down to the link, with the road below.
-        aside = wheels[i, Y] + wheels[i, ROLL_ARM] * pose[ROLL] + wheels[i, ROLL_CENTRE] * slope_y
-        aside += scrub[i] * wheels[i, Y] * (slope_y - pose[ROLL])
-        ahead = wheels[i, X] - car.pitch_arm * pose[PITCH]
+        aside = wheels[Y, i] + wheels[ROLL_ARM, i] * pose[ROLL] + wheels[ROLL_CENTRE, i] * slope_y
+        aside += scrub[i] * wheels[Y, i] * (slope_y - pose[ROLL])
+        ahead = wheels[X, i] - car.pitch_arm * pose[PITCH]
         roll += car.cg_height * force_y[i] + aside * suspension[i]
         pitch -= car.pitch_arm * push + torque[i] + ahead * suspension[i]
-        yaw += wheels[i, X] * force_y[i] - wheels[i, Y] * push
+        yaw += wheels[X, i] * force_y[i] - wheels[Y, i] * push
     v_x, v_y, r = now[V_X], now[V_Y], now[YAW_RATE]
     momentum_x = car.total_mass * v_x - car.unsprung_mass * car.pitch_arm * now[PITCH_RATE]
     momentum_y = car.total_mass * v_y + car.unsprung_x * r + car.unsprung_roll * now[ROLL_RATE]
