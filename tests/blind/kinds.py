@@ -49,7 +49,7 @@ SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspensio
           "one_sided_load": "uneven_load", "bump_stop_creep": "bump_stop"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
 
-OF_MEASUREMENT = ("imu_lever_arm", "road_bank", "road_grade", "sensor_bandwidth")
+OF_MEASUREMENT = ("gyroscope_delay", "imu_lever_arm", "road_bank", "road_grade", "sensor_bandwidth")
 """Effects that are errors of an instrument or of the road's file, and that alignment does not take out."""
 
 

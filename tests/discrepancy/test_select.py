@@ -90,6 +90,19 @@ def test_an_error_of_the_measurement_is_suspect_by_name_unless_drives_held_out_r
     assert found.verdict == "outside" and not found.effects and found.is_like_error
 
 
+@pytest.mark.parametrize(("was_material", "said"), [(True, "outside"), (False, "nothing")])
+def test_what_removes_little_of_an_error_that_was_not_worth_explaining_is_neither_named_nor_a_sign_of_something_else(was_material, said):
+    model = Linear(1, {"effect_2.size": 1.0})
+    selection, _ = judged(model)
+    first, last = selection.states
+    held_out = first.held_out_squares - 0.1 * (first.held_out_squares - selection.held_out_floor_squares)
+    little = replace(selection, states=(first, replace(last, held_out_squares=held_out)))
+    found = judge.judge(little, model.candidates, is_material=False, was_material=was_material)
+    assert found.verdict == said
+    if said == "nothing":
+        assert not found.effects and found.share == 0.0 and "effect_2 would help, but removes too little" in found.reasons[0]
+
+
 @pytest.mark.parametrize(("size", "is_like_error"), [(0.5, False), (0.9, True)])
 def test_an_error_of_the_measurement_stands_in_for_something_else_only_where_it_removes_much(size, is_like_error):
     """Beside an effect, and with something missing that the library does not have; else it may be a part of what is left."""

@@ -87,6 +87,16 @@ def test_clock_drift_is_an_offset_that_grows(record):
     assert late.a_x.values == pytest.approx(np.sin(2 * np.pi * time), abs=1e-4)
 
 
+def test_gyroscope_delay_shifts_rates_against_accelerations(record):
+    late = act("gyroscope_delay")(record, 0.0034)
+    inner = slice(20, -20)
+    for k, name in enumerate(SIGNALS):
+        shift = 0.0034 if name.endswith("rate") else 0.0
+        expected = np.sin(2 * np.pi * (1.0 + 0.7 * k) * (record.time.values - shift) + k)
+        assert late[name].values[inner] == pytest.approx(expected[inner], abs=1e-4)
+    assert (late["s"] == record["s"]).all() and (late["roll"] == record["roll"]).all()
+
+
 @pytest.mark.parametrize("constant", [0.001, 0.004, 0.02])
 def test_bandwidth_is_a_first_order_low_pass_without_its_delay(record, constant):
     weak = act("sensor_bandwidth")(record, constant)

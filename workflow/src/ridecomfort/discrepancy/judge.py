@@ -41,10 +41,11 @@ def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[Name
 
 def judge(
     selection: Selection, candidates: Sequence[Candidate], suspicions: Sequence[str] = (), notes: Sequence[str] = (),
-    is_material: bool = True,
+    is_material: bool = True, was_material: bool = True,
 ) -> Verdict:  # fmt: skip
     """The verdict that a selection carries; ``suspicions`` are signs of wrong data that were found beside it, ``notes`` words
-    on the road that may be otherwise than it was driven; ``is_material``: whether what repeats share is worth explaining."""
+    on the road that may be otherwise than it was driven; ``is_material``: whether what repeats share is worth explaining,
+    ``was_material``: whether it was before anything was found."""
     by_name = {candidate.name: candidate for candidate in candidates}
     found = _found(selection, by_name)
     effects, reasons = _kept(selection, found, by_name)
@@ -74,7 +75,11 @@ def judge(
     if wrong or decoys or suspicions:
         said = (*reasons, *suspicions)
         return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
-    if not is_vain:
+    if is_little and effects and not (was_material or balance.is_left):
+        names = ", ".join(effect.name for effect in effects)
+        reasons.append(f"{names} would help, but removes too little to be what is missing: {_percent(balance.share)} of the explainable error")
+        effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
+    elif not is_vain:
         reasons += _removed(balance) if found else _unfound(selection, len(candidates))
     if is_little or balance.is_left and not effects:
         kind = "outside"

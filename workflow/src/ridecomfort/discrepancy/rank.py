@@ -70,14 +70,14 @@ def ranked(
     selection = search(rung, most=most, seed=seed, each=each, say=say)
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.states[-1].fit.residuals)
-    matters = _is_material(selection)
+    mattered, matters = (_is_material(selection, number) for number in (0, -1))
     of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
     doubts = suspicions(experiment, selection, is_explained, matters and may_share(selection))
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
-    verdict = judge(selection, experiment.candidates, doubts, of_road, matters)
+    verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered)
     verdict = with_remainder(verdict, *_left_by(selection, (-1, 0)))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
@@ -94,9 +94,9 @@ def _measured(frame: Frame) -> dict[int, np.ndarray]:
     return {index: again.measured()[:, again.compared] for index, again in zip(frame.indices, replays)}
 
 
-def _is_material(selection: Selection) -> bool:
-    """Whether what repeats share after the last effect is worth explaining, by the signals that were measured."""
-    return is_material(selection.frame, selection.states[-1].fit.residuals, _measured(selection.frame))
+def _is_material(selection: Selection, number: int) -> bool:
+    """Whether what repeats share of what the model of this number leaves is worth explaining, by the signals that were measured."""
+    return is_material(selection.frame, selection.states[number].fit.residuals, _measured(selection.frame))
 
 
 def _left_by(selection: Selection, numbers: Sequence[int]) -> list[dict[str, float]]:
