@@ -110,9 +110,11 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
     assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
     # Beside an error that nothing explains, a few percent that go with the file are not all that is missing.
-    little = beyond | {"share": 0.06, "held_out_share": 0.06, "is_first": False}
-    said = words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": little}))["verdict"])
-    assert said.startswith("verdict Something is missing that is not in the library. (outside)") and "Nothing is to be switched on" not in said
+    little = beyond | {"share": 0.06, "held_out_share": 0.06}
+    for is_first, is_left in ((False, False), (True, True)):
+        beside = {**made_up.nothing(), "verdict": "outside", "beyond_bounds": {**little, "is_first": is_first}, "is_left": is_left}
+        said = words(diagnosed.tables(made_up.diagnosis(beside))["verdict"])
+        assert said.startswith("verdict Something is missing that is not in the library. (outside)") and "Nothing is to be switched on" not in said
 
 
 def test_parameters_that_are_another_explanation_come_last():

@@ -28,6 +28,8 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "forward_force": "links that lift the body as it is driven or braked",
         "side_force_size_times_direction": "friction of a strut that side forces press on",
         "forward_force_size_times_direction": "friction of a strut that braking or driving presses on",
+        "side_force_size_times_velocity": "a damper that is firmer in bends: one that is controlled",
+        "forward_force_size_times_velocity": "a damper that is firmer as the car is braked or driven: one that is controlled",
         "side_force_times_deflection": "a roll centre that migrates with travel",
         "velocity_times_recent": "a damper that remembers how fast it moved of late: foam, heat, a latching or controlled valve",
         "velocity_times_recent_travel": "a damper that stays firm for a while once it has travelled far: an adaptive one",
@@ -160,7 +162,7 @@ def _of_sides(what: str) -> tuple[str, str]:
     return f"{what} on the left", f"{what} on the right"
 
 
-FRICTION, FIRMER, STIFFER = ("more friction", "less friction"), ("firmer", "softer"), ("stiffer", "softer")
+FRICTION, FIRMER, STIFFER = ("more friction", "less friction than the model has"), ("firmer", "softer"), ("stiffer", "softer")
 
 RESISTANCE = ("less resistance", "more resistance")
 
@@ -186,6 +188,8 @@ SENSES: Mapping[str, Mapping[str, tuple[str, str]]] = {
         "velocity_of_sides": _of_sides("firmer"),
         "side_force_size_times_direction": _more(*FRICTION, "in bends"),
         "forward_force_size_times_direction": _more(*FRICTION, "when braked or driven"),
+        "side_force_size_times_velocity": _more(*FIRMER, "in bends"),
+        "forward_force_size_times_velocity": _more(*FIRMER, "when braked or driven"),
         "velocity_times_recent": _more(*FIRMER, "after quick motion"),
         "velocity_times_recent_travel": _more(*FIRMER, "after far travel"),
         "deflection_times_recent": _more(*STIFFER, "after quick motion"),
@@ -238,8 +242,8 @@ SENSES: Mapping[str, Mapping[str, tuple[str, str]]] = {
         "roll_damping": ("less damping", "more damping"),
         "roll_stiffness": ("softer", "stiffer"),
         "roll_saturating": _more("softer", "stiffer", "at small angles"),
-        "roll_rate_direction": ("less friction", "more friction"),
-        "roll_sliding": ("less friction", "more friction"),
+        "roll_rate_direction": FRICTION[::-1],
+        "roll_sliding": FRICTION[::-1],
         "roll_inertia": ("less inertia", "more inertia"),
         "pitch_damping": ("less damping", "more damping"),
         "pitch_stiffness": ("softer", "stiffer"),

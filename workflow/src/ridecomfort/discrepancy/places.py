@@ -82,6 +82,8 @@ PLACES: Mapping[str, Place] = {
             "forward_force": Term("force_x", "1"),
             "side_force_size_times_direction": Term("abs(force_y) * tanh(velocity / 0.005)", "1", beside="velocity"),
             "forward_force_size_times_direction": Term("abs(force_x) * tanh(velocity / 0.005)", "1", beside="velocity"),
+            "side_force_size_times_velocity": Term("abs(force_y) * velocity", "s/m", beside="velocity"),
+            "forward_force_size_times_velocity": Term("abs(force_x) * velocity", "s/m", beside="velocity"),
             "side_force_times_deflection": Term(f"deflection * force_y * {SIDE}", "1/m"),
             "velocity_times_recent": remembering("velocity", "N s2/m2", 1.0, 0.1, 10.0),
             "velocity_times_recent_travel": Term(

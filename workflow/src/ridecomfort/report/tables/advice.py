@@ -77,9 +77,11 @@ def next_step(found: Diagnosis) -> str:
 
 
 def is_file_alone(verdict: Mapping) -> bool:
-    """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form."""
+    """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form, and
+    no error that repeats share and that is worth explaining."""
     proposal, beyond = verdict.get("proposal") or {}, verdict.get("beyond_bounds") or {}
-    return bool(beyond.get("is_first")) and verdict["verdict"] == "outside" and not verdict["effects"] and not proposal.get("form")
+    is_all = not (verdict["effects"] or proposal.get("form") or verdict.get("is_left"))
+    return bool(beyond.get("is_first")) and verdict["verdict"] == "outside" and is_all
 
 
 def library_helps(verdict: Mapping) -> bool:
