@@ -332,6 +332,7 @@ def _vertical(
         damping = damper[i] + wheels[DAMPING, i]
         change = (radial[i] - held[i] - weight - damping * wheel_v[i]) / (wheels[MASS, i] + half * damping)
         pressing = radial[i] - damper[i] * (wheel_v[i] + half * change)
+        # In the air it is held by its own damper alone.
         lifted = pressing < 0.0 or deflection[i] <= 0.0
         free = (-held[i] - weight - wheels[DAMPING, i] * wheel_v[i]) / (wheels[MASS, i] + half * wheels[DAMPING, i])
         load[i] = 0.0 if lifted else pressing

@@ -185,7 +185,8 @@ def calibrated(found: Difference) -> Table:
         rows.append(("none", "", "", *(None,) * 6, ""))
     notes.append(
         "At a bound the data ask for more than the bounds allow, or the model lacks something that the parameter stands in for. Not identified: "
-        "the drives do not tell it, and another value would do. Intervals hold where the model lacks nothing."
+        "the drives do not tell it, and another value would do. Intervals hold where the model lacks nothing and what is not calibrated is as in "
+        "the vehicle's file."
     )
     if any("." in name for calibration in found.calibrations.values() for name in calibration["parameter"].values.tolist()):
         notes.append(OF_EFFECTS)
