@@ -231,6 +231,15 @@ def acceleration(specific_force, roll, pitch) -> np.ndarray:
     return np.asarray(specific_force) - STANDARD_GRAVITY * upward(roll, pitch)
 
 
+def late(drive: xr.Dataset, names, by) -> xr.Dataset:
+    """A drive whose variables of these ``names`` are recorded later ``by`` so many s, a number or (time,); at the ends they are held."""
+    from scipy.interpolate import CubicSpline  # here: it takes half a second, and the library of effects is read at every start
+
+    time = drive["time"].values
+    past = np.clip(time - by, time[0], time[-1])
+    return drive.assign({name: drive[name].copy(data=CubicSpline(time, drive[name].values)(past)) for name in names})
+
+
 def transfer(drive: xr.Dataset, to: tuple[float, float, float]) -> xr.Dataset:
     """The drive as an accelerometer elsewhere on the rigid body would have recorded it.
 

@@ -1,8 +1,6 @@
 """A clock of the inertial unit that is off."""
 
-import numpy as np
-from scipy.interpolate import CubicSpline
-
+from ridecomfort.drive.record import late
 from ridecomfort.effects.contract import Effect, Parameter
 from ridecomfort.vocabulary import SIGNALS
 
@@ -18,9 +16,4 @@ effect = Effect(
 
 
 def act(drive, offset):
-    if offset == 0.0:
-        return drive
-    time = drive.time.values
-    past = np.clip(time - offset, time[0], time[-1])
-    late = {name: CubicSpline(time, drive[name].values)(past) for name in (*SIGNALS, "roll", "pitch")}
-    return drive.assign({name: drive[name].copy(data=values) for name, values in late.items()})
+    return drive if offset == 0.0 else late(drive, (*SIGNALS, "roll", "pitch"), offset)

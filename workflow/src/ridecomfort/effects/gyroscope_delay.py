@@ -1,7 +1,6 @@
 """A gyroscope that answers later than the accelerometer beside it."""
 
-import numpy as np
-
+from ridecomfort.drive.record import late
 from ridecomfort.effects.contract import Effect, Parameter
 from ridecomfort.vocabulary import SIGNALS
 
@@ -17,10 +16,4 @@ effect = Effect(
 
 
 def act(drive, time):
-    if time == 0.0:
-        return drive
-    from scipy.interpolate import CubicSpline  # here: it takes half a second, and the library is read at every start
-
-    clock = drive.time.values
-    past = np.clip(clock - time, clock[0], clock[-1])
-    return drive.assign({name: drive[name].copy(data=CubicSpline(clock, drive[name].values)(past)) for name in SIGNALS[3:]})
+    return drive if time == 0.0 else late(drive, SIGNALS[3:], time)
