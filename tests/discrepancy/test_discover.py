@@ -94,9 +94,9 @@ def test_a_force_that_whirls_is_said_with_what_it_does_up_and_aside_and_after_wh
 
 
 def test_a_form_is_told_with_its_size_at_typical_motion_of_what_it_sees():
-    assert typically("strut", {"velocity_direction": {"front": 57.3, "rear": -48.0}}) == "57 N front and 48 N rear at velocity 0.12 m/s"
+    assert typically("strut", {"velocity_direction": {"front": 57.3, "rear": -48.0}}) == "57 N front and -48 N rear at velocity 0.12 m/s"
     toe = typically("links", {"toe_of_deflection_square_on_sides": {"front": 2.76, "rear": -2.5}})
-    assert toe == "0.4 mrad front and 0.36 mrad rear at deflection 0.012 m"
+    assert toe == "0.4 mrad front and -0.36 mrad rear at deflection 0.012 m"
     wave = typically("tyre", {"once_a_turn_by_spin": {"rear_left_cosine": 0.01, "rear_left_sine": 0.0}})
     assert wave == "49 N rear left at spin 70 rad/s"
     assert typically("body", {"drag": {"": -0.3}}) == "120 N at speed 20 m/s"

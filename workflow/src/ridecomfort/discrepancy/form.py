@@ -50,7 +50,7 @@ SEEN = {
 
 
 def typically(place: str, terms: Factors) -> str:
-    """How large each term of a force is at typical motion of what it sees, by part of the car."""
+    """How large each term of a force is at typical motion of what it sees, by part of the car; with signs where parts push against one another."""
     return "; ".join(_typically(place, name, factors) for name, factors in terms.items() if factors)
 
 
@@ -60,7 +60,8 @@ def _typically(place: str, name: str, factors: Mapping[str, float]) -> str:
     unit = RETURNED.get(term.result.partition("_")[0], "")
     times = 1e3 * one if unit == "mrad" else one
     sizes = {part: size for part, (size, _) in term.amplitudes(factors).items()} if term.turn else factors
-    rounded = {part: float(f"{abs(times * size):.2g}") for part, size in sizes.items()}
+    differ = len({size > 0 for size in sizes.values() if size}) > 1
+    rounded = {part: float(f"{abs(times * size):.2g}") * (-1 if differ and size < 0 else 1) for part, size in sizes.items()}
     told = " and ".join(_spaced(f"{size:g}", unit, part) for part, size in rounded.items())
     at = ", ".join(_spaced(what, f"{value:g}", SEEN[what]) for what, value in seen.items() if what in SEEN)
     return f"{told} at {at}" if at else told

@@ -13,7 +13,8 @@ import numpy as np
 from ..effects.contract import Parameter
 from .terms import (
     ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
-    following, on_spring, remembering, running_out_aside, shape_setting, sliding, swinging, turning, turning_as_heard,
+    following, hardening, on_spring, pressed_down, remembering, running_out_aside, shape_setting, sliding, swaying, swinging, turning,
+    turning_as_heard, when_thrown,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -95,6 +96,8 @@ PLACES: Mapping[str, Place] = {
             "sliding_damping": sliding("abs(velocity) * strain", "N s/m", "velocity"),
             "slow_velocity": below("slow", "velocity"),
             "late_velocity": below("slow - velocity"),
+            "late_velocity_hardening": hardening(),
+            "bump_velocity_when_thrown": when_thrown("max(velocity, 0.0)"),
             "bump_at_first": at_first("max(velocity, 0.0)", "velocity > 0.0"),
             "rebound_at_first": at_first("min(velocity, 0.0)", "velocity < 0.0"),
             "swinging_deflection": swinging("deflection", 0.006, "deflection - way", "N/m", "force", AXLES, "deflection"),
@@ -122,6 +125,7 @@ PLACES: Mapping[str, Place] = {
             "often_a_turn_by_spin": turning_as_heard("spin**2", "kg m"),
             "sliding_direction": sliding("strain", "N", "velocity"),
             "slow_velocity": below("slow", "velocity"),
+            "pressed_down": pressed_down(),
         },
         strongest=STRONGEST_OF_TYRE,
     ),
@@ -136,6 +140,7 @@ PLACES: Mapping[str, Place] = {
             "pull_of_slope": Term("load * slope", "1", "pull"),
             "pull_of_slope_size": Term("load * abs(slope)", "1", "pull"),
             "slip_of_load": Term("load", "1/N", "slip_x", beside="slip_x"),
+            "side_slip": Term("slip_y", "1", "slip_y"),
             "side_slip_of_load": Term("slip_y * load", "1/N", "slip_y", beside="slip_y"),
             "side_slip_of_load_on_sides": Term(f"load * {SIDE}", "1/N", "slip_y", beside=SIDE),
             "side_slip_of_speed": Term("slip_y * speed", "s/m", "slip_y", beside="slip_y"),
@@ -238,6 +243,8 @@ PLACES: Mapping[str, Place] = {
                 for axle in AXLES
             },
             "sway_rear": on_spring("motion.speed * motion.yaw_rate", 1.0, "kg", "force_y", "motion.rear", (1.2, 0.4, 6.0)),
+            "swaying": swaying(),
+            "push_of_turning_rear": following("motion.yaw_rate", 0.05, 0.08, "N s", "force_y", ahead="motion.rear", above="height"),
             "roll_resonance": on_spring("motion.roll_acceleration", 0.4, "kg m2", "moment_x"),
             "pitch_resonance": on_spring("motion.pitch_acceleration", 0.3, "kg m2", "moment_y", frequencies=(8.0, 3.0, 25.0)),
             "surge_above": on_spring("motion.pitch_acceleration", 0.3, "kg m", "force_x", frequencies=(8.0, 3.0, 25.0)),

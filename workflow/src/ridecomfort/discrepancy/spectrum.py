@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numba import njit
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.ndimage import uniform_filter1d
 
@@ -152,15 +153,29 @@ class Whitening:
 
     def _filter(self, count: int, series: np.ndarray) -> np.ndarray:
         length = self._length(count)
-        if length not in self._known:
+        bins = rfft(series, length, axis=-1)
+        key = length, bins.dtype
+        if key not in self._known:
             frequency = np.fft.rfftfreq(length, 1.0 / self.rate)
             root = _interpolate(self.spectrum.frequency, self._root, frequency)
             root[(frequency < self.band[0]) | (frequency > self.band[1])] = 0.0
-            self._known[length] = np.ascontiguousarray(root)
-        bins = rfft(series, length, axis=-1)
-        channels, count = bins.shape[-2:]
-        stacked = bins.reshape(-1, channels, count).transpose(2, 1, 0)
-        return (self._known[length].astype(bins.dtype) @ stacked).transpose(2, 1, 0).reshape(bins.shape)
+            self._known[key] = np.ascontiguousarray(root.transpose(1, 2, 0), bins.dtype)
+        return _times(self._known[key], bins.reshape(-1, *bins.shape[-2:])).reshape(bins.shape)
+
+
+@njit(cache=True, nogil=True, fastmath={"contract", "reassoc", "nsz"})
+def _times(matrix, bins):
+    """A matrix at every frequency, (channel, channel, frequency), times (series, channel, frequency)."""
+    found = np.empty_like(bins)
+    count, channels, frequencies = bins.shape
+    for k in range(count):
+        for i in range(channels):
+            for f in range(frequencies):
+                found[k, i, f] = matrix[i, 0, f] * bins[k, 0, f]
+            for j in range(1, channels):
+                for f in range(frequencies):
+                    found[k, i, f] += matrix[i, j, f] * bins[k, j, f]
+    return found
 
 
 def local_scale(white: np.ndarray, rate: float, seconds: float = 4.0) -> np.ndarray:

@@ -8,6 +8,7 @@ from math import atan2, degrees, hypot, pi
 
 from ..effects.contract import Parameter
 from ..effects.lag import SHORTEST
+from ..vocabulary import STANDARD_GRAVITY
 
 FASTEST = round(1.0 / (2.0 * pi * SHORTEST), 1)
 """Hz up to which a low-pass can be integrated. One that is faster differs from the slower one by damping, or by the size of its factor,
@@ -105,6 +106,32 @@ def below(expression: str, beside: str = "") -> Term:
     )
 
 
+def hardening() -> Term:
+    """What a damper loses as rubber in series with it gives way, which hardens as it is pressed: all but none of its force at ``way`` nil."""
+    frequency = shape_setting("frequency", "Hz", 10.0, 3.0, 15.0, "frequency that it follows up to while it is hardly pressed")
+    knee = shape_setting("knee", "m", 0.002, 0.0003, 0.01, "way at which it is twice as stiff")
+    force = f"{2 * pi:.4f} * frequency * way * (1.0 + min((way / knee)**2, 4.0))"
+    return Term(f"{force} - velocity", "N s/m", states=(State("way", f"velocity - {force}", 0.001),), settings=(frequency, knee))
+
+
+def when_thrown(part: str) -> Term:
+    """A ``part`` of the velocity that counts while this rises quickly, as with a valve that the inertia of a mass in it opens."""
+    threshold = shape_setting("threshold", "m/s2", 5.0, 1.0, 20.0, "acceleration at which half of it counts")
+    rises = f"max({AT_ONCE} * (velocity - past), 0.0)"
+    return Term(
+        f"{part} * (1.0 - 1.0 / (1.0 + ({rises} / threshold)**2))", "N s/m", states=(State("past", f"{AT_ONCE} * (velocity - past)", 0.05),),
+        settings=(threshold,), beside="velocity",
+    )  # fmt: skip
+
+
+def pressed_down() -> Term:
+    """What is ``pressed`` down at once where a wheel bears more than at rest, and comes up as it rolls on: in shares of the deflection at rest."""
+    angle = shape_setting("angle", "rad", 1.0, 0.3, 5.0, "angle that a wheel turns until it has come up")
+    wanted = "(max(deflection / rest, 0.0) - 1.0 - pressed)"
+    pressed = State("pressed", f"{wanted} * ({1.5 * AT_ONCE} if {wanted} > 0.0 else abs(spin) / angle)", 0.5)
+    return Term("pressed", "N", states=(pressed,), settings=(angle,), beside="deflection")
+
+
 def at_first(part: str, is_there: str) -> Term:
     """A ``part`` of the velocity that counts in full at the beginning of each stroke to a side and less and less in its course, as if a valve
     were ``closed``; it opens at once while the velocity is not to that side."""
@@ -147,11 +174,31 @@ def on_spring(
     return Term(f"{base} + {against}", unit, result, WHOLE, states, (frequency, damping), ahead)
 
 
-def following(base: str, typical: float, time: float, unit: str, result: str, beside: str = "", above: str = "") -> Term:
+def swaying() -> Term:
+    """A mass that moves aside on a spring of its own, where the body below it does."""
+    frequency = shape_setting("frequency", "Hz", 3.0, 0.5, 15.0, "frequency at which it swings")
+    damping = shape_setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
+    turns = f"{2 * pi:.4f} * frequency"
+    body = (
+        f"{AT_ONCE} * (motion.side_speed - past) + motion.speed * motion.yaw_rate + {STANDARD_GRAVITY:.4g} * motion.roll"
+        " - height * motion.roll_acceleration"
+    )
+    against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
+    usual = 2 * pi * frequency.typical
+    past = State("past", f"{AT_ONCE} * (motion.side_speed - past)", 0.09)
+    states = past, State("way", "rate", 1.0 / usual**2), State("rate", f"-({body} + {against})", 1.0 / usual)
+    return Term(
+        f"{body} + {against}", "kg", "force_y", WHOLE, states, (frequency, damping, AT["place"], AT["height"]), ahead="place", above="height"
+    )
+
+
+def following(
+    base: str, typical: float, time: float, unit: str, result: str, beside: str = "", ahead: str = "", above: str = ""
+) -> Term:
     """What follows ``base`` (typically ``typical``) with a lag of ``time`` (s), as what is driven by a controller does: ``late``."""
     lag = shape_setting("time", "s", time, 0.2 * time, 5.0 * time, "time that it is late by")
     states, at = (State("late", f"({base} - late) / time", typical),), (AT[above],) if above else ()
-    return Term("late", unit, result, WHOLE, states, (lag, *at), above=above, beside=beside)
+    return Term("late", unit, result, WHOLE, states, (lag, *at), ahead=ahead, above=above, beside=beside)
 
 
 def swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
