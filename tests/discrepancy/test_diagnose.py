@@ -9,7 +9,7 @@ import pytest
 from ridecomfort.discrepancy.beyond import AtBound, Beyond, BeyondBounds
 from ridecomfort.discrepancy.discover import Discovery
 from ridecomfort.discrepancy.judge import with_bounds, with_parameters, with_remainder
-from ridecomfort.discrepancy.reconsider import beside_a_force, named_all_the_same, reconsidered
+from ridecomfort.discrepancy.reconsider import beside_a_force, is_doubtful, named_all_the_same, reconsidered
 from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
@@ -96,6 +96,8 @@ def test_a_doubtful_name_gives_way_to_a_force_that_fits_drives_better_beyond_cha
     assert reconsidered(named, replace(force, share=0.79, held_out_share=0.82), fits_better=True) is named
     firm = replace(named, share=0.83, held_out_share=0.8)
     assert reconsidered(firm, replace(force, share=0.93), fits_better=True) is firm
+    on_fitted_drives = replace(named, share=0.84, held_out_share=0.55)
+    assert is_doubtful(on_fitted_drives) and reconsidered(on_fitted_drives, force, fits_better=True).verdict == "outside"
     nobody = replace(named, held_out_share=float("nan"))
     assert reconsidered(nobody, replace(force, share=0.85, held_out_share=float("nan")), fits_better=True).verdict == "outside"
 

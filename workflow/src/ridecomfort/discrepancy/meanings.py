@@ -128,7 +128,7 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "resonance_rear": "a mass on a spring behind: passengers, luggage, a battery",
         "sway_rear": "a mass that swings aside behind: a trailer, a tank",
         "swaying": "a mass that swings aside: an engine on its mounts, a tank, a load on the roof, a trailer",
-        "push_of_turning_rear": "rear wheels that steer along",
+        "steering_along": "rear wheels that steer along",
         "roll_resonance": "an engine or an upper body that rolls on its mounts",
         "pitch_resonance": "a powertrain or subframe that pitches on its mounts",
         "surge_above": "a mass above that swings along: a seat, a load on the roof",

@@ -13,8 +13,8 @@ import numpy as np
 from ..effects.contract import Parameter
 from .terms import (
     ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
-    following, hardening, on_spring, pressed_down, remembering, running_out_aside, shape_setting, sliding, swaying, swinging, turning,
-    turning_as_heard, when_thrown,
+    following, hardening, on_spring, pressed_down, remembering, running_out_aside, shape_setting, sliding, steering_along, swaying,
+    swinging, turning, turning_as_heard, when_thrown,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -244,7 +244,7 @@ PLACES: Mapping[str, Place] = {
             },
             "sway_rear": on_spring("motion.speed * motion.yaw_rate", 1.0, "kg", "force_y", "motion.rear", (1.2, 0.4, 6.0)),
             "swaying": swaying(),
-            "push_of_turning_rear": following("motion.yaw_rate", 0.05, 0.08, "N s", "force_y", ahead="motion.rear", above="height"),
+            "steering_along": steering_along(),
             "roll_resonance": on_spring("motion.roll_acceleration", 0.4, "kg m2", "moment_x"),
             "pitch_resonance": on_spring("motion.pitch_acceleration", 0.3, "kg m2", "moment_y", frequencies=(8.0, 3.0, 25.0)),
             "surge_above": on_spring("motion.pitch_acceleration", 0.3, "kg m", "force_x", frequencies=(8.0, 3.0, 25.0)),

@@ -32,7 +32,12 @@ removed less than DOUBTFUL, the z of a force were at most 2.2 on fitted and 1.8 
 def is_doubtful(verdict: Verdict) -> bool:
     """Whether what is named explains so little, or is so large, that it may stand in for something else."""
     most = 1.0 - WORTH / (1.0 - HALF) if verdict.is_shared else DOUBTFUL
-    return verdict.verdict in ("named", "cluster") and (verdict.share < most or _is_too_large(verdict))
+    return verdict.verdict in ("named", "cluster") and (verdict.share < most or _is_in_doubt(verdict))
+
+
+def _is_in_doubt(verdict: Verdict) -> bool:
+    """Whether what was found explains less than DOUBTFUL, of fitted drives or of these and those held out together, or is too large."""
+    return min(verdict.share, 1.0 - left(verdict)) < DOUBTFUL or _is_too_large(verdict)
 
 
 def _is_too_large(verdict: Verdict) -> bool:
@@ -109,7 +114,7 @@ def _road_or_force(verdict: Verdict, proposal: Discovery) -> Verdict:
 def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool:
     """Whether a force is sure and explains so much more than what was found that this stands in for it.
 
-    It explains BETTER as much of the fitted drives, and no less of those held out; or what was found is DOUBTFUL or too large, and the
+    It explains BETTER as much of the fitted drives, and no less of those held out; or what was found is in doubt, and the
     force ``fits_better`` and leaves MOST_LEFT of it at most. Where repeats surely share an error beside what was found, EQUAL more of the
     fitted drives and not much less of the others will do, or, where little is left, leaving HALF of that. With effects of the library beside
     it, a force ``fits_better`` and leaves HALF (``_leaves_half``).
@@ -122,8 +127,7 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
     if verdict.is_left and verdict.share < DOUBTFUL:
         return proposal.share > verdict.share + EQUAL and not BETTER * proposal.held_out_share < held_out
     is_more = proposal.share > BETTER * verdict.share and not proposal.held_out_share < held_out
-    is_in_doubt = verdict.share < DOUBTFUL or _is_too_large(verdict)
-    is_more = is_more or fits_better and is_in_doubt and left(proposal) <= MOST_LEFT * left(verdict)
+    is_more = is_more or fits_better and _is_in_doubt(verdict) and left(proposal) <= MOST_LEFT * left(verdict)
     return is_more or verdict.is_shared and _leaves_less(verdict, proposal)
 
 

@@ -32,6 +32,9 @@ WHIRL = ("up_cosine", "up_sine", "aside_cosine", "aside_sine")
 AT_ONCE = 100.0
 """Per second, at which what a stroke has closed opens after its end."""
 
+CHANGING = 1.0 / SHORTEST
+"""Per second, at which a speed is followed whose change is wanted."""
+
 SIDE = "(1.0 - 2.0 * (wheel % 2))"
 """1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
 
@@ -117,9 +120,9 @@ def hardening() -> Term:
 def when_thrown(part: str) -> Term:
     """A ``part`` of the velocity that counts while this rises quickly, as with a valve that the inertia of a mass in it opens."""
     threshold = shape_setting("threshold", "m/s2", 5.0, 1.0, 20.0, "acceleration at which half of it counts")
-    rises = f"max({AT_ONCE} * (velocity - past), 0.0)"
+    rises = f"max({CHANGING} * (velocity - past), 0.0)"
     return Term(
-        f"{part} * (1.0 - 1.0 / (1.0 + ({rises} / threshold)**2))", "N s/m", states=(State("past", f"{AT_ONCE} * (velocity - past)", 0.05),),
+        f"{part} * (1.0 - 1.0 / (1.0 + ({rises} / threshold)**2))", "N s/m", states=(State("past", f"{CHANGING} * (velocity - past)", 0.08),),
         settings=(threshold,), beside="velocity",
     )  # fmt: skip
 
@@ -180,25 +183,31 @@ def swaying() -> Term:
     damping = shape_setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
     turns = f"{2 * pi:.4f} * frequency"
     body = (
-        f"{AT_ONCE} * (motion.side_speed - past) + motion.speed * motion.yaw_rate + {STANDARD_GRAVITY:.4g} * motion.roll"
+        f"{CHANGING} * (motion.side_speed - past) + motion.speed * motion.yaw_rate + {STANDARD_GRAVITY:.4g} * motion.roll"
         " - height * motion.roll_acceleration"
     )
     against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
     usual = 2 * pi * frequency.typical
-    past = State("past", f"{AT_ONCE} * (motion.side_speed - past)", 0.09)
+    past = State("past", f"{CHANGING} * (motion.side_speed - past)", 0.095)
     states = past, State("way", "rate", 1.0 / usual**2), State("rate", f"-({body} + {against})", 1.0 / usual)
     return Term(
         f"{body} + {against}", "kg", "force_y", WHOLE, states, (frequency, damping, AT["place"], AT["height"]), ahead="place", above="height"
     )
 
 
-def following(
-    base: str, typical: float, time: float, unit: str, result: str, beside: str = "", ahead: str = "", above: str = ""
-) -> Term:
+def steering_along() -> Term:
+    """Rear wheels that an actuator turns with the bend, the other way when slow: what their side force pushes."""
+    lag = shape_setting("time", "s", 0.08, 0.016, 0.4, "time that it is late by")
+    change = shape_setting("change", "m/s", 8.0, 0.0, 25.0, "speed below which it pushes the other way")
+    late = State("late", "(motion.yaw_rate * (1.0 - change / max(motion.speed, 3.0)) - late) / time", 0.03)
+    return Term("late", "N s", "force_y", WHOLE, (late,), (lag, change, AT["height"]), ahead="motion.rear", above="height")
+
+
+def following(base: str, typical: float, time: float, unit: str, result: str, beside: str = "", above: str = "") -> Term:
     """What follows ``base`` (typically ``typical``) with a lag of ``time`` (s), as what is driven by a controller does: ``late``."""
     lag = shape_setting("time", "s", time, 0.2 * time, 5.0 * time, "time that it is late by")
     states, at = (State("late", f"({base} - late) / time", typical),), (AT[above],) if above else ()
-    return Term("late", unit, result, WHOLE, states, (lag, *at), ahead=ahead, above=above, beside=beside)
+    return Term("late", unit, result, WHOLE, states, (lag, *at), above=above, beside=beside)
 
 
 def swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
