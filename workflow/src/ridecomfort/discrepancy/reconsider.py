@@ -75,7 +75,11 @@ def reconsidered(
             return _error_or_force(verdict, proposal, said, fits_better) if is_error_alone else _noise_or_force(verdict, proposal, said)
         case "outside":
             return _road_or_force(verdict, proposal) if is_road_open else verdict
-    return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}") if _is_better(verdict, proposal, fits_better) else verdict
+    if _is_better(verdict, proposal, fits_better):
+        return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}")
+    if _is_in_doubt(verdict) and is_sure(proposal) and not proposal.beside and left(proposal) < left(verdict):
+        return with_reason(verdict, verdict.verdict, f"{said} explains as much, and drives do not tell which it is: {_explained(proposal)}")
+    return verdict
 
 
 def _said_of(proposal: Discovery) -> str:
