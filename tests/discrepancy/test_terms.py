@@ -1,0 +1,75 @@
+"""Terms that remember, against what their equations come to at constant motion or in a ramp."""
+
+from __future__ import annotations
+
+from math import exp, pi
+from types import SimpleNamespace
+
+import pytest
+
+from ridecomfort.discrepancy.places import PLACES
+
+STEP = 1e-4
+"""s"""
+
+
+class Moving:
+    """A term of a place that is moved: its states are integrated, what shapes it is as given or typical."""
+
+    def __init__(self, place: str, name: str, **settings: float):
+        self.term = PLACES[place].terms[name]
+        self.known = {"abs": abs, "max": max, "min": min} | {one.name: one.typical for one in self.term.settings} | settings
+        self.states = {state.name: 0.0 for state in self.term.states}
+
+    def after(self, seconds: float, **seen) -> float:
+        """The term after so many seconds, in which the place sees constants or functions of the time."""
+        for number in range(round(seconds / STEP)):
+            now = self._known(number * STEP, seen)
+            slopes = {state.name: eval(state.slope, {"__builtins__": {}}, now) for state in self.term.states}
+            self.states = {name: value + STEP * slopes[name] for name, value in self.states.items()}
+        return eval(self.term.expression, {"__builtins__": {}}, self._known(seconds, seen))
+
+    def _known(self, time: float, seen) -> dict:
+        return self.known | self.states | {name: value(time) if callable(value) else value for name, value in seen.items()}
+
+
+def turning(side_speed: float = 0.0, yaw_rate: float = 0.05, speed: float = 20.0, roll_acceleration: float = 0.0) -> SimpleNamespace:
+    return SimpleNamespace(side_speed=side_speed, yaw_rate=yaw_rate, speed=speed, roll=0.0, roll_acceleration=roll_acceleration)
+
+
+def test_a_damper_behind_rubber_that_hardens_has_no_force_at_first_and_all_of_it_at_a_constant_velocity():
+    moving = Moving("strut", "late_velocity_hardening", knee=0.001)
+    assert moving.after(0.0, velocity=0.2) == pytest.approx(-0.2)
+    assert moving.after(1.0, velocity=0.2) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_rubber_that_hardens_is_twice_as_stiff_at_its_knee():
+    """At a way of the knee the spring bears twice what it would bear if it were linear."""
+    term, knee, frequency = PLACES["strut"].terms["late_velocity_hardening"], 0.002, 10.0
+    known = {"way": knee, "knee": knee, "frequency": frequency, "velocity": 0.0, "min": min}
+    assert eval(term.expression, {"__builtins__": {}}, known) == pytest.approx(2.0 * 2.0 * pi * frequency * knee, rel=1e-4)
+
+
+def test_half_of_the_velocity_counts_while_a_wheel_is_thrown_up_by_the_threshold_and_none_at_a_constant_velocity():
+    moving = Moving("strut", "bump_velocity_when_thrown", threshold=5.0)
+    assert moving.after(0.1, velocity=lambda time: 5.0 * time) == pytest.approx(0.25, rel=1e-3)
+    assert moving.after(0.5, velocity=0.5) == pytest.approx(0.0, abs=1e-6)
+    assert moving.after(0.1, velocity=lambda time: -0.5 + 5.0 * time) == 0.0, "in rebound it is shut"
+
+
+def test_ground_is_pressed_down_at_once_and_comes_up_as_the_wheel_rolls_on():
+    moving = Moving("tyre", "pressed_down", angle=1.0)
+    assert moving.after(0.1, deflection=0.03, rest=0.015, spin=70.0) == pytest.approx(1.0, abs=1e-3)
+    assert moving.after(0.02, deflection=0.015, rest=0.015, spin=70.0) == pytest.approx(exp(-1.4), rel=0.01)
+    assert moving.after(10.0, deflection=0.015, rest=0.015, spin=0.0) == pytest.approx(exp(-1.4), rel=0.01), "a wheel that stands stays down"
+
+
+def test_a_mass_that_sways_goes_along_with_a_steady_bend_and_stays_behind_when_shaken():
+    assert Moving("body", "swaying", damping_ratio=0.5).after(5.0, motion=turning()) == pytest.approx(0.0, abs=1e-3)
+    shaken = Moving("body", "swaying", frequency=0.5, height=0.3)
+    assert shaken.after(0.0, motion=turning(yaw_rate=0.0, roll_acceleration=2.0)) == pytest.approx(-0.6)
+
+
+def test_rear_wheels_that_steer_along_push_the_other_way_below_a_speed():
+    push = lambda speed: Moving("body", "steering_along", change=10.0).after(2.0, motion=turning(speed=speed))
+    assert push(20.0) == pytest.approx(0.025) and push(10.0) == pytest.approx(0.0) and push(5.0) == pytest.approx(-0.05)
