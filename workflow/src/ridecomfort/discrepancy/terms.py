@@ -110,7 +110,7 @@ def below(expression: str, beside: str = "") -> Term:
 
 
 def hardening() -> Term:
-    """What a damper loses as rubber in series with it gives way, which hardens as it is pressed: all but none of its force at ``way`` nil."""
+    """What a damper loses as rubber in series with it gives ``way``, which hardens as it is pressed."""
     frequency = shape_setting("frequency", "Hz", 10.0, 3.0, 15.0, "frequency that it follows up to while it is hardly pressed")
     knee = shape_setting("knee", "m", 0.002, 0.0003, 0.01, "way at which it is twice as stiff")
     force = f"{2 * pi:.4f} * frequency * way * (1.0 + min((way / knee)**2, 4.0))"
