@@ -164,50 +164,47 @@ def acting_beyond(expression: str, *clearances: float, unit: str = "N/m", beside
 
 
 def on_spring(
-    base: str, typical: float, unit: str, result: str, ahead: str = "", frequencies: tuple[float, float, float] = (11.0, 5.0, 25.0)
-) -> Term:
+    base: str, typical: float, unit: str, result: str, ahead: str = "", frequencies: tuple[float, float, float] = (11.0, 5.0, 25.0),
+    above: str = "", known: tuple[State, ...] = (),
+) -> Term:  # fmt: skip
     """A part of the sprung mass that moves on a spring of its own where the body has the acceleration ``base`` (typically ``typical``);
-    ``frequencies``: the typical one, the least and the largest (Hz)."""
+    ``frequencies``: the typical one, the least and the largest (Hz); ``known``: what the ``base`` needs to remember."""
     frequency = shape_setting("frequency", "Hz", *frequencies, "frequency at which it swings")
     damping = shape_setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
     turns = f"{2 * pi:.4f} * frequency"
     against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
     usual = 2 * pi * frequency.typical
-    states = State("way", "rate", typical / usual**2), State("rate", f"-({base} + {against})", typical / usual)
-    return Term(f"{base} + {against}", unit, result, WHOLE, states, (frequency, damping), ahead)
+    states = *known, State("way", "rate", typical / usual**2), State("rate", f"-({base} + {against})", typical / usual)
+    at = (AT[name] for name in (ahead, above) if name in AT)
+    return Term(f"{base} + {against}", unit, result, WHOLE, states, (frequency, damping, *at), ahead, above)
 
 
 def swaying() -> Term:
     """A mass that moves aside on a spring of its own, where the body below it does."""
-    frequency = shape_setting("frequency", "Hz", 3.0, 0.5, 15.0, "frequency at which it swings")
-    damping = shape_setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
-    turns = f"{2 * pi:.4f} * frequency"
+    past = State("past", f"{CHANGING} * (motion.side_speed - past)", 0.095)
     body = (
         f"{CHANGING} * (motion.side_speed - past) + motion.speed * motion.yaw_rate + {STANDARD_GRAVITY:.4g} * motion.roll"
         " - height * motion.roll_acceleration"
     )
-    against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
-    usual = 2 * pi * frequency.typical
-    past = State("past", f"{CHANGING} * (motion.side_speed - past)", 0.095)
-    states = past, State("way", "rate", 1.0 / usual**2), State("rate", f"-({body} + {against})", 1.0 / usual)
-    return Term(
-        f"{body} + {against}", "kg", "force_y", WHOLE, states, (frequency, damping, AT["place"], AT["height"]), ahead="place", above="height"
-    )
+    return on_spring(body, 1.0, "kg", "force_y", "place", (3.0, 0.5, 15.0), "height", (past,))
 
 
 def steering_along() -> Term:
     """Rear wheels that an actuator turns with the bend, the other way when slow: what their side force pushes."""
-    lag = shape_setting("time", "s", 0.08, 0.016, 0.4, "time that it is late by")
     change = shape_setting("change", "m/s", 8.0, 0.0, 25.0, "speed below which it pushes the other way")
-    late = State("late", "(motion.yaw_rate * (1.0 - change / max(motion.speed, 3.0)) - late) / time", 0.03)
-    return Term("late", "N s", "force_y", WHOLE, (late,), (lag, change, AT["height"]), ahead="motion.rear", above="height")
+    bend = "motion.yaw_rate * (1.0 - change / max(motion.speed, 3.0))"
+    return following(bend, 0.03, 0.08, "N s", "force_y", above="height", ahead="motion.rear", settings=(change,))
 
 
-def following(base: str, typical: float, time: float, unit: str, result: str, beside: str = "", above: str = "") -> Term:
-    """What follows ``base`` (typically ``typical``) with a lag of ``time`` (s), as what is driven by a controller does: ``late``."""
+def following(
+    base: str, typical: float, time: float, unit: str, result: str, beside: str = "", above: str = "", ahead: str = "",
+    settings: tuple[Parameter, ...] = (),
+) -> Term:  # fmt: skip
+    """What follows ``base`` (typically ``typical``) with a lag of ``time`` (s), as what is driven by a controller does: ``late``; ``settings``:
+    what else shapes the base."""
     lag = shape_setting("time", "s", time, 0.2 * time, 5.0 * time, "time that it is late by")
     states, at = (State("late", f"({base} - late) / time", typical),), (AT[above],) if above else ()
-    return Term("late", unit, result, WHOLE, states, (lag, *at), above=above, beside=beside)
+    return Term("late", unit, result, WHOLE, states, (lag, *settings, *at), ahead=ahead, above=above, beside=beside)
 
 
 def swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
