@@ -32,7 +32,7 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "loose_cargo", "panhard_jacking", "pulsing_brake_drag", "roll_centre_migration", "sidewall_bottoming", "steering_play",
            "trailer_sway", "tyre_payne", "tyre_sealant", "upper_body_racking", "wet_film", "wheel_wobble",
            "active_body_damping", "broken_coil", "engine_misfire", "force_toe", "hydraulic_bushing", "inertia_valve",
-           "instrument_post", "machine_hum", "polygonised_tyre", "roof_load", "rough_road_drag", "steering_resonance",
+           "machine_hum", "polygonised_tyre", "roof_load", "rough_road_drag", "steering_resonance",
            "tender_spring", "tyre_bridging", "tyre_relaxing_rubber",
            "contact_damping", "inclined_inertia_axis", "rising_rate_linkage", "scanner_skew", "seat_rocking", "self_pumping_strut",
            "side_force_load_lag", "trailing_arm_arc",
@@ -40,7 +40,7 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "toe_link_friction",
            "balance_control_damper", "drag_link_steer", "gyroscopic_steer", "hydraulic_bump_stop", "lateral_runout", "latching_valve",
            "lorry_wake", "soft_ground", "trailer_porpoising",
-           "active_roll_bars", "airless_tyre", "bent_arm", "hydraulic_interconnection", "instrument_on_foam",
+           "active_roll_bars", "airless_tyre", "bent_arm", "hydraulic_interconnection",
            "ride_control_by_torque", "sticky_steering", "switched_air_chamber", "tie_rod_length", "worn_track_rod_end")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
@@ -49,8 +49,10 @@ SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspensio
           "one_sided_load": "uneven_load", "bump_stop_creep": "bump_stop"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
 
-OF_MEASUREMENT = ("gyroscope_delay", "imu_lever_arm", "road_bank", "road_grade", "sensor_bandwidth")
-"""Effects that are errors of an instrument or of the road's file, and that alignment does not take out."""
+OF_MEASUREMENT = {"gyroscope_delay": "gyroscope_delay", "imu_lever_arm": "imu_lever_arm", "road_bank": "road_bank",
+                  "road_grade": "road_grade", "sensor_bandwidth": "sensor_bandwidth", "sensor_mount": "sensor_mount",
+                  "instrument_on_foam": "sensor_mount", "instrument_post": "sensor_mount"}  # fmt: skip
+"""Truths that are errors of an instrument or of the road's file and that alignment does not take out, and what the library has of their kind."""
 
 
 @dataclass(frozen=True)
@@ -153,8 +155,8 @@ def _outside_wrong_file(rng, names, number) -> Draw:
 
 
 def _of_measurement(rng, names, number) -> Draw:
-    name = OF_MEASUREMENT[number % len(OF_MEASUREMENT)]
-    return Draw((name,), float(rng.choice(STRONG[:2])), frozenset({name}), spoilt={"aligned": True})
+    name = list(OF_MEASUREMENT)[number % len(OF_MEASUREMENT)]
+    return Draw((name,), float(rng.choice(STRONG[:2])), frozenset({OF_MEASUREMENT[name]}), spoilt={"aligned": True})
 
 
 def _null(**spoilt) -> Callable:

@@ -111,6 +111,28 @@ def test_bandwidth_leaves_a_constant_alone(record):
     assert act("sensor_bandwidth")(still, 0.01).a_x.values == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("frequency", [8.0, 20.0])
+def test_mount_shakes_the_instrument_as_a_base_shakes_an_oscillator(frequency):
+    """Against transmissibility, in closed form: on foam (a share of 1) that of ISO 5348, of a mass on spring and damper."""
+    time, asked, ratio = np.arange(0.0, 12.0, 0.001), np.array([2.0, 7.0, 15.0, 30.0]), 0.15
+    turns, own = 2 * np.pi * asked, 2 * np.pi * frequency
+    transmitted = (own**2 + 2j * ratio * own * turns) / (own**2 - turns**2 + 2j * ratio * own * turns)
+    quiet = {name: ("time", np.zeros_like(time)) for name in SIGNALS}
+    for name, share in (("a_z", 1.0), ("a_y", 0.4)):
+        shaken = xr.Dataset({**quiet, name: ("time", np.sin(np.outer(time, turns)).sum(axis=1))}, coords={"time": time})
+        felt = act("sensor_mount")(shaken, share, share, frequency, ratio)
+        answer = 1.0 + share * (transmitted - 1.0)
+        expected = (np.exp(1j * np.outer(time, turns)) @ answer).imag
+        assert felt[name].values[8000:] == pytest.approx(expected[8000:], abs=0.02)
+
+
+def test_mount_leaves_a_constant_alone_and_other_signals(record):
+    still = xr.ones_like(record)
+    xr.testing.assert_allclose(act("sensor_mount")(still, 1.0, 0.5, 12.0, 0.1), still)
+    upright = act("sensor_mount")(record, 0.5, 0.0, 12.0, 0.1)
+    xr.testing.assert_identical(upright.drop_vars("a_z"), record.drop_vars("a_z"))
+
+
 def test_gain_shows_gravity_too_large_as_well(record):
     still = xr.zeros_like(record)
     assert act("sensor_gain")(still, 0.02, 0.0).a_z.values == pytest.approx(0.02 * G)
