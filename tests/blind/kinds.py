@@ -51,7 +51,7 @@ SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspensio
 
 OF_MEASUREMENT = {"gyroscope_delay": "gyroscope_delay", "imu_lever_arm": "imu_lever_arm", "road_bank": "road_bank",
                   "road_grade": "road_grade", "sensor_bandwidth": "sensor_bandwidth", "sensor_mount": "sensor_mount",
-                  "instrument_on_foam": "sensor_mount", "instrument_post": "sensor_mount"}  # fmt: skip
+                  "sensor_sway": "sensor_sway", "instrument_on_foam": "sensor_mount", "instrument_post": "sensor_sway"}  # fmt: skip
 """Truths that are errors of an instrument or of the road's file and that alignment does not take out, and what the library has of their kind."""
 
 

@@ -168,7 +168,7 @@ def test_what_explains_most_is_named_though_a_rest_is_shared_that_no_force_expla
     found = named_all_the_same(left, replace(SURE, share=0.57, held_out_share=0.56))
     assert found.verdict == "named" and [effect.name for effect in found.effects] == [FOUND.name]
     assert (found.share, found.held_out_share) == (0.57, 0.55)
-    assert "no force of any form explains much more" in found.reasons[-2] and found.reasons[-1].startswith("cornering_degression, which takes ")
+    assert "no form of a force that was tried explains much more" in found.reasons[-2] and found.reasons[-1].startswith("cornering_degression, which takes ")
 
 
 @pytest.mark.parametrize("change", [{"share": 0.45}, {"held_out_share": 0.4}, {"verdict": "suspect"}, {"effects": ()}, {"is_like_error": True}])
@@ -332,7 +332,7 @@ def test_what_explains_most_is_named_unless_such_a_force_leaves_half():
     left = replace(OUTSIDE, effects=(FOUND,))
     found = named_all_the_same(left, replace(WITH_FRICTION, share=0.7, held_out_share=0.68))
     assert found.verdict == "named" and "may be missing, too (70 % and 68 % together): beside what is named" in found.reasons[-1]
-    assert "no force of any form" in named_all_the_same(left, replace(WITH_FRICTION, share=0.6, held_out_share=0.58)).reasons[-1]
+    assert "no form of a force that was tried" in named_all_the_same(left, replace(WITH_FRICTION, share=0.6, held_out_share=0.58)).reasons[-1]
     assert named_all_the_same(left, WITH_FRICTION) is left
 
 

@@ -29,11 +29,21 @@ def test_what_is_to_be_switched_on_is_said_as_it_is_written_in_the_configuration
     assert "effects: [suspension_friction] in config/study.yaml" in words(diagnosed.tables(made_up.diagnosis())["verdict"])
 
 
-def test_of_suspect_data_only_errors_of_the_measurement_are_named():
+@pytest.mark.parametrize("kind, is_told", [("named", True), ("cluster", True), ("outside", False)])
+def test_of_each_effect_that_is_named_its_sizes_are_told(kind, is_told):
+    told = {row["what"]: row["in_words"] for row in rows(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": kind}))["verdict"])}
+    expected = "Front 80 N (70 to 90). It takes 80 % of the explainable error, 75 % on drives held out."
+    assert told.get("suspension friction") == (expected if is_told else None)
+
+
+@pytest.mark.parametrize("is_of_measurement, first", [(False, "no effect is named."), (True, "suspension friction.")])
+def test_of_suspect_data_only_errors_of_the_measurement_are_named(is_of_measurement, first):
     (effect,) = made_up.VERDICT["effects"]
-    for is_of_measurement, said in ((False, "The data are suspect: no effect is named."), (True, "The data are suspect: suspension friction")):
-        suspect = {**made_up.VERDICT, "verdict": "suspect", "effects": [{**effect, "is_of_measurement": is_of_measurement}]}
-        assert said in words(diagnosed.tables(made_up.diagnosis(suspect))["verdict"])
+    suspect = {**made_up.VERDICT, "verdict": "suspect", "effects": [{**effect, "is_of_measurement": is_of_measurement}]}
+    told = {row["what"]: row["in_words"] for row in rows(diagnosed.tables(made_up.diagnosis(suspect))["verdict"])}
+    assert told["verdict"].startswith(f"The data are suspect: {first}")
+    assert told.get("suspension friction", "").startswith("Friction of the struts. Front 80 N" if is_of_measurement else "")
+    assert ("effects: [suspension_friction]" in told["next"]) == is_of_measurement
 
 
 def test_a_proposed_form_is_shown():

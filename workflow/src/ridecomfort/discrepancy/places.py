@@ -94,6 +94,7 @@ PLACES: Mapping[str, Place] = {
             "deflection_times_recent": remembering("deflection", "N s/m2", 4.0, 0.5, 20.0),
             "sliding_direction": sliding("strain", "N", "velocity"),
             "sliding_damping": sliding("abs(velocity) * strain", "N s/m", "velocity"),
+            "sliding_under_load": sliding("deflection * strain", "N/m", "strain"),
             "slow_velocity": below("slow", "velocity"),
             "late_velocity": below("slow - velocity"),
             "late_velocity_hardening": hardening(),

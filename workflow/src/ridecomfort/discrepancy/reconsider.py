@@ -110,9 +110,9 @@ def _road_or_force(verdict: Verdict, proposal: Discovery) -> Verdict:
     if not verdict.effects or is_sure(proposal) and is_more:
         return verdict
     if not verdict.share >= LITTLE:
-        return with_reason(verdict, "suspect", "no force of any form explains more, and what the road is otherwise may be all of it")
+        return with_reason(verdict, "suspect", "no form of a force that was tried explains more, and what the road is otherwise may be all of it")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
-    return with_reason(verdict, kind, "no force of any form explains more, and what the road is otherwise is shared by repeats, too")
+    return with_reason(verdict, kind, "no form of a force that was tried explains more, and what the road is otherwise is shared by repeats, too")
 
 
 def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool:
@@ -171,7 +171,7 @@ def _no_better(theirs: Sequence[float], shares: Sequence[float], proposal: Disco
     if any(share > own + EQUAL for share, own in zip(theirs, shares)):
         removed = " and ".join(f"{100 * share:.0f} %" for share in theirs)
         return f"{_said_of(proposal)} may be missing, too ({removed} together): beside what is named it shows better"
-    return "no force of any form explains much more, alone or beside the library: what is left may be another one, or many small things"
+    return "no form of a force that was tried explains much more, alone or beside the library: what is left may be another one, or many small things"
 
 
 def _not_named(effect: Named) -> str:

@@ -16,7 +16,7 @@ from ..errors import InputError
 from .contract import PORTS, Effect
 
 FOLDER = Path(__file__).parent
-HOUSE = {"__init__", "compose", "contract", "lag", "library", "neutral", "table", "wave"}
+HOUSE = {"__init__", "compose", "contract", "lag", "library", "neutral", "swing", "table", "wave"}
 """Files of this folder that are not effects."""
 
 

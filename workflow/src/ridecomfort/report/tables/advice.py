@@ -22,6 +22,9 @@ NEXT = {
     "suspect": "Put the data right first, then diagnose again.",
 }
 
+SAME_ERROR = " Where they cannot be, effects: [{keys}] in config/study.yaml puts the same error into the model."
+"""What is added where an effect of the library is what is wrong with the data."""
+
 TRY_FORM = (
     "Look at the proposed form in the rows above. To try it, put {file} into a folder of your own that effects_folder in config/study.yaml names, "
     "switch it on, effects: [{keys}], compare and diagnose again: beside it the rest shows better."
@@ -71,6 +74,9 @@ def next_step(found: Diagnosis) -> str:
         return f"{before}{NEXT['nothing']} {_left(said)}"
     if said["verdict"] == "outside":
         return before + _outside(found, proposal, own, named)
+    if said["verdict"] == "suspect":
+        wrong = [effect["name"] for effect in said["effects"] if effect.get("is_of_measurement")]
+        return NEXT["suspect"] + (SAME_ERROR.format(keys=", ".join([*own, *wrong])) if wrong else "")
     before += _may_end(said, said)
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
     return before + NEXT[said["verdict"]].format(keys=named) + caution

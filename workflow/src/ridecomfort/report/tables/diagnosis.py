@@ -28,6 +28,9 @@ SUSPECT = "The data are suspect: what stands here explains their error as they a
 FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
 """What is said where those are all that was found."""
 
+NAMING = ("named", "cluster", "suspect")
+"""Verdicts that tell of each effect what it comes to."""
+
 HELD = {True: "typical: the drives ask for no other", False: "held, the best of a few"}
 """What is said of what only shapes an effect, by whether it is as is typical, where the drives did not ask for another value."""
 
@@ -61,6 +64,7 @@ def verdict(found: Diagnosis) -> Table:
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
     first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, said.get("remainder") or {}, said.get("at_first") or {})
     rows = [("verdict", f"{first} ({said['verdict']})")]
+    rows += [(words(effect["name"]), _found(effect)) for effect in told if said["verdict"] in NAMING]
     rows += [("reason", sentence(reason)) for reason in said["reasons"]]
     comes_first = bool(beyond) and not beyond.get("is_instead")
     if comes_first:
@@ -85,6 +89,21 @@ def verdict(found: Diagnosis) -> Table:
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)
+
+
+def _found(effect: Mapping) -> str:
+    """The sizes of an effect with their intervals, and what it removes; of an error of the measurement, what that is comes first."""
+    what = f"{sentence(effect['sentence'].removesuffix('.'))} " if effect.get("is_of_measurement") else ""
+    sizes = sentence(", ".join(map(_size, effect["sizes"])))
+    held_out = "" if effect["held_out_share"] is None else f", {100 * effect['held_out_share']:.0f} % on drives held out"
+    return f"{what}{sizes} It takes {100 * effect['share']:.0f} % of the explainable error{held_out}."
+
+
+def _size(size: Mapping) -> str:
+    """A size with its interval, in words."""
+    value, lower, upper = (f"{number:.3g}" for number in (size["size"], *size["interval"]))
+    amount = value if size["unit"] == "1" else f"{value} {unit(size['unit'])}"
+    return f"{words(size['parameter'])} {amount} ({lower} to {upper})"
 
 
 def missing_effects(found: Diagnosis) -> Table:

@@ -1,0 +1,30 @@
+"""An instrument that sways on what holds it."""
+
+from ridecomfort.effects.contract import Effect, Parameter
+from ridecomfort.effects.swing import swing
+
+effect = Effect(
+    name="sensor_sway",
+    sentence=(
+        "The instrument stands on a post, a tripod or a bracket that gives to the side: around the natural frequency of that it is "
+        "shaken aside more than the body at its place, and less above it."
+    ),
+    source=(
+        "ISO 5348:2021, Mechanical vibration and shock: mechanical mounting of accelerometers; spring-mass oscillator with a moving base "
+        "as in any textbook of vibration"
+    ),
+    port="sensor",
+    parameters=(
+        Parameter("participation", "1", 0.0, 0.3, (0.0, 1.6), "share of the instrument in the mode: 1 on foam, 1.57 at the tip of a post"),
+        Parameter("frequency", "Hz", 12.0, 12.0, (4.0, 40.0), "natural frequency of the mode"),
+        Parameter("damping_ratio", "1", 0.15, 0.15, (0.02, 0.5), "damping ratio of the mode"),
+    ),
+)
+
+
+def act(drive, participation, frequency, damping_ratio):
+    if participation == 0.0:
+        return drive
+    body = drive["a_y"].values
+    change = swing(body, float(drive["time"][1] - drive["time"][0]), frequency, damping_ratio)
+    return drive.assign(a_y=drive["a_y"].copy(data=body + participation * change))
