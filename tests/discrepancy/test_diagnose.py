@@ -9,7 +9,7 @@ import pytest
 from ridecomfort.discrepancy.beyond import AtBound, Beyond, BeyondBounds
 from ridecomfort.discrepancy.discover import Discovery
 from ridecomfort.discrepancy.judge import with_bounds, with_parameters, with_remainder
-from ridecomfort.discrepancy.reconsider import beside_a_force, is_doubtful, named_all_the_same, reconsidered
+from ridecomfort.discrepancy.reconsider import beside_a_force, heard, humming, is_doubtful, named_all_the_same, reconsidered
 from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
@@ -24,6 +24,18 @@ def test_a_sure_force_of_some_form_makes_outside_of_nothing():
     found = reconsidered(NOTHING, SURE)
     assert found.verdict == "outside" and "tyre" in found.reasons[-1]
     assert found.reasons[:-1] == NOTHING.reasons
+
+
+@pytest.mark.parametrize("kind", ["nothing", "named"])
+def test_what_hums_without_a_force_that_is_alike_in_all_drives_makes_data_suspect(kind):
+    """As 40 Hz of the mains, folded down, where a foot makes drivetrain_lag take 47 % of little."""
+    before = replace(NOTHING, verdict=kind, share=0.47)
+    outside = heard(before, "an error of a_z comes back every 0.025 s at any speed", False)
+    unsure = replace(SURE, held_out_share=-0.5)
+    assert outside.verdict == "outside" and humming(before, outside, "s", unsure).verdict == "suspect"
+    assert humming(before, outside, "s", unsure).reasons == outside.reasons
+    assert humming(before, outside, "m", unsure) is outside and humming(before, outside, "s", SURE) is outside
+    assert humming(replace(before, verdict="outside"), outside, "s", unsure) is outside
 
 
 def test_it_is_sure_too_where_held_out_drives_have_nothing_above_their_floor():

@@ -90,7 +90,8 @@ def test_the_ladder_begins_with_everything_and_ends_at_the_floor(tables, study):
     assert found[2]["all_left_pct"] == pytest.approx(100 / 16, abs=2.0)
     assert found[0]["all_left_pct"] == pytest.approx(100 * (0.5 / 0.4) ** 2, abs=6.0)
     assert found[2]["all_fall_pct"] == pytest.approx(found[1]["all_left_pct"] - found[2]["all_left_pct"])
-    assert 0 < found[2]["all_fall_interval_pct"] < found[2]["all_fall_pct"] and np.isnan(found[0]["all_fall_pct"])
+    assert found[2]["all_falling_pct"] > 50 and np.isnan(found[0]["all_fall_pct"]) and np.isnan(found[0]["all_falling_pct"])
+    assert [row["all_helps"] for row in found] == ["", "yes", "yes", ""]
     assert found[3]["a_z_left_pct"] == 0 < found[3]["a_z_rmse_m_per_s2"] < found[2]["a_z_rmse_m_per_s2"]
 
 
@@ -204,13 +205,13 @@ def test_conditions_have_the_same_axis_for_every_model_with_ticks_to_read_it_by(
 
 def test_what_lies_beyond_the_axis_of_the_ladder_is_said_with_its_signal(study):
     far = study.ladder.copy(deep=True)
-    far["left"].loc[dict(rung=far["rung"].values[0], signal="roll_rate")] = 9.0
-    far["left"].loc[dict(rung=far["rung"].values[0], signal="a_x")] = 3.0
-    far["left_overall"].loc[dict(rung=far["rung"].values[0])] = 4.0
+    far["left"].loc[dict(rung=far["rung"].values[0], signal="roll_rate")] = 90.0
+    far["left"].loc[dict(rung=far["rung"].values[0], signal="a_x")] = 30.0
+    far["left_overall"].loc[dict(rung=far["rung"].values[0])] = 40.0
     with style.styled():
         made = differing.figures(replace(study, ladder=far))["error_ladder"]()
     said = [text.get_text() for text in made.findobj(Text)]
-    assert "above the axis (at its top), up to:\nroll rate 900 %\n$a_x$ 300 %" in said and "400 ↑" in said
+    assert "above the axis (at its top), up to:\nroll rate 9,000 %\n$a_x$ 3,000 %" in said and "4000 ↑" in said
     at_top = [line for line in made.axes[0].lines if list(line.get_ydata()) == [1.0] and not line.get_clip_on()]
     assert {(line.get_color(), line.get_marker()) for line in at_top} == {style.SIGNAL_LINES[name] for name in ("a_x", "roll_rate")}
     assert [line.get_xdata()[0] for line in at_top] == [0, 0]

@@ -16,7 +16,7 @@ from .judge import with_allowances, with_bounds, with_parameters
 from .missing_force import missing_force
 from .rank import ranked
 from .ranking import with_forms
-from .reconsider import beside_a_force, heard, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
+from .reconsider import beside_a_force, heard, humming, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
 from .righted import Outcome, Ranked, beside_the_vehicle, searched_again
 from .rung import begin
 from .verdict import Verdict
@@ -89,6 +89,8 @@ def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Out
     proposal = discovered(search.rung, name=name, known=library, probed=search.selection.probed, line=line, **common)
     table = with_forms(table, proposal.evidence)
     verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, surely_fits_better(proposal, search.selection))
+    if line is not None:
+        verdict = humming(search.verdict, verdict, line.unit, proposal)
     if not (table.attrs["turns"] or table.attrs["road"]):
         verdict = named_all_the_same(verdict, proposal)
     return Outcome(table, verdict, proposal if verdict.verdict == "outside" else None, search.selection, search.rung)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
+from scipy.stats import wilcoxon
 
 from ..calibrate import AGREE
 from . import critical
@@ -19,6 +20,9 @@ FITTED, HELD_OUT = "fitted", "held out"
 
 VISIBLE = 0.05
 """Share of the mean square error above the floor below which a signal has nothing left to explain."""
+
+SURE, WORTHWHILE = 0.05, 0.005
+"""p-value up to which an error is said to fall, and share of what the reference leaves below which its fall is said to be little."""
 
 RISEN = 0.01
 """By how much more of what the reference leaves a model may leave on fitted drives than the one before it until that is said."""
@@ -40,8 +44,9 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     ``signal``: ``nrmse`` of the whole error; of what is judged (``judged.judged``) ``rmse`` and ``floor_rmse``, the least
     that is known from any rung (mean over drives of the square, as root), and ``left``, the mean square above the floor
     over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor;
-    ``left_overall`` weighs each of these signals by what was explainable of its own error, and ``fall_error`` is the standard error of its
-    fall from the rung before, by how unlike that is from stretch to stretch of the drives. Over ``method`` in place of signal: numbers
+    ``left_overall`` weighs each of these signals by what was explainable of its own error; against the rung before, it falls in a share
+    ``falling`` of the stretches of the drives, and ``fall_p_value`` is how likely chance alone makes it fall so (Wilcoxon's signed ranks of the
+    stretches: of rough ones, which hold most of the error, there are few). Over ``method`` in place of signal: numbers
     of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
     ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
     Nan where there is no such drive, rung or repeat. ``starts`` (rung, site): what calibration says of its starts, where a site's own
@@ -88,12 +93,13 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     total = weight.sum(axis=-1)
     overall = np.sum(np.where(visible, weight * left, 0.0), axis=-1) / np.where(total > 0, total, np.nan)
     over = ("rung", "site", "group")
-    fall_error = np.full(sizes, np.nan)
+    falling, chance = np.full((2, *sizes), np.nan)
     per_square = weight / np.where(visible, start, 1.0)
     for at, fall in falls.items():
         of_all = per_square[at[1:]] @ fall
-        if total[at[1:]] > 0 and len(of_all) > 1:
-            fall_error[at] = np.std(of_all, ddof=1) / np.sqrt(len(of_all)) / total[at[1:]]
+        if total[at[1:]] > 0 and of_all.size:
+            falling[at] = np.mean(of_all > 0)
+            chance[at] = wilcoxon(of_all, alternative="greater").pvalue if of_all.any() else 1.0
     return xr.Dataset(
         {
             "rmse": ((*over, "signal"), np.sqrt(squares)),
@@ -101,7 +107,8 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
             "floor_rmse": (("site", "group", "signal"), np.sqrt(floor_squares)),
             "left": ((*over, "signal"), left),
             "left_overall": (over, overall),
-            "fall_error": (over, fall_error),
+            "falling": (over, falling),
+            "fall_p_value": (over, chance),
             **{name: ((*over, "method"), values) for name, values in counts.items()},
             "repeats_agreeing": (("site", "group", "method"), repeated),
             "starts": (("rung", "site"), starts.astype(str)),
@@ -116,6 +123,15 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
         },
         {"reference": rungs[reference], "models": " ".join(models)},
     )
+
+
+def helps(fall: float, p_value: float) -> str:
+    """Whether a model helps against the one before it, in a word: ``fall`` of ``left_overall``, and how likely chance makes it fall so."""
+    if not np.isfinite(p_value):
+        return ""
+    if p_value > SURE or fall <= 0.0:
+        return "no"
+    return "yes" if fall >= WORTHWHILE else "little"
 
 
 def risen(found: xr.Dataset) -> list[tuple[str, str]]:

@@ -152,7 +152,7 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "angle_cube": "a steering ratio that changes with the angle",
     },
     "structure": {
-        "bending": "a body that bends",
+        "bending": "a body, or what holds the instrument, that bends",
         "racking_aside": "an upper body, or a holder of the instrument, that racks aside",
         "racking_along": "an upper body, seat or holder of the instrument that rocks along",
     },

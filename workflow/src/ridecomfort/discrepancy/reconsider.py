@@ -196,6 +196,13 @@ def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
     return with_reason(verdict, "outside" if is_silent or is_doubtful else verdict.verdict, turns)
 
 
+def humming(before: Verdict, verdict: Verdict, unit: str, proposal: Discovery) -> Verdict:
+    """A verdict that is "outside" for what comes back alone, as it was not ``before`` that was heard: "suspect" where this comes back with the
+    time (``unit`` s) and no force that is alike in all drives is sure. A machine may make it as well as the mains in the instrument."""
+    is_by_hum = unit == "s" and before.verdict != "outside" and verdict.verdict == "outside" and not is_sure(proposal)
+    return replace(verdict, verdict="suspect") if is_by_hum else verdict
+
+
 def _leaves_half(verdict: Verdict, proposal: Discovery) -> bool:
     """Whether what a force and effects beside it leave is HALF of what the library alone does at most, and MOST_LEFT of that on fitted drives
     and on those held out alike."""

@@ -27,7 +27,7 @@ PAGE = "results/report.html"
 
 TO_LOOK_AT = {
     "compared": "results/figures/located_*.png, error_ladder.png; results/tables/findings.md, calibrated.md",
-    "diagnosed": "results/tables/verdict.md, missing_effects.md; results/figures/evidence.png, forms.png",
+    "diagnosed": "results/tables/verdict.md, missing_effects.md; results/figures/evidence.png, signature.png",
 }
 """What a run without the page ends with, by the rule that made it."""
 

@@ -23,13 +23,17 @@ LOOKS = {
 DASHES = {"thresholds": (0, (4, 10)), "iso2631": (7, (4, 10))}
 """Lines of the repeats by method, dashes of one amid the gaps of the other where they coincide: a dashed line of two colours."""
 
-HIGHEST = 200.0
-"""% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen."""
+LINEAR, TICKS = 10.0, (0, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
+"""% up to which the axis of the error is linear, and logarithmic beyond, so that the last falls are seen beside the first; its ticks."""
+
+HIGHEST, ROOM = 1000.0, 1.4
+"""% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen. Times the largest error at
+which it does, where that is less: room for its number."""
 
 APART = 5.0
 """Points between the markers at the top of the axis of signals that lie above it on the same rung."""
 
-NEAR_TOP = 0.9
+NEAR_TOP = 0.6
 """Share of HIGHEST from which on a number stands below its point, not in the title above."""
 
 LEGIBLE = (withStroke(linewidth=2.0, foreground="white"),)
@@ -66,9 +70,11 @@ def error_ladder(study: Difference) -> Figure:
         first = next(axes for axes in row if axes.axison)
         first.set_ylabel("explainable error left [%]")
         first.tick_params(labelleft=True)
-        highest = min(first.get_ylim()[1], HIGHEST)
+        highest = min(ROOM * 100 * float(found["left"].max()), HIGHEST)
         lowest = min(0.0, 100 * float(found["left"].min()))
-        first.set_ylim(max(lowest, -HIGHEST) - 0.03 * highest, highest)
+        first.set_yscale("symlog", linthresh=LINEAR)
+        first.set_yticks([tick for tick in TICKS if tick <= highest], [f"{tick}" for tick in TICKS if tick <= highest])
+        first.set_ylim(max(lowest, -HIGHEST) - 0.05 * LINEAR, highest)
     panels[-1, 0].set_ylabel("sections unlike measured [%]")
     panels[-1, 0].set_ylim(bottom=0.0)
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
@@ -95,7 +101,8 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
     overall = _known(places, 100 * chosen["left_overall"].values)
     axes.plot(*overall, color="black", linewidth=2.2, zorder=1)
     for place, value in zip(*overall):
-        above, said = (6 if value < NEAR_TOP * HIGHEST else -9), f"{value:.0f}" if value <= HIGHEST else f"{value:.0f} ↑"
+        above, number = 6 if value < NEAR_TOP * HIGHEST else -9, f"{value:.0f}" if value >= LINEAR else f"{value:.1f}"
+        said = number if value <= HIGHEST else f"{number} ↑"
         axes.annotate(
             said, (place, min(value, HIGHEST)), xytext=(6, above), textcoords="offset points", fontsize=6, fontweight="bold",
             path_effects=LEGIBLE,

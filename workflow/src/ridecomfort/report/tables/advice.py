@@ -144,7 +144,7 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     if not proposal.get("form"):
         return may_end + go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM + _left(said)
     (fitted, held_out), (fitted_of_form, held_out_of_form) = ((one["share"], _held(one)) for one in (said, proposal))
-    if max(fitted_of_form, held_out_of_form) < LITTLE:
+    if (min if may_end else max)(fitted_of_form, held_out_of_form) < LITTLE:
         return may_end + go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
     file = Path(found.files.get("verdict", "")).parent / f"{proposal['name']}.py"
     try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"], *(proposal.get("beside") or ())]))

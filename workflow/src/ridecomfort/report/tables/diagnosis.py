@@ -165,7 +165,8 @@ def missing_effects(found: Diagnosis) -> Table:
         "where the drives asked for another value, else held at its typical one or the best of a few.",
         "Of two intervals believe the wider: what is uncertain of the rest of the vehicle counts here, and so does another effect that the drives "
         "leave open; calibrated.md holds these and rests on one site, but fits what only shapes an effect, which may be held here. Where the "
-        "size of one there and here are farther apart than the wider interval, the effect may stand in for another. May be nil: the interval of this size alone holds "
+        "size of one there and here are farther apart than the wider interval, the effect may stand in for another, or what calibration holds "
+        "of the vehicle is not as its file says (calibration: parameters). May be nil: the interval of this size alone holds "
         "nil; the effect is named for what all its sizes do together.",
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
