@@ -58,6 +58,15 @@ def test_before_a_form_that_is_most_of_a_little_error_the_loop_does_not_end():
         assert "Look at the proposed form" in said and said.startswith("The loop may end here.") == may_end
 
 
+def test_a_form_that_removes_little_of_a_little_error_of_fitted_drives_is_not_to_be_tried():
+    little = {**made_up.VERDICT, "verdict": "outside", "share": 0.02, "held_out_share": 0.29, "remainder": {"yaw_rate": 0.002}}
+    for at_first, is_tried in (({"a_z": 0.015}, False), ({"a_z": 0.4}, True)):
+        found = {**little, "at_first": at_first, "proposal": PROPOSAL | {"share": 0.06, "held_out_share": 0.41}}
+        said = rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
+        assert ("Look at the proposed form" in said) == is_tried
+        assert said.endswith("What is left is no more than 0.2 % of the power of any signal: the loop may end here.") != is_tried
+
+
 def test_where_no_form_is_found_either_it_is_said_whether_what_is_left_matters():
     for left, end in ((0.004, "the loop may end here"), (0.08, "is worth a look at where it lies")):
         found = {**made_up.nothing(), "verdict": "outside", "remainder": {"a_z": 0.002, "a_x": left}}
