@@ -34,6 +34,8 @@ def test_what_hums_without_a_force_that_is_alike_in_all_drives_makes_data_suspec
     unsure = replace(SURE, held_out_share=-0.5)
     assert outside.verdict == "outside" and humming(before, outside, "s", unsure).verdict == "suspect"
     assert humming(before, outside, "s", unsure).reasons == outside.reasons
+    found = humming(before, replace(outside, effects=(FOUND,)), "s", unsure)
+    assert found.reasons == (*outside.reasons, "friction takes something, but may stand in for what hums")
     assert humming(before, outside, "m", unsure) is outside and humming(before, outside, "s", SURE) is outside
     assert humming(replace(before, verdict="outside"), outside, "s", unsure) is outside
 

@@ -199,8 +199,11 @@ def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
 def humming(before: Verdict, verdict: Verdict, unit: str, proposal: Discovery) -> Verdict:
     """A verdict that is "outside" for what comes back alone, as it was not ``before`` that was heard: "suspect" where this comes back with the
     time (``unit`` s) and no force that is alike in all drives is sure. A machine may make it as well as the mains in the instrument."""
-    is_by_hum = unit == "s" and before.verdict != "outside" and verdict.verdict == "outside" and not is_sure(proposal)
-    return replace(verdict, verdict="suspect") if is_by_hum else verdict
+    if not (unit == "s" and before.verdict != "outside" and verdict.verdict == "outside") or is_sure(proposal):
+        return verdict
+    names = ", ".join(effect.name for effect in verdict.effects if not effect.is_of_measurement)
+    reasons = (f"{names} takes something, but may stand in for what hums",) if names else ()
+    return replace(verdict, verdict="suspect", reasons=(*verdict.reasons, *reasons))
 
 
 def _leaves_half(verdict: Verdict, proposal: Discovery) -> bool:
