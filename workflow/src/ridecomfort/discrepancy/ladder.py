@@ -24,6 +24,9 @@ VISIBLE = 0.05
 SURE, WORTHWHILE = 0.05, 0.005
 """p-value up to which an error is said to fall, and share of what the reference leaves below which its fall is said to be little."""
 
+FEWEST = 5
+"""Stretches from which on it can be told whether an error falls: of four, all four fall by chance in one of sixteen cases."""
+
 RISEN = 0.01
 """By how much more of what the reference leaves a model may leave on fitted drives than the one before it until that is said."""
 
@@ -46,7 +49,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor;
     ``left_overall`` weighs each of these signals by what was explainable of its own error; against the rung before, it falls in a share
     ``falling`` of the stretches of the drives, and ``fall_p_value`` is how likely chance alone makes it fall so (Wilcoxon's signed ranks of the
-    stretches: of rough ones, which hold most of the error, there are few). Over ``method`` in place of signal: numbers
+    stretches: of rough ones, which hold most of the error, there are few; of less than FEWEST both are nan). Over ``method`` in place of signal: numbers
     of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
     ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
     Nan where there is no such drive, rung or repeat. ``starts`` (rung, site): what calibration says of its starts, where a site's own
@@ -97,7 +100,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     per_square = weight / np.where(visible, start, 1.0)
     for at, fall in falls.items():
         of_all = per_square[at[1:]] @ fall
-        if total[at[1:]] > 0 and of_all.size:
+        if total[at[1:]] > 0 and of_all.size >= FEWEST:
             falling[at] = np.mean(of_all > 0)
             chance[at] = wilcoxon(of_all, alternative="greater").pvalue if of_all.any() else 1.0
     return xr.Dataset(
