@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort.discrepancy import critical
-from ridecomfort.discrepancy.ladder import SURE, Measured, disagreeing, helps, ladder, risen
+from ridecomfort.discrepancy.ladder import LEVEL, Measured, disagreeing, helps, ladder, risen
 
 
 def comparison(*squares, floor=1.0, states=("reference", "calibrated"), by_stretch=None):
@@ -68,7 +68,7 @@ def test_a_fall_is_as_sure_as_the_stretches_that_it_is_met_in():
     # All six of six by chance in 1 of 64 cases, however much of the fall the rough stretch holds.
     assert against(4.0, 4.0, 4.0, 4.0, 4.0, 5.0) == pytest.approx((1.0, 1 / 64))
     falling, chance = against(6.0, 6.1, 6.2, 6.3, 6.4, 5.0)  # one rough stretch falls, all others rise
-    assert falling == pytest.approx(1 / 6) and chance > SURE
+    assert falling == pytest.approx(1 / 6) and chance > LEVEL
     assert against(*base[1]) == (0.0, 1.0)
 
 

@@ -42,7 +42,8 @@ def test_of_suspect_data_only_errors_of_the_measurement_are_named(is_of_measurem
     suspect = {**made_up.VERDICT, "verdict": "suspect", "effects": [{**effect, "is_of_measurement": is_of_measurement}]}
     told = {row["what"]: row["in_words"] for row in rows(diagnosed.tables(made_up.diagnosis(suspect))["verdict"])}
     assert told["verdict"].startswith(f"The data are suspect: {first}")
-    assert told.get("suspension friction", "").startswith("Friction of the struts. Front 80 N" if is_of_measurement else "")
+    assert ("suspension friction" in told) == is_of_measurement
+    assert not is_of_measurement or told["suspension friction"].startswith("Friction of the struts. Front 80 N")
     assert ("effects: [suspension_friction]" in told["next"]) == is_of_measurement
 
 

@@ -21,7 +21,7 @@ FITTED, HELD_OUT = "fitted", "held out"
 VISIBLE = 0.05
 """Share of the mean square error above the floor below which a signal has nothing left to explain."""
 
-SURE, WORTHWHILE = 0.05, 0.005
+LEVEL, WORTHWHILE = 0.05, 0.005
 """p-value up to which an error is said to fall, and share of what the reference leaves below which its fall is said to be little."""
 
 FEWEST = 5
@@ -132,7 +132,7 @@ def helps(fall: float, p_value: float) -> str:
     """Whether a model helps against the one before it, in a word: ``fall`` of ``left_overall``, and how likely chance makes it fall so."""
     if not np.isfinite(p_value):
         return ""
-    if p_value > SURE or fall <= 0.0:
+    if p_value > LEVEL or fall <= 0.0:
         return "no"
     return "yes" if fall >= WORTHWHILE else "little"
 

@@ -1,7 +1,7 @@
 """An instrument that bounces on what holds it."""
 
 from ridecomfort.effects.contract import Effect, Parameter
-from ridecomfort.effects.swing import swing
+from ridecomfort.effects.swing import swung
 
 effect = Effect(
     name="sensor_mount",
@@ -23,8 +23,4 @@ effect = Effect(
 
 
 def act(drive, participation, frequency, damping_ratio):
-    if participation == 0.0:
-        return drive
-    body = drive["a_z"].values
-    change = swing(body, float(drive["time"][1] - drive["time"][0]), frequency, damping_ratio)
-    return drive.assign(a_z=drive["a_z"].copy(data=body + participation * change))
+    return swung(drive, "a_z", participation, frequency, damping_ratio)

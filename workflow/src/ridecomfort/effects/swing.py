@@ -5,6 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 
+def swung(drive, signal: str, participation: float, frequency: float, damping_ratio: float):
+    """The ``drive`` whose ``signal`` an instrument records that takes part in the swing of what holds it."""
+    if participation == 0.0:
+        return drive
+    body = drive[signal].values
+    change = swing(body, float(drive["time"][1] - drive["time"][0]), frequency, damping_ratio)
+    return drive.assign({signal: drive[signal].copy(data=body + participation * change)})
+
+
 def swing(base: np.ndarray, interval: float, frequency: float, damping_ratio: float) -> np.ndarray:
     """Acceleration in m/s2 (time,) of the mass against its ``base``, whose acceleration (time,) comes every ``interval`` s.
 

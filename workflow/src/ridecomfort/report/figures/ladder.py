@@ -27,8 +27,8 @@ LINEAR, TICKS = 10.0, (0, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 """% up to which the axis of the error is linear, and logarithmic beyond, so that the last falls are seen beside the first; its ticks."""
 
 HIGHEST, ROOM = 1000.0, 1.4
-"""% at which the axis ends: beside what an uncalibrated model may leave the fall of the others would not be seen. Times the largest error at
-which it does, where that is less: room for its number."""
+"""% at which the axis ends at the latest, whatever an uncalibrated model leaves, and times the largest error at which it does else: room for
+the number of that."""
 
 APART = 5.0
 """Points between the markers at the top of the axis of signals that lie above it on the same rung."""

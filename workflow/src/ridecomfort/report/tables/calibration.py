@@ -14,8 +14,8 @@ from .comfort import OURS, PAPER
 CHANGE = r"$\pm$ [%]"
 
 OF_EFFECTS = (
-    "The initial size of an effect is the one that its file calls typical. Sizes of effects may differ from those of the missing effects, beyond the intervals of either: here all parameters of an effect are "
-    "fitted, what only shapes it as well, and the rest of the vehicle is held; there what shapes it is held unless the drives ask for "
+    "The initial size of an effect is the one that its file calls typical. Sizes of effects may differ from those of the missing "
+    "effects, beyond the intervals of either: here all parameters of an effect are fitted, what only shapes it as well, and the rest of the vehicle is held; there what shapes it is held unless the drives ask for "
     "more, and what is uncertain of the vehicle is fitted. To hold a parameter here give its value in config/study.yaml, effects: [{name: {parameter: value}}]."
 )
 """What is said of effects beside their calibrated sizes."""

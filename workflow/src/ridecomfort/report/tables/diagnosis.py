@@ -47,10 +47,14 @@ NO_FORMS = "No force of any form was looked for: the library explains the error,
 """What is said there."""
 
 
+def _checked(found: Mapping) -> str:
+    """What of the error goes on drives held out, if there are any."""
+    return "" if found["held_out_share"] is None else f", {100 * found['held_out_share']:.0f} % on drives held out"
+
+
 def _promise(proposal: Mapping) -> str:
     """What a proposed form removes of the error, and how sure it is."""
-    held_out = proposal["held_out_share"]
-    checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
+    checked = _checked(proposal)
     fitted = f"{100 * proposal['share']:.0f} % of the explainable error on the fitted drives"
     little = ": too little to be what is missing" if proposal["share"] < LITTLE else ""
     return f"{fitted}{checked} (p = {proposal['p_value']:.2g}){little}."
@@ -70,10 +74,9 @@ def verdict(found: Diagnosis) -> Table:
     if comes_first:
         rows.append(("the vehicle", advice.farther(beyond)))
     if advice.library_helps(said):
-        held_out, take = said["held_out_share"], "together take" if len(said["effects"]) > 1 else "takes"
-        checked = "" if held_out is None else f", {100 * held_out:.0f} % on drives held out"
+        take = "together take" if len(said["effects"]) > 1 else "takes"
         role = "beside the proposed form" if said.get("is_beside_form") else "and may stand in for what is missing"
-        taken = f"{', '.join(names)} {take} {100 * said['share']:.0f} % on the fitted drives{checked}, {role}."
+        taken = f"{', '.join(names)} {take} {100 * said['share']:.0f} % on the fitted drives{_checked(said)}, {role}."
         rows.append(("in the library", taken))
     if proposal.get("form"):
         of_side = f"; {OF_SIDE}" if SIDE in proposal["form"] else ""
@@ -95,8 +98,7 @@ def _found(effect: Mapping) -> str:
     """The sizes of an effect with their intervals, and what it removes; of an error of the measurement, what that is comes first."""
     what = f"{sentence(effect['sentence'].removesuffix('.'))} " if effect.get("is_of_measurement") else ""
     sizes = sentence(", ".join(map(_size, effect["sizes"])))
-    held_out = "" if effect["held_out_share"] is None else f", {100 * effect['held_out_share']:.0f} % on drives held out"
-    return f"{what}{sizes} It takes {100 * effect['share']:.0f} % of the explainable error{held_out}."
+    return f"{what}{sizes} It takes {100 * effect['share']:.0f} % of the explainable error{_checked(effect)}."
 
 
 def _size(size: Mapping) -> str:

@@ -31,9 +31,10 @@ def error_ladder(study: Difference) -> Table:
         unit = printed(signal)[1].replace("/", "_per_").replace("²", "2")
         columns.append(Column(f"{signal}_rmse_{unit}", (title, "RMSE"), ".4f"))
         columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
+    of_all_signals = len(columns)
     columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".0f"))
     columns.append(Column("all_fall_pct", ("All signals", "fall [%]"), ".2f"))
-    columns.append(Column("all_falling_pct", ("All signals", "in [%] of stretches"), ".0f"))
+    columns.append(Column("all_falling_pct", ("All signals", "stretches falling [%]"), ".0f"))
     columns.append(Column("all_helps", ("All signals", "helps")))
     rows, breaks, bold = [], [], set()
     for site, group, chosen in _groups(study.ladder):
@@ -47,7 +48,7 @@ def error_ladder(study: Difference) -> Table:
             for signal in SIGNALS:
                 own = one.sel(signal=signal)
                 cells += [printed(signal)[0] * float(own["rmse"]), 100 * float(own["left"])]
-            bold.add((len(rows), len(columns) - 4))
+            bold.add((len(rows), of_all_signals))
             left = 100 * float(one["left_overall"])
             of_all = left, higher - left, 100 * float(one["falling"]), rungs.helps((higher - left) / 100, float(one["fall_p_value"]))
             rows.append((catalogue.label(site), group, rung_title(str(rung)), *cells, *of_all))
@@ -59,8 +60,8 @@ def error_ladder(study: Difference) -> Table:
         Source("RMSE", file, "rmse, floor_rmse", "root of the mean square over the drives"),
         Source("left", file, "left, left_overall", f"mean square above the floor over that of {study.ladder.attrs['reference']}"),
         Source("fall", file, "left_overall", "of the row above less this"),
-        Source("in [%] of stretches", file, "falling", "in percent"),
-        Source("helps", file, "left_overall, fall_p_value", f"p up to {rungs.SURE:g}, fall from {100 * rungs.WORTHWHILE:g} % on"),
+        Source("stretches falling", file, "falling", "in percent"),
+        Source("helps", file, "left_overall, fall_p_value", f"p up to {rungs.LEVEL:g}, fall from {100 * rungs.WORTHWHILE:g} % on"),
     )
     known = zip(study.ladder["site"].values, study.ladder["floor_known"].values)
     floors = [f"{catalogue.label(str(site))}: floor {how}" for site, how in known]
@@ -70,8 +71,9 @@ def error_ladder(study: Difference) -> Table:
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
         f"much as there was to explain of its own error. Fall: from the row above, and in how many of the stretches of {STRETCH:g} s that "
-        f"these drives have. A model helps where chance makes it fall so in at most one of {1 / rungs.SURE:.0f} cases (Wilcoxon's signed ranks of "
-        f"the stretches), little where it falls by less than {100 * rungs.WORTHWHILE:g} %. What does not help drives held out is to be taken out again. Drives of less than {rungs.FEWEST} stretches do not tell. The lowest floor is the least that any rung shown reaches, so it lies below that "
+        f"these drives have. A model helps where chance makes it fall so in at most one of {1 / rungs.LEVEL:.0f} cases (Wilcoxon's signed ranks of "
+        f"the stretches), little where it falls by less than {100 * rungs.WORTHWHILE:g} %. What does not help drives held out is to be taken out "
+        f"again. Drives of less than {rungs.FEWEST} stretches do not tell. The lowest floor is the least that any rung shown reaches, so it lies below that "
         "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it, a signal perhaps nothing, "
         "which does not count among all then. The diagnosis tells other shares: it takes all sites together and aligns their drives for every model.",
         *_of_reference(study),
