@@ -6,6 +6,8 @@ built around the simulator can be tested without it.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import xarray as xr
 from scipy.interpolate import RegularGridInterpolator
@@ -89,9 +91,25 @@ def run(road, vehicle, *, speed, lateral=0.0, friction=1.0, effects=(), sensor=(
 
 def _corner(vehicle, axle, road, interval):
     """Body height, velocity and acceleration of a quarter car over a road height."""
-    mass, wheel = vehicle["sprung_mass"] / 4, vehicle[f"unsprung_mass_{axle}"]
-    k, c = vehicle[f"spring_stiffness_{axle}"], vehicle[f"damping_{axle}"]
-    kt, ct = vehicle["tyre_radial_stiffness"], vehicle["tyre_radial_damping"]
+    bz, az = _filter(
+        vehicle["sprung_mass"] / 4,
+        vehicle[f"unsprung_mass_{axle}"],
+        vehicle[f"spring_stiffness_{axle}"],
+        vehicle[f"damping_{axle}"],
+        vehicle["tyre_radial_stiffness"],
+        vehicle["tyre_radial_damping"],
+        interval,
+    )
+    slope = (road[1] - road[0]) / interval
+    ramp = road[0] + slope * interval * np.arange(road.size)
+    height = ramp + lfilter(bz, az, road - ramp)
+    velocity = np.gradient(height, interval)
+    return {"height": height, "velocity": velocity, "acceleration": np.gradient(velocity, interval)}
+
+
+@lru_cache
+def _filter(mass, wheel, k, c, kt, ct, interval):
+    """Coefficients from road height to body height; they take longer than to filter, and drives differ mostly in other things."""
     a = np.array(  # states: body height, body velocity less what the road's rate adds, wheel height, the same
         [
             [0, 1, 0, 0],
@@ -103,12 +121,7 @@ def _corner(vehicle, axle, road, interval):
     gain = ct / wheel  # the tyre's damper passes the rate of the road, moved into the input by a change of state
     b = np.array([[0], [c * gain / mass], [gain], [kt / wheel - (c + ct) * gain / wheel]])
     numerator, denominator = ss2tf(a, b, np.array([[1, 0, 0, 0]]), np.zeros((1, 1)))
-    bz, az = bilinear(numerator[0], denominator, 1 / interval)
-    slope = (road[1] - road[0]) / interval
-    ramp = road[0] + slope * interval * np.arange(road.size)
-    height = ramp + lfilter(bz, az, road - ramp)
-    velocity = np.gradient(height, interval)
-    return {"height": height, "velocity": velocity, "acceleration": np.gradient(velocity, interval)}
+    return bilinear(numerator[0], denominator, 1 / interval)
 
 
 def recorded(simulated, *, clock=0.0, gain=1.0, rotation=(0.0, 0.0, 0.0), bias=(0.0, 0.0, 0.0), speed_scale=1.0,

@@ -147,12 +147,10 @@ def test_planted_outliers_are_dropped(road, seed):
     clear = replace(SCANNER, points=400, leaves=0, dropout_share=0.0, outlier_share=0.0)
     dirty = replace(clear, outlier_share=1e-3)
     true, measured = trajectory(road, seed, clear)
-    without = survey.grid(profiles(road, true, seed, clear), measured)[1]
-    planted = sum(
-        (np.abs(b.height - a.height) > 0.004).sum()
-        for a, b in zip(profiles(road, true, seed, clear), profiles(road, true, seed, dirty))
-    )
-    found = survey.grid(profiles(road, true, seed, dirty), measured)[1]
+    clean_blocks, dirty_blocks = (list(profiles(road, true, seed, scanner)) for scanner in (clear, dirty))
+    without = survey.grid(iter(clean_blocks), measured)[1]
+    planted = sum((np.abs(b.height - a.height) > 0.004).sum() for a, b in zip(clean_blocks, dirty_blocks))
+    found = survey.grid(iter(dirty_blocks), measured)[1]
     share_in_grid = 1 - found.beside / found.points
     assert without.outliers < 1e-5 * without.points
     assert found.outliers - without.outliers >= 0.99 * planted * share_in_grid
@@ -215,6 +213,13 @@ def test_unusable_trajectories_are_refused(road, spoil, message):
         survey.grid(profiles(road, true, 5, SCANNER), spoil(measured))
 
 
+@pytest.fixture(scope="module")
+def recorded(road):
+    """A scan in one block, and the trajectory that was measured."""
+    true, measured = trajectory(road, 5, SCANNER)
+    return list(profiles(road, true, 5, SCANNER, block=10_000)), measured
+
+
 @pytest.mark.parametrize(
     "spoil, message",
     [
@@ -227,10 +232,10 @@ def test_unusable_trajectories_are_refused(road, spoil, message):
         (lambda b: b._replace(time=b.time[:2], height=b.height[:2]), "profiles: 2 profiles reach over . cross sections"),
     ],
 )
-def test_unusable_profiles_are_refused(road, spoil, message):
-    true, measured = trajectory(road, 5, SCANNER)
+def test_unusable_profiles_are_refused(recorded, spoil, message):
+    blocks, measured = recorded
     with pytest.raises(InputError, match=message):
-        survey.grid((spoil(block) for block in profiles(road, true, 5, SCANNER, block=10_000)), measured)
+        survey.grid((spoil(block) for block in blocks), measured)
 
 
 def test_profiles_out_of_order_are_refused_across_blocks_too(road):

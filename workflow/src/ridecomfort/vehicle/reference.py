@@ -258,6 +258,11 @@ def _in_body_axes(vector, roll, pitch):
     return np.array([x - pitch * z, y + roll * z, z + pitch * x - roll * y])
 
 
+def _cross(a, b):
+    """Cross product; ``np.cross`` is made for long lists of vectors and takes a quarter of a drive."""
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
 def _felt(sensor, now, acceleration, roll, pitch):
     """Acceleration of a sensor fixed to the body: of the centre of gravity, of turning faster, of turning."""
     v_x, v_y, r, _, p, w = now
@@ -266,5 +271,5 @@ def _felt(sensor, now, acceleration, roll, pitch):
     turning = np.array([p, w, r])
     turning_faster = acceleration[[4, 5, 2]]
     centre = np.array([acceleration[0] - r * v_y, acceleration[1] + r * v_x, acceleration[3]])
-    felt = centre + np.cross(turning_faster, place) + np.cross(turning, np.cross(turning, place))
+    felt = centre + _cross(turning_faster, place) + _cross(turning, _cross(turning, place))
     return _in_body_axes(felt, roll, pitch)
