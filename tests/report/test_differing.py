@@ -12,6 +12,7 @@ from ridecomfort.discrepancy import findings
 from ridecomfort.report import catalogue, differing, style, table
 from ridecomfort.report.figures import conditions, ladder, located
 from ridecomfort.report.study import Compared, Difference
+from ridecomfort.vocabulary import SIGNALS
 from tests.report import differing as made_up
 from tests.report.differing import rows
 
@@ -247,6 +248,17 @@ def test_responses_say_who_is_who_and_how_they_are_read(drawn):
     said = " ".join(text.get_text() for text in legend.get_texts())
     assert "measured drives" in said and "model on the same paths" in said
     assert "not linear" in legend.get_title().get_text()
+
+
+def test_a_gain_beyond_what_is_drawn_is_marked(study):
+    site = study.sites[0]
+    comparison = site.comparison.copy(deep=True)
+    comparison["model_gain"].loc[{"signal": "a_z"}] = conditions.HIGHEST + 0.5
+    comparison["model_gain"].loc[{"signal": "a_x"}] = conditions.HIGHEST - 0.5
+    with style.styled():
+        titles = [axes.get_title(loc="left") for axes in conditions.responses(replace(site, comparison=comparison)).axes]
+    marked = {signal: titles[3 * place + 1] for place, signal in enumerate(SIGNALS)}
+    assert marked["a_z"] == "drives over model (▲: above 2)" and marked["a_x"] == "drives over model"
 
 
 @pytest.mark.parametrize("name", list(catalogue.difference_figures(["ts1"])))

@@ -32,6 +32,9 @@ INPUTS = {"road_heave": "up and down", "road_tilt": "left against right"}
 SOURCES = {"measured": ("measured drives", style.MEASURED), "simulated": ("model on the same paths", style.CALIBRATED)}
 """Label and colour of what answers to the road."""
 
+HIGHEST = 2.0
+"""Gain of drives over model up to which it is drawn: about 1 is what must be seen."""
+
 READ = (
     "Gain of drives over model: above 1 the model moves too little, below 1 too much. Coherence: 1 where one follows from the other\n"
     "by gain and phase alone; noise, a wrong path or clock and what is not linear (friction) lower it; with the road, other inputs, too."
@@ -97,10 +100,14 @@ def responses(site: Compared) -> Figure:
         road.set_ylabel(f"{notation.signal(signal)}\n[{unit} per m/s]")
         road.set_title(f"road {INPUTS[INPUT[signal]]} → {notation.signal(signal)}")
         gain.axhline(1.0, color=style.FAINT, linewidth=0.7)
-        gain.plot(frequency, one["model_gain"].values[kept], color=style.ERROR, label="gain and coherence, drives against model")
-        gain.set_ylim(0.0, 2.0)
+        of_model = one["model_gain"].values[kept]
+        gain.plot(frequency, of_model, color=style.ERROR, label="gain and coherence, drives against model")
+        beyond = frequency[of_model > HIGHEST]
+        if beyond.size:
+            gain.plot(beyond, np.full(beyond.size, HIGHEST), "^", color=style.ERROR, markersize=3, clip_on=False)
+        gain.set_ylim(0.0, HIGHEST)
         gain.set_ylabel("gain [-]")
-        gain.set_title("drives over model")
+        gain.set_title("drives over model" + (f" (▲: above {HIGHEST:g})" if beyond.size else ""))
         coherent.plot(frequency, one["model_coherence"].values[kept], color=style.ERROR)
         coherent.set_ylim(0.0, 1.03)
         coherent.set_ylabel("coherence [-]")

@@ -76,7 +76,9 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         names = [str(ranking["effect"].values[k]) for k in np.argsort(-gain)[:shown] if np.isfinite(gain[k])]
         winner = str(one["winner"].item())
         _scores(left, one.sel(effect=names), names, winner)
-        left.set_title(f"round {turn}" if winner else f"round {turn}: nothing accepted")
+        tested = np.isfinite(gain).sum()
+        drawn_of = f", best {len(names)} of {tested}" if len(names) < tested else ""
+        left.set_title(f"round {turn}{drawn_of}" + ("" if winner else ": nothing accepted"))
         _refits(right, one, names)
         crowded = left.get_xlim()[1] > FOUR_DIGITS
         for axes, count in ((left, 3 if crowded else 4), (right, 5)):

@@ -23,6 +23,9 @@ SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "1": (100.0, "%"), "N": (1.0, "
 ROW, LONGEST, IN_LEGEND = 1.9, 20, 48
 """Inches of a row of panels, letters in a line beside it and of one in the legend."""
 
+READ = "Straight lines and levels do not show: calibration could take them up."
+"""How the figure is read."""
+
 AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
 
 
@@ -69,7 +72,7 @@ def signature(found: Diagnosis) -> Figure:
     handles.append(Patch(color=style.FAINT, alpha=0.5, label="90 % interval"))
     if ranking["named_missing"].notnull().any():
         handles.append(Line2D([], [], color=style.ERROR, linestyle="--", label=fill(f"what would show: {together}", IN_LEGEND)))
-    drawn.legend(handles=handles, loc="outside upper center", ncols=3)
+    drawn.legend(handles=handles, loc="outside upper center", ncols=3, title=READ, title_fontsize=7)
     return drawn
 
 
