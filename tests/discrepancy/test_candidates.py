@@ -16,5 +16,7 @@ def test_an_effect_is_tried_at_the_settings_that_may_turn_it_round():
     friction = candidate(known["suspension_friction"].effect)
     assert [shape["suspension_friction.presliding"] for shape in friction.shapes] == [0.0, 0.001]
     assert [size.key for size in friction.shaping] == ["suspension_friction.presliding"] and friction.shaping[0].shaping
+    stop = [(shape["bump_stop.clearance_front"], shape["bump_stop.clearance_rear"]) for shape in candidate(known["bump_stop"].effect).shapes]
+    assert stop[0] == (0.03, 0.04) and stop[1] == pytest.approx((np.sqrt(0.03 * 0.01), 0.02)) and stop[-1] == (0.01, 0.01)
     ahead = {shape["payload.ahead"] for shape in candidate(known["payload"].effect).shapes}
     assert min(ahead) < -0.8 < 0.0 < max(ahead)

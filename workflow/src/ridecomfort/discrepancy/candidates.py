@@ -17,6 +17,9 @@ VARIED_UNITS = ("Hz", "m/s")
 """Units of parameters that shape an effect so much that it is tried with several values; clearances do, too, and what may be of either
 sign or none."""
 
+CLEARANCE = "clearance"
+"""How names of parameters begin that say where a part meets another."""
+
 SHAPING_PROBE = 0.02
 """Share of its plausible range that what shapes an effect is probed with."""
 
@@ -32,7 +35,10 @@ def candidate(effect: Effect) -> Candidate:
             together.setdefault(parameter.name.partition("_")[0], []).append(parameter)
     shapes = [typical]
     for varied in together.values():
-        moved = ({f"{effect.name}.{p.name}": towards(p, end) for p in varied} for end in (0, 1))
+        ways = [lambda p: towards(p, 0), lambda p: towards(p, 1)]
+        if varied[0].name.startswith(CLEARANCE):  # what is met all the time and what is met now and then are hardly alike
+            ways.append(lambda p: float(p.plausible[0]))
+        moved = ({f"{effect.name}.{p.name}": way(p) for p in varied} for way in ways)
         shapes += [{**typical, **own} for own in moved if {**typical, **own} != typical]
     instrument = effect.port in ("sensor", "path") or effect.name in OF_THE_ROAD
     return Candidate(
@@ -44,7 +50,7 @@ def candidate(effect: Effect) -> Candidate:
 def is_varied(parameter: Parameter) -> bool:
     """Whether a parameter shapes an effect so much that it is tried with several values."""
     lower, upper = parameter.plausible
-    return parameter.unit in VARIED_UNITS or parameter.name.startswith("clearance") or lower < 0.0 < upper or not parameter.typical
+    return parameter.unit in VARIED_UNITS or parameter.name.startswith(CLEARANCE) or lower < 0.0 < upper or not parameter.typical
 
 
 def towards(parameter: Parameter, end: int) -> float:
