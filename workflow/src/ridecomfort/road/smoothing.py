@@ -50,10 +50,7 @@ def smooth(values: np.ndarray, spacing: float, wavelength: float) -> np.ndarray:
     known = np.isfinite(values)
     weight = penalty(wavelength) / spacing**4
     fitted = np.full(values.shape, np.nan)
-    alike: dict[bytes, list[int]] = {}
-    for column, pattern in enumerate(known.T):
-        alike.setdefault(pattern.tobytes(), []).append(column)
-    for columns in alike.values():
+    for columns in _alike(known):
         places = np.flatnonzero(known[:, columns[0]])
         if not places.size:
             continue
@@ -117,6 +114,15 @@ def smooth_surface(
     smoothed["elevation"] = (("u", "v"), heights + base, road.elevation.attrs)
     smoothed.attrs["treatment"] = "\n".join(said)
     return smoothed, choices
+
+
+def _alike(known: np.ndarray) -> list[np.ndarray]:
+    """Columns of an array of truth values that are equal, in groups: one spline does for all of a group."""
+    if not known.size:
+        return []
+    patterns = np.ascontiguousarray(known.T).view(f"V{len(known)}")[:, 0]
+    group = np.unique(patterns, return_inverse=True)[1]
+    return np.split(np.argsort(group, kind="stable"), np.cumsum(np.bincount(group))[:-1])
 
 
 def _stiffness(count: int, weight: float) -> np.ndarray:
