@@ -18,7 +18,8 @@ def handed_in(tmp_path_factory, repository):
     project = new_project(tmp_path_factory.mktemp("handed_in"), repository)
     simulation = {"keep_drives": True, "runs_per_shard": 2}
     project.study(sites=["one"], runs=3, simulation=simulation)
-    assert project.snakemake("-j2", "one").status == 0
+    comfort = [f"results/one/base/comfort/{method}.nc" for method in ("thresholds", "iso2631", "iri")]
+    assert project.snakemake("-j2", *comfort).status == 0
     folder = project.folder / "elsewhere"
     folder.mkdir()
     for shard in sorted((project.folder / "results/one/base/drives").glob("*.nc")):

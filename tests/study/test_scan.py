@@ -11,12 +11,15 @@ from ridecomfort.comfort import iri, iriclass
 from ridecomfort.road import crg
 from ridecomfort.steps import standin_scan
 
+from .conftest import new_project
+
 pytestmark = pytest.mark.slow
 
 
-@pytest.fixture
-def scanned(project):
+@pytest.fixture(scope="module")
+def scan(tmp_path_factory, repository):
     """A project whose site has a scan of the test road, its trajectory as CSV."""
+    project = new_project(tmp_path_factory.mktemp("scan"), repository)
     folder = project.folder
     config = {"seed": 3, "scanner": {"points": 150, "leaves": 1, "gaps_per_km": 4.0}}
     standin_scan.main(folder / "road.crg", config, folder / "scan.nc", folder / "trajectory.nc")
@@ -24,6 +27,12 @@ def scanned(project):
     path.to_csv(folder / "trajectory.csv", index=False)
     project.site("scanned", road={"scan": {"profiles": "scan.nc", "trajectory": "trajectory.csv", "width": 3.6}})
     return project
+
+
+@pytest.fixture
+def scanned(scan, tmp_path):
+    """Such a project in which nothing has run yet."""
+    return scan.copied(tmp_path)
 
 
 def test_a_scan_becomes_the_road_that_is_driven(scanned):
