@@ -40,7 +40,7 @@ def drawn(study):
     for name, draw in _figures(study).items():
         with style.styled():
             found[name] = draw()
-            FigureCanvasAgg(found[name]).draw()
+            found[name].draw_without_rendering()
     return found
 
 
@@ -160,7 +160,7 @@ def test_what_is_written_below_the_maps_has_room(study, monkeypatch):
     monkeypatch.setattr(findings, "findings", lambda found: [long] * 5)
     with style.styled():
         made = located.located(site, study.model)
-        FigureCanvasAgg(made).draw()
+        made.draw_without_rendering()
     written = next(text for text in made.findobj(Text) if text.get_text().startswith("1  ")).get_window_extent()
     assert made.bbox.x0 <= written.x0 and written.x1 <= made.bbox.x1 and made.bbox.y0 < written.y0
 
