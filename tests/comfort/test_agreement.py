@@ -183,7 +183,7 @@ def test_measures_of_the_runs():
 def test_assessment_of_a_study_with_few_runs_is_agreement_alone():
     samples = xr.Dataset({"lateral_position": ("run", np.arange(6.0))})
     sites = {name: assessment.SiteResults(**study(seed), samples=samples) for name, seed in (("a", 1), ("b", 2))}
-    found = assessment.gather(sites)
+    found = assessment.gather(sites, repetitions=50)
     assert found["site"].values.tolist() == ["a", "b", "pooled"] and found["place"].values.tolist() == ["a", "b"]
     assert np.isfinite(found["kappa"]).any() and np.isnan(found["first_order"]).all() and not found["width"].size
 
@@ -202,7 +202,7 @@ def test_assessment_tells_what_moves_a_run():
     parts["iri"] = parts["iri"].drop_vars("run_share").drop_vars("run").assign(
         run_share=(("quality", "run"), np.tile(np.arange(5.0)[:, None], (1, runs)))
     )
-    found = assessment.gather({"a": assessment.SiteResults(**parts, samples=samples)}).sel(place="a")
+    found = assessment.gather({"a": assessment.SiteResults(**parts, samples=samples)}, repetitions=50).sel(place="a")
     told = found["rank_correlation"].sel(measure="a_v", bound="estimate")
     assert float(told.sel(factor="lateral_position")) == pytest.approx(1.0)
     assert abs(float(told.sel(factor="road_friction"))) < 0.3
