@@ -36,7 +36,8 @@ def shares(iri: np.ndarray, evaluation: Evaluation) -> np.ndarray:
     for edge in evaluation.edges:
         quality += iri >= edge
     windows = quality.reshape(*iri.shape[:-1], -1, evaluation.per_window)
-    lowest, highest = windows.min(axis=-1), windows.max(axis=-1)
+    windows = np.ascontiguousarray(np.moveaxis(windows, -1, 0))  # along a short last axis numpy takes ten times as long
+    lowest, highest = windows.min(axis=0), windows.max(axis=0)
     whole = np.where(lowest == highest, lowest, 0)
     return np.stack([np.mean(whole == k, axis=-1) for k in range(1, 5)], axis=-1)
 
