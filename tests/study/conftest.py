@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import os
 import shutil
-import sys
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -17,6 +12,7 @@ import xarray as xr
 import yaml
 
 from ridecomfort.road import crg
+from tests.study import called
 
 LENGTH, SPACING = 250.0, 0.1
 
@@ -53,16 +49,9 @@ class Project:
     repository: Path
 
     def snakemake(self, *arguments: str) -> Answer:
-        """A call in a process of its own, forked from this one because Snakemake takes longer to import than to plan."""
-        import snakemake.cli  # noqa: F401  here: it takes two seconds, and every selection of tests reads this file
-
+        """``python -m snakemake`` with these arguments in the project's folder."""
         words = ["--snakefile", str(self.repository / "Snakefile"), "--directory", str(self.folder), *arguments]
-        with TemporaryDirectory() as folder:
-            said = [Path(folder) / name for name in ("stdout", "stderr")]
-            process = multiprocessing.get_context("fork").Process(target=_call, args=(words, said))
-            process.start()
-            process.join()
-            return Answer(process.exitcode, "".join(path.read_text() for path in said))
+        return Answer(*called.snakemake(words))
 
     def site(self, name: str, **content) -> None:
         """Write a site's file; without a road of its own it lies on the test road."""
@@ -83,17 +72,6 @@ class Project:
         """Every result, hidden and half-written ones included, but for logs."""
         paths = (path.relative_to(self.folder) for path in (self.folder / "results").rglob("*") if path.is_file())
         return {str(path) for path in paths if path.parts[1] not in ("logs", "benchmarks")}
-
-
-def _call(words: Sequence[str], said: Sequence[Path]) -> None:
-    """``python -m snakemake`` with these words; what it and its jobs say on stdout and stderr goes into the two files."""
-    from snakemake import cli
-
-    for number, path in enumerate(said, start=1):
-        os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT), number)
-    sys.stdout, sys.stderr = (open(number, "w", encoding="utf-8", closefd=False) for number in (1, 2))
-    sys.argv = [cli.__file__, *words]
-    cli.main(words)
 
 
 def test_road() -> xr.Dataset:
