@@ -105,7 +105,7 @@ class _Search:
     def run(self) -> Selection:
         states = [State.of(self.rung, "calibrated", self.rung.fit, self.rung.check)]
         self.first = states[0]
-        self.say("probing every candidate")
+        self.say(f"probing {len(self.by_name)} candidates")
         self.sooner, residuals = self._sooner()
         self.columns = self._probe(residuals)
         rounds = self.rounds
