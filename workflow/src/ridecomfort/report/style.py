@@ -139,5 +139,5 @@ def save(drawn: Figure, path) -> None:
     """Write a figure as PNG or PDF, by the ending of its path, without time stamps: equal data, equal bytes."""
     with styled():
         drawn.savefig(path, dpi=RESOLUTION, metadata=METADATA[Path(path).suffix], facecolor="white")
-        # What is laid out once is laid out: the next format costs a third, and looks the same.
+        # What is laid out once is laid out: the next format looks the same and takes less.
         drawn.set_layout_engine(None)
