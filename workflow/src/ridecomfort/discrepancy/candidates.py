@@ -35,10 +35,8 @@ def candidate(effect: Effect) -> Candidate:
             together.setdefault(parameter.name.partition("_")[0], []).append(parameter)
     shapes = [typical]
     for varied in together.values():
-        ways = [lambda p: towards(p, 0), lambda p: towards(p, 1)]
-        if varied[0].name.startswith(CLEARANCE):  # what is met all the time and what is met now and then are hardly alike
-            ways.append(lambda p: float(p.plausible[0]))
-        moved = ({f"{effect.name}.{p.name}": way(p) for p in varied} for way in ways)
+        keys = [f"{effect.name}.{parameter.name}" for parameter in varied]
+        moved = (dict(zip(keys, values)) for values in zip(*map(_moved, varied), strict=True))
         shapes += [{**typical, **own} for own in moved if {**typical, **own} != typical]
     instrument = effect.port in ("sensor", "path") or effect.name in OF_THE_ROAD
     return Candidate(
@@ -51,6 +49,14 @@ def is_varied(parameter: Parameter) -> bool:
     """Whether a parameter shapes an effect so much that it is tried with several values."""
     lower, upper = parameter.plausible
     return parameter.unit in VARIED_UNITS or parameter.name.startswith(CLEARANCE) or lower < 0.0 < upper or not parameter.typical
+
+
+def _moved(parameter: Parameter) -> list[float]:
+    """The values beside the typical one that a parameter is tried with."""
+    values = [towards(parameter, 0), towards(parameter, 1)]
+    if parameter.name.startswith(CLEARANCE):  # what is met all the time and what is met now and then are hardly alike
+        values.append(float(parameter.plausible[0]))
+    return values
 
 
 def towards(parameter: Parameter, end: int) -> float:
