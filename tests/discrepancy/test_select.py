@@ -397,6 +397,14 @@ def test_without_repeats_the_floor_is_the_noise_that_is_known_of_the_instruments
     assert selection.floor_squares.max() == pytest.approx(0.01 * (high - low))
 
 
+@pytest.mark.parametrize("is_repeated", [False, True])
+def test_without_repeats_what_a_name_leaves_may_be_more_than_noise(is_repeated):
+    model = Linear(1, {"effect_2.size": 2.0})
+    _, found = judged(model if is_repeated else alone(model))
+    assert (found.verdict, [effect.name for effect in found.effects]) == ("named", ["effect_2"])
+    assert found.is_shared is not is_repeated
+
+
 def test_what_was_probed_from_the_same_rung_is_not_probed_again():
     rung = begin(Linear(1, {"effect_2.size": 1.5, "effect_4.size": 1.0}), {"stiffness": 0.0})
     asked = []

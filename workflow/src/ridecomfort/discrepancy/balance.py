@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from . import floor
 from .propose import HELD_OUT_Z, SURE
-from .selection import Selection, shares
+from .selection import Selection, State, shares
+from .shared import is_material
 
 ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
@@ -37,6 +41,9 @@ more)."""
 SHARED_BAND_Z = 5.0
 """z of an error that repeats share in one band of one signal, of more than a hundred, above which something is left to explain; up to
 3.8 where nothing is missing and the road is as its file says, 6.5 where it is interpolated otherwise."""
+
+OF_SIGNAL = 0.05
+"""Share of the measured power of a signal up to which an error above the floor is not worth explaining, where no drive was repeated."""
 
 CONFIRMED = 0.25
 """Share of the explainable error of held-out drives below which what was named on the fitted drives is not what is missing."""
@@ -83,6 +90,15 @@ def balanced(selection: Selection, notes: Sequence[str], is_material: bool) -> B
 def total_shares(selection: Selection) -> tuple[float, float]:
     """Share of the explainable error that all accepted effects remove together, fitted and held out (nan without)."""
     return shares(selection, selection.states[0], selection.states[-1])
+
+
+def is_worth_explaining(selection: Selection, state: State, measured: Mapping[int, np.ndarray]) -> bool:
+    """Whether what repeats share of what the model of a state leaves is worth explaining, by the signals (channel, sample) that were measured in
+    every record; where nothing was repeated, whether what it leaves of any above the floor is."""
+    if selection.has_repeats:
+        return is_material(selection.frame, state.fit.residuals, measured)
+    power = floor.squares(selection.frame.experiment, measured)
+    return bool(np.any(state.squares - selection.floor_squares > OF_SIGNAL * power))
 
 
 def something_left(selection: Selection) -> bool:

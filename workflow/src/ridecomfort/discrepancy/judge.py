@@ -94,7 +94,7 @@ def judge(
     if effects and selection.birge_ratio > 1.0:
         reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
     said = (*reasons, _floor(selection))
-    left = balance.is_left, balance.is_shared
+    left = balance.is_left, balance.is_shared or not selection.has_repeats
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error)
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 
 from .. import pool
 from . import floor, opening, suspect, turns
-from .balance import CONFIRMED, ENOUGH, is_slow, may_share, total_shares
+from .balance import CONFIRMED, ENOUGH, is_slow, is_worth_explaining, may_share, total_shares
 from .car import Car
 from .experiment import Frame
 from .judge import judge, standing, with_remainder
@@ -17,7 +17,6 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection
-from .shared import is_material
 from .verdict import Verdict
 
 
@@ -70,15 +69,16 @@ def ranked(
     selection = search(rung, most=most, seed=seed, each=each, say=say)
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.states[-1].fit.residuals)
-    mattered, matters = (_is_material(selection, number) for number in (0, -1))
+    measured = _measured(selection.frame)
+    mattered, matters = (is_worth_explaining(selection, selection.states[number], measured) for number in (0, -1))
     of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
-    doubts = suspicions(experiment, selection, is_explained, matters and may_share(selection))
+    doubts = suspicions(experiment, selection, is_explained, matters and (may_share(selection) or not selection.has_repeats))
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered)
-    verdict = with_remainder(verdict, *_left_by(selection, (-1, 0)))
+    verdict = with_remainder(verdict, *_left_by(selection, measured, (-1, 0)))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
     line = turns.left_by(selection)
@@ -94,15 +94,10 @@ def _measured(frame: Frame) -> dict[int, np.ndarray]:
     return {index: again.measured()[:, again.compared] for index, again in zip(frame.indices, replays)}
 
 
-def _is_material(selection: Selection, number: int) -> bool:
-    """Whether what repeats share of what the model of this number leaves is worth explaining, by the signals that were measured."""
-    return is_material(selection.frame, selection.states[number].fit.residuals, _measured(selection.frame))
-
-
-def _left_by(selection: Selection, numbers: Sequence[int]) -> list[dict[str, float]]:
-    """Share of the measured power of every signal that each of the models of these numbers leaves above the floor, of what is judged."""
+def _left_by(selection: Selection, measured: Mapping[int, np.ndarray], numbers: Sequence[int]) -> list[dict[str, float]]:
+    """Share of the ``measured`` power of every signal that each of the models of these numbers leaves above the floor, of what is judged."""
     frame = selection.frame
-    power = floor.squares(frame.experiment, _measured(frame)).mean(axis=0)
+    power = floor.squares(frame.experiment, measured).mean(axis=0)
     left = (np.maximum(selection.states[number].squares - selection.floor_squares, 0.0).mean(axis=0) for number in numbers)
     shares_left = (own / np.where(power > 0, power, np.inf) for own in left)
     return [dict(zip(frame.experiment.channels, own.tolist())) for own in shares_left]
@@ -115,12 +110,13 @@ def _best_share(selection: Selection) -> float:
 
 def suspicions(experiment: Car, selection: Selection, is_explained: bool, is_left: bool) -> list[str]:
     """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains; ``is_explained``: whether effects
-    explain most of the error, ``is_left``: whether repeats share one still."""
+    explain most of the error, ``is_left``: whether repeats share one still, or drives that were not repeated leave one."""
     reasons = suspect.of_drives(experiment)
     first, last = selection.states[0], selection.states[-1]
     reasons += suspect.of_signals(experiment, first.fit.residuals)
     reasons += suspect.of_clocks(experiment, selection.frame)
-    if selection.has_repeats and not is_explained and not is_left:
+    is_floor_known = selection.has_repeats or selection.floor_squares.any()
+    if is_floor_known and not is_explained and not is_left:
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     sites = {experiment.records[index].site: index for index in reversed(selection.frame.indices)}
     for index in sites.values():

@@ -33,9 +33,6 @@ FOOT = 0.01
 """m/s2 (rms) of a_x below DRIVEN up to which an error is a foot's, however little else the signal holds there: on two cars and roads whose models
 were right 0.006 were left, 2 % of the power of one, whose instrument stood on the roof, and 29 % of the other."""
 
-OF_SIGNAL = 0.05
-"""Share of the measured power of a signal up to which an error of drives that were not repeated is not worth explaining."""
-
 LIKELY = 4.0
 """z of what repeats share in a band from which on it may be worth explaining: of some hundred and fifty bands one has 3 by chance in every fifth
 trial, and of a signal that hardly is there, yaw rate at 20 Hz, such a one was 2e-5 rad/s."""
@@ -120,17 +117,11 @@ def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Rec
 
 
 def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> bool:
-    """Whether what repeats share in any band is worth explaining; where nothing was repeated, whether the error of any signal is.
+    """Whether what repeats share in any band is worth explaining.
 
     ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure.
     """
-    cleaned = frame.all_cleaned({index: residuals[index] for index in frame.indices})
-    pairs = list(_pairs(frame, cleaned))
-    if not pairs:
-        return any(
-            np.any(np.sum(part**2, axis=1) > OF_SIGNAL * np.sum((measured[index] - measured[index].mean(axis=1, keepdims=True)) ** 2, axis=1))
-            for index, part in cleaned.items()
-        )
+    pairs = list(_pairs(frame, frame.all_cleaned({index: residuals[index] for index in frame.indices})))
     edges, agreement, variance = _bands(frame.experiment.channels, pairs)
     power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
     slow = np.array([OF_DRIVEN.get(channel, OF_SLOW) for channel in frame.experiment.channels])

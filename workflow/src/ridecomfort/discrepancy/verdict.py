@@ -62,7 +62,7 @@ class Named:
 @dataclass(frozen=True)
 class Verdict:
     """``verdict`` is one of SAID; ``effects`` in the order in which they were found; ``reasons`` in words; ``is_shared``: whether repeats
-    surely share an error still, ``is_left``: one that is worth explaining."""
+    surely share an error still, or none tells, ``is_left``: one that is worth explaining."""
 
     verdict: str
     effects: tuple[Named, ...]
