@@ -26,6 +26,11 @@ def test_a_sure_force_of_some_form_makes_outside_of_nothing():
     assert found.reasons[:-1] == NOTHING.reasons
 
 
+def test_but_not_where_it_explains_no_more_than_effects_that_were_too_little_to_be_named():
+    assert reconsidered(NOTHING, SURE, too_little=0.5 * SURE.share).verdict == "outside"
+    assert reconsidered(NOTHING, SURE, too_little=0.95 * SURE.share) is NOTHING
+
+
 @pytest.mark.parametrize("kind", ["nothing", "named"])
 def test_what_hums_without_a_force_that_is_alike_in_all_drives_makes_data_suspect(kind):
     """As 40 Hz of the mains, folded down, where a foot makes drivetrain_lag take 47 % of little."""

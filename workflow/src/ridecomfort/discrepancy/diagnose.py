@@ -8,6 +8,7 @@ import xarray as xr
 
 from .. import pool
 from . import opening, turns
+from .balance import total_shares
 from .beyond import at_bounds, ends_at_bounds
 from .car import Car
 from .discover import Discovery, discovered
@@ -88,7 +89,8 @@ def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Out
     line = turns.left_by(search.selection) if table.attrs["turns"] else None
     proposal = discovered(search.rung, name=name, known=library, probed=search.selection.probed, line=line, **common)
     table = with_forms(table, proposal.evidence)
-    verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, surely_fits_better(proposal, search.selection))
+    fits_better = surely_fits_better(proposal, search.selection)
+    verdict = reconsidered(verdict, proposal, is_road_open, is_error_alone, fits_better, total_shares(search.selection)[0])
     if line is not None:
         verdict = humming(search.verdict, verdict, line.unit, proposal)
     if not (table.attrs["turns"] or table.attrs["road"]):

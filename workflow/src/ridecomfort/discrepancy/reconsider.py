@@ -57,12 +57,14 @@ def surely_fits_better(proposal: Discovery, selection: Selection) -> bool:
 
 
 def reconsidered(
-    verdict: Verdict, proposal: Discovery, is_road_open: bool = False, is_error_alone: bool = False, fits_better: bool = False
-) -> Verdict:
+    verdict: Verdict, proposal: Discovery, is_road_open: bool = False, is_error_alone: bool = False, fits_better: bool = False,
+    too_little: float = 0.0,
+) -> Verdict:  # fmt: skip
     """A verdict in the light of a force of any form.
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
-    (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. ``is_road_open``: whether the road may be
+    (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. It must explain BETTER than effects that
+    removed ``too_little`` to be named, or it is these. ``is_road_open``: whether the road may be
     another than that of its file, by noise of its points or by what lies between them. ``is_error_alone``: whether an error of the
     measurement was found and nothing else speaks against the data. ``fits_better``: whether the force fits drives better beyond chance than
     what was found.
@@ -70,7 +72,8 @@ def reconsidered(
     said = _said_of(proposal)
     match verdict.verdict:
         case "nothing":
-            return with_reason(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_sure(proposal) else verdict
+            is_there = is_sure(proposal) and not proposal.share <= BETTER * too_little
+            return with_reason(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_there else verdict
         case "suspect":
             return _error_or_force(verdict, proposal, said, fits_better) if is_error_alone else _noise_or_force(verdict, proposal, said)
         case "outside":
