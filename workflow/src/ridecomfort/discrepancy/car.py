@@ -55,6 +55,11 @@ class Car:
         replays = [replace(again, options={**again.options, "effects_folder": folder}) for again in self.replays]
         return replace(self, candidates=tuple(candidates), quiet=quiet, replays=replays)
 
+    def measured(self, index: int) -> np.ndarray:
+        """The measured signals (6, sample) of a record behind the run-in of the model."""
+        again = self.replays[index]
+        return again.measured()[:, again.compared]
+
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """Simulated minus measured signals (6, sample) behind the run-in of the model."""
         found = self._following(values, index, ASTRAY, CORRECTED)

@@ -13,8 +13,9 @@ from .beyond import at_bounds, ends_at_bounds
 from .car import Car
 from .discover import Discovery, discovered
 from .explain import REPEATS
-from .judge import with_allowances, with_bounds, with_parameters
+from .judge import with_allowances, with_bounds, with_held, with_parameters
 from .missing_force import missing_force
+from .off_file import off_file
 from .rank import ranked
 from .ranking import with_forms
 from .reconsider import beside_a_force, heard, humming, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
@@ -60,6 +61,8 @@ def diagnose(
             found = None
         verdict = beside_a_force(verdict, proposal)
     verdict = with_bounds(with_parameters(verdict, found and found.of(vehicle)), at_bounds(outcome.stands_on, experiment.free))
+    if found is None and verdict.verdict in ("named", "cluster", "nothing"):
+        verdict = with_held(verdict, off_file(outcome.selection))
     table = outcome.table
     if signatures:
         say("drawing the missing force")

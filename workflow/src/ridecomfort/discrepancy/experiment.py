@@ -47,7 +47,7 @@ class Record:
 @dataclass(frozen=True)
 class Size:
     """A number that may be fitted: its unit, where it starts or changes nothing, what is plausible, a step to probe with; ``shaping``:
-    whether it only shapes an effect, so that it means nothing where that is switched off."""
+    whether it only shapes an effect, so that it means nothing where that is switched off; ``held``: whether calibration holds it."""
 
     key: str
     unit: str
@@ -56,6 +56,7 @@ class Size:
     upper: float
     probe: float
     shaping: bool = False
+    held: bool = False
 
     def holds(self, value: float) -> bool:
         """Whether a value is plausible, to a thousandth of the range."""

@@ -12,6 +12,7 @@ from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, bal
 from .beyond import AtBound, BeyondBounds
 from .cluster import SAME_PORT
 from .experiment import Candidate, Size
+from .off_file import OffFile
 from .propose import LEVEL, SURE
 from .selection import Selection, shares
 from .tries import LEAST_MOVED
@@ -132,6 +133,13 @@ def with_bounds(verdict: Verdict, found: Sequence[AtBound]) -> Verdict:
     what = DRIVEN if all(one.is_last for one in told) else DRIVEN + BEYOND
     reasons = (f"{'; '.join(one.words() for one in told)}: {what}",) if told else ()
     return replace(verdict, reasons=(*verdict.reasons, *reasons), at_bounds=kept)
+
+
+def with_held(verdict: Verdict, found: OffFile | None) -> Verdict:
+    """A verdict with the parameters of the vehicle that calibration holds beside the values that drives give them, if any: a reason more."""
+    if found is None:
+        return verdict
+    return replace(verdict, reasons=(*verdict.reasons, found.words()), off_file=found)
 
 
 def with_allowances(verdict: Verdict, names: Collection[str]) -> Verdict:

@@ -189,7 +189,7 @@ def _parameters(vehicle, calibrated: Mapping[str, Sequence[float]], uncertain: M
         span = PARAMETERS[name]
         lower, upper = sorted(min(max(vehicle[name] * factor, span.lower), span.upper) for factor in (1 - share, 1 + share))
         if lower < upper:  # what a vehicle has not, as a bar, is no size of it
-            free.append(_parameter(name, vehicle[name], (lower, upper)))
+            free.append(replace(_parameter(name, vehicle[name], (lower, upper)), held=True))
     return free
 
 

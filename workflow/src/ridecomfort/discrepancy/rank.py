@@ -11,7 +11,6 @@ from .. import pool
 from . import floor, opening, suspect, turns
 from .balance import CONFIRMED, ENOUGH, is_slow, is_worth_explaining, may_share, total_shares
 from .car import Car
-from .experiment import Frame
 from .judge import judge, standing, with_remainder
 from .ranking import dataset
 from .rung import Rung, begin
@@ -69,7 +68,7 @@ def ranked(
     selection = search(rung, most=most, seed=seed, each=each, say=say)
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.states[-1].fit.residuals)
-    measured = _measured(selection.frame)
+    measured = {index: selection.frame.experiment.measured(index) for index in selection.frame.indices}
     mattered, matters = (is_worth_explaining(selection, selection.states[number], measured) for number in (0, -1))
     of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
@@ -86,12 +85,6 @@ def ranked(
     has_decoys = any(turn.decoy_ranks for turn in selection.rounds)
     table.attrs["suspected"] = "" if not (doubts or has_decoys) else "road" if is_road_alone and not has_decoys else "data"
     return table, verdict, selection
-
-
-def _measured(frame: Frame) -> dict[int, np.ndarray]:
-    """The signals of every record as they were measured, (channel, sample)."""
-    replays = [frame.experiment.replays[index] for index in frame.indices]
-    return {index: again.measured()[:, again.compared] for index, again in zip(frame.indices, replays)}
 
 
 def _left_by(selection: Selection, measured: Mapping[int, np.ndarray], numbers: Sequence[int]) -> list[dict[str, float]]:

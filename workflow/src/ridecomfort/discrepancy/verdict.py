@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 
 from .beyond import AtBound, BeyondBounds
+from .off_file import OffFile
 
 SAID = {
     "named": "Missing: {names}.",
@@ -75,6 +76,8 @@ class Verdict:
     """Parameters of the vehicle that would explain more if they lay beyond their bounds, where effects explain too little."""
     at_bounds: tuple[AtBound, ...] = ()
     """Parameters of the vehicle that end at a bound in the model that the verdict stands on."""
+    off_file: OffFile | None = None
+    """Parameters of the vehicle that calibration holds, and to which the drives give other values than its file."""
     is_beside_form: bool = False
     """Whether the effects are those that are missing beside the proposed form, and shares of what goes beside it; else of what the library
     does alone."""

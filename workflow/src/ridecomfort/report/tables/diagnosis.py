@@ -86,6 +86,8 @@ def verdict(found: Diagnosis) -> Table:
         rows += [(what, sentence(proposal[key])) for key, what in (("here", "here it is"), ("typically", "at typical motion")) if proposal.get(key)]
         beside = proposal.get("beside")
         rows.append((f"with {', '.join(map(words, beside))} it removes" if beside else "it removes", _promise(proposal)))
+    if said.get("off_file"):
+        rows.append(("the vehicle's file", advice.calibrated_too(said["off_file"])))
     rows.append(("next, after the vehicle" if comes_first else "next", advice.next_step(found)))
     if beyond and not comes_first:
         rows.append(("or, the vehicle", advice.farther(beyond)))

@@ -1,0 +1,100 @@
+"""Parameters of the vehicle that calibration holds, and to which the drives give other values than the vehicle's file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..errors import InputError
+from . import experiment as exp
+from . import floor
+from .experiment import Size
+from .selection import Selection
+
+LEAST_LEFT = 0.001
+"""Share of the power of a signal that must be left more with the values of the file for them to be worth a word."""
+
+TOLD = 2
+"""Signals of which it is told."""
+
+
+@dataclass(frozen=True)
+class Held:
+    """A parameter of the vehicle that calibration holds: the value that it is ``given`` with, and the ``value`` that the drives give it, with
+    its 90 % ``interval``."""
+
+    parameter: str
+    unit: str
+    given: float
+    value: float
+    interval: tuple[float, float]
+
+    def words(self) -> str:
+        """Such as "roll_inertia 595 kg m2 (588 to 603) for 572"."""
+        value, lower, upper, given = (f"{float(f'{number:.4g}'):g}" for number in (self.value, *self.interval, self.given))
+        return f"{self.parameter} {value} {self.unit}".removesuffix(" 1") + f" ({lower} to {upper}) for {given}"
+
+
+@dataclass(frozen=True)
+class OffFile:
+    """``parameters`` that calibration holds beside the values that drives give them; ``left``: share of the power of each signal that is left
+    more by it, of what is judged."""
+
+    parameters: tuple[Held, ...]
+    left: Mapping[str, float] = field(default_factory=dict)
+
+    def words(self) -> str:
+        """What they are, and what holding them costs."""
+        most = sorted((name for name in self.left if self.left[name] >= LEAST_LEFT), key=lambda name: -self.left[name])[:TOLD]
+        left = " and ".join(f"{100 * self.left[name]:.1f} % of the power of {name}" for name in most)
+        return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds: at the values of the file {left} more is left"
+
+
+def off_file(selection: Selection) -> OffFile | None:
+    """What calibration holds beside the drives in the last model of a selection; None where the intervals hold the values of the file, or
+    hardly more is left with these.
+
+    All else that was fitted makes good what it can of values that are held otherwise, as a calibration would.
+    """
+    final, frame, fit = selection.final, selection.frame, selection.states[-1].fit
+    held = [size for size in frame.experiment.free if size.held and _is_off(size, selection)]
+    if not held:
+        return None
+    try:
+        residuals = exp.simulate(frame.experiment, {**fit.values, **_at_file(selection, held)}, frame.indices)
+    except (InputError, ValueError):  # a vehicle that cannot be driven
+        return None
+    measured = {index: frame.experiment.measured(index) for index in frame.indices}
+    with_file, with_own = (floor.squares(frame.experiment, frame.all_cleaned(those)) for those in (residuals, fit.residuals))
+    left = (with_file - with_own).mean(axis=0) / floor.squares(frame.experiment, measured).mean(axis=0)
+    if not np.max(left) >= LEAST_LEFT:
+        return None
+    told = (Held(size.key, size.unit, size.neutral, final.values[size.key], selection.intervals[size.key]) for size in held)
+    return OffFile(tuple(told), dict(zip(frame.experiment.channels, left.tolist())))
+
+
+def _is_off(size: Size, selection: Selection) -> bool:
+    """Whether the interval of a parameter does not hold the value that it is given with."""
+    lower, upper = selection.intervals[size.key]
+    return not lower <= size.neutral <= upper
+
+
+def _at_file(selection: Selection, held: Sequence[Size]) -> dict[str, float]:
+    """The values of the last model with those that are ``held`` at the vehicle's file, all others as they come closest to it then: by its
+    linear columns."""
+    fit, experiment = selection.states[-1].fit, selection.frame.experiment
+    every = [*experiment.free, *(size for candidate in experiment.candidates for size in (*candidate.sizes, *candidate.shaping))]
+    known = {size.key: size for size in every}
+    moved = {size.key: size.neutral - fit.values[size.key] for size in held}
+    columns = dict(zip(fit.keys, fit.columns))
+    change = sum(way / known[key].probe * columns[key] for key, way in moved.items())
+    others = [key for key in fit.keys if key in known and key not in moved]
+    if not others:
+        return {key: fit.values[key] + way for key, way in moved.items()}
+    steps = np.linalg.lstsq(np.stack([columns[key] for key in others], axis=1), -change, rcond=None)[0]
+    for key, step in zip(others, steps.tolist()):
+        own = known[key]
+        moved[key] = float(np.clip(fit.values[key] + step * own.probe, own.lower, own.upper)) - fit.values[key]
+    return {key: fit.values[key] + way for key, way in moved.items()}
