@@ -16,6 +16,9 @@ from .selection import Selection
 LEAST_LEFT = 0.001
 """Share of the power of a signal that must be left more with the values of the file for them to be worth a word."""
 
+LEAST_POWER = 0.05
+"""White power of what one of them does alone, against the most that any does, from which on it is told."""
+
 TOLD = 2
 """Signals of which it is told."""
 
@@ -59,7 +62,7 @@ def off_file(selection: Selection) -> OffFile | None:
     All else that was fitted makes good what it can of values that are held otherwise, as a calibration would.
     """
     final, frame, fit = selection.final, selection.frame, selection.states[-1].fit
-    held = [size for size in frame.experiment.free if size.held and _is_off(size, selection)]
+    held = _much([size for size in frame.experiment.free if size.held and _is_off(size, selection)], selection)
     if not held:
         return None
     try:
@@ -81,20 +84,44 @@ def _is_off(size: Size, selection: Selection) -> bool:
     return not lower <= size.neutral <= upper
 
 
+def _much(off: Sequence[Size], selection: Selection) -> list[Size]:
+    """Those of the sizes that do much where they are not as the file says, and nothing else that is fitted makes good."""
+    columns = _columns(selection)
+    others = [columns[key] for key in columns if key not in {size.key for size in off}]
+    power = [np.sum(_left(_way(size, selection) * columns[size.key], others) ** 2) for size in off]
+    return [size for size, own in zip(off, power) if own >= LEAST_POWER * max(power)]
+
+
 def _at_file(selection: Selection, held: Sequence[Size]) -> dict[str, float]:
     """The values of the last model with those that are ``held`` at the vehicle's file, all others as they come closest to it then: by its
     linear columns."""
-    fit, experiment = selection.states[-1].fit, selection.frame.experiment
-    every = [*experiment.free, *(size for candidate in experiment.candidates for size in (*candidate.sizes, *candidate.shaping))]
-    known = {size.key: size for size in every}
-    moved = {size.key: size.neutral - fit.values[size.key] for size in held}
-    columns = dict(zip(fit.keys, fit.columns))
-    change = sum(way / known[key].probe * columns[key] for key, way in moved.items())
-    others = [key for key in fit.keys if key in known and key not in moved]
-    if not others:
-        return {key: fit.values[key] + way for key, way in moved.items()}
-    steps = np.linalg.lstsq(np.stack([columns[key] for key in others], axis=1), -change, rcond=None)[0]
-    for key, step in zip(others, steps.tolist()):
-        own = known[key]
-        moved[key] = float(np.clip(fit.values[key] + step * own.probe, own.lower, own.upper)) - fit.values[key]
-    return {key: fit.values[key] + way for key, way in moved.items()}
+    experiment, columns, values = selection.frame.experiment, _columns(selection), dict(selection.states[-1].fit.values)
+    sizes = [*experiment.free, *(size for candidate in experiment.candidates for size in (*candidate.sizes, *candidate.shaping))]
+    known, own = {size.key: size for size in sizes}, {size.key for size in held}
+    others = [key for key in columns if key in known and key not in own]
+    change = sum(_way(size, selection) * columns[size.key] for size in held)
+    for key, step in zip(others, _steps(change, [columns[key] for key in others])):
+        size = known[key]
+        values[key] = float(np.clip(values[key] - step * size.probe, size.lower, size.upper))
+    return {**values, **{size.key: size.neutral for size in held}}
+
+
+def _columns(selection: Selection) -> dict[str, np.ndarray]:
+    """White change per probe of all that the last model fits, by key."""
+    fit = selection.states[-1].fit
+    return dict(zip(fit.keys, fit.columns))
+
+
+def _way(size: Size, selection: Selection) -> float:
+    """Probes from the value of the last model to that of the file."""
+    return (size.neutral - selection.states[-1].fit.values[size.key]) / size.probe
+
+
+def _steps(change: np.ndarray, columns: Sequence[np.ndarray]) -> np.ndarray:
+    """Steps along columns whose sum comes closest to a change."""
+    return np.linalg.lstsq(np.stack(columns, axis=1), change, rcond=None)[0] if len(columns) else np.zeros(0)
+
+
+def _left(change: np.ndarray, columns: Sequence[np.ndarray]) -> np.ndarray:
+    """What columns leave of a change."""
+    return change - sum((step * column for step, column in zip(_steps(change, columns), columns)), np.zeros_like(change))

@@ -1,0 +1,70 @@
+"""Parameters that calibration holds are told where drives give them other values than the vehicle's file, and that matters."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridecomfort.discrepancy import judge, select
+from ridecomfort.discrepancy.experiment import Size
+from ridecomfort.discrepancy.off_file import off_file
+
+from .coloured import coloured
+from .linear import SAMPLES, Linear
+
+
+class OfVehicle(Linear):
+    """A linear model whose vehicle has an inertia and a height, too, that calibration holds at nil."""
+
+    def __init__(self, truth, power=30.0):
+        super().__init__(6, truth, library=2)
+        random = np.random.default_rng(60)
+        held = [Size(key, "kg m2", 0.0, -5.0, 5.0, 0.1, held=True) for key in ("inertia", "height")]
+        self.free += tuple(held)
+        for columns in {id(own): own for own in self.columns}.values():
+            columns.update({size.key: coloured(random, SAMPLES) for size in held})
+        self.signals = np.sqrt(power) * coloured(random, SAMPLES)
+
+    def measured(self, index):
+        return self.signals
+
+
+def searched(model):
+    return select.select(model, dict.fromkeys(("stiffness", "inertia", "height"), 0.0), most=1)
+
+
+def test_one_that_drives_find_elsewhere_is_told_with_its_interval_and_with_what_holding_it_costs():
+    selection = searched(OfVehicle({"inertia": 1.5, "effect_1.size": 1.0}))
+    found = off_file(selection)
+    (inertia,) = found.parameters
+    assert (inertia.parameter, inertia.unit, inertia.given) == ("inertia", "kg m2", 0.0)
+    assert inertia.value == pytest.approx(1.5, abs=0.1) and inertia.interval[0] < 1.5 < inertia.interval[1]
+    mean = np.mean(list(found.left.values()))
+    assert mean == pytest.approx(1.5**2 / 30.0, rel=0.3), "the power of its column is one, that of the signals thirty"
+    assert found.words().startswith("the drives ask for inertia 1.") and "which calibration holds" in found.words()
+
+
+def test_its_verdict_says_so_and_names_what_is_missing_beside_it():
+    model = OfVehicle({"inertia": 1.5, "effect_1.size": 1.0})
+    selection = searched(model)
+    found = judge.with_held(judge.judge(selection, model.candidates), off_file(selection))
+    assert [effect.name for effect in found.effects] == ["effect_1"] and found.reasons[-1] == found.off_file.words()
+    assert found.json()["off_file"]["parameters"][0]["parameter"] == "inertia"
+
+
+def test_where_drives_agree_with_the_file_nothing_is_told():
+    model = OfVehicle({"effect_1.size": 1.0})
+    selection = searched(model)
+    assert off_file(selection) is None
+    said = judge.judge(selection, model.candidates)
+    assert judge.with_held(said, None) is said
+
+
+def test_nor_where_it_matters_to_no_signal():
+    assert off_file(searched(OfVehicle({"inertia": 1.5}, power=1e4))) is None
+
+
+def test_what_does_little_beside_another_is_not_told():
+    """The height is surely not as the file says, but does a hundredth of what the inertia does."""
+    (inertia,) = off_file(searched(OfVehicle({"inertia": 4.0, "height": 0.4}))).parameters
+    assert inertia.parameter == "inertia"
