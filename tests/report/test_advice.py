@@ -126,6 +126,16 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
         assert said.startswith("verdict Something is missing that is not in the library. (outside)") and "Nothing is to be switched on" not in said
 
 
+def test_parameters_that_calibration_holds_beside_the_drives_are_to_be_calibrated_too():
+    inertia = {"parameter": "roll_inertia", "unit": "kg m2", "given": 572.0, "value": 589.0, "interval": [588.0, 590.0]}
+    off = {"parameters": [inertia, {**inertia, "parameter": "damping_front"}], "left": {"roll_rate": 0.002}}
+    for said in (made_up.VERDICT, made_up.nothing()):
+        told = rows(diagnosed.tables(made_up.diagnosis({**said, "off_file": off}))["verdict"])
+        assert [row["what"] for row in told][-2:] == ["the vehicle's file", "next"]
+        assert told[-2]["in_words"].startswith("Add roll_inertia, damping_front to calibration: parameters in config/study.yaml")
+    assert "the vehicle's file" not in [row["what"] for row in rows(diagnosed.tables(made_up.diagnosis())["verdict"])]
+
+
 def test_parameters_that_are_another_explanation_come_last():
     bar = {"parameter": "anti_roll_stiffness_rear", "unit": "N m/rad", "given": 10000.0, "bounds": [8500.0, 11500.0],
            "wider": [2833.3, 34500.0], "value": 19900.0, "interval": [19000.0, 20800.0]}  # fmt: skip

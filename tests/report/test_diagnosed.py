@@ -36,6 +36,13 @@ def test_of_each_effect_that_is_named_its_sizes_are_told(kind, is_told):
     assert told.get("suspension friction") == (expected if is_told else None)
 
 
+def test_a_size_that_is_known_well_is_told_with_the_digits_of_its_interval():
+    size = {"parameter": "frequency", "unit": "Hz", "size": 21.0133, "interval": [20.9981, 21.0285], "plausible": [12.0, 40.0], "is_plausible": True}
+    effect = {**made_up.VERDICT["effects"][0], "sizes": [size]}
+    told = rows(diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "effects": [effect]}))["verdict"])
+    assert told[1]["in_words"].startswith("Frequency 21.01 Hz (21 to 21.03).")
+
+
 @pytest.mark.parametrize("is_of_measurement, first", [(False, "no effect is named."), (True, "suspension friction.")])
 def test_of_suspect_data_only_errors_of_the_measurement_are_named(is_of_measurement, first):
     (effect,) = made_up.VERDICT["effects"]

@@ -104,10 +104,17 @@ def _found(effect: Mapping) -> str:
 
 
 def _size(size: Mapping) -> str:
-    """A size with its interval, in words."""
-    value, lower, upper = (f"{number:.3g}" for number in (size["size"], *size["interval"]))
+    """A size with its interval, in words: with as many digits as tell its ends apart."""
+    numbers = (size["size"], *size["interval"])
+    value, lower, upper = (f"{number:.{_digits(numbers)}g}" for number in numbers)
     amount = value if size["unit"] == "1" else f"{value} {unit(size['unit'])}"
     return f"{words(size['parameter'])} {amount} ({lower} to {upper})"
+
+
+def _digits(numbers: Sequence[float]) -> int:
+    """Significant digits with which numbers are told: three, or as many as the distance between the least and the largest takes."""
+    largest, width = max(map(abs, numbers)), max(numbers) - min(numbers)
+    return 3 if width == 0.0 else min(max(int(np.ceil(np.log10(largest / width))) + 1, 3), 6)
 
 
 def missing_effects(found: Diagnosis) -> Table:
