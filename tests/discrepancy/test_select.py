@@ -277,6 +277,18 @@ def test_effects_that_look_alike_are_named_as_a_cluster():
     assert {found.effects[0].name, *found.effects[0].like} == {"effect_2", "effect_5"}
 
 
+@pytest.mark.parametrize(("part", "is_told"), [(0.95, True), (0.8, False)])
+def test_what_would_have_done_nearly_as_much_is_told(part, is_told):
+    model = Linear(1, {"effect_2.size": 1.5})
+    selection, _ = judged(model)
+    (turn, *others), winner = selection.rounds, selection.rounds[0].winner
+    rival = replace(winner, name="effect_4", share=part * winner.share, held_out_share=0.98 * winner.held_out_share, gain=winner.gain - 12.0)
+    found = judge.judge(replace(selection, rounds=(replace(turn, trials=(winner, rival)), *others)), model.candidates)
+    told = [reason for reason in found.reasons if reason.startswith("effect_4 in the place of effect_2 removes nearly as much")]
+    assert bool(told) is is_told and found.verdict == "named" and [effect.name for effect in found.effects] == ["effect_2"]
+    assert not told or told[0].endswith("2 ln L is lower by 12")
+
+
 def test_what_no_candidate_explains_is_said_to_lie_outside_the_library():
     model = Linear(4, {"effect_5.size": 0.6})
     model.candidates = model.candidates[:5]

@@ -30,6 +30,9 @@ DRIVEN = "something that is missing may drive it there"
 BEYOND = "; if the car may lie beyond, have it calibrated in wider bounds (calibration: parameters, bounds)"
 """...where there can be more or less of them."""
 
+NEARLY = 0.9
+"""Share of what an effect removes, of fitted and of held-out drives, from which on another that was refitted is told beside it."""
+
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
 
@@ -88,6 +91,7 @@ def judge(
     elif effects:
         kind = "cluster" if any(effect.like for effect in effects) else "named"
         reasons += [_alike(effect) for effect in effects if effect.like]
+        reasons += [said for effect in effects for said in _nearly(selection, effect)]
     else:
         kind = "nothing"
     if kind != "outside" and balance.is_shared and not balance.is_left:
@@ -191,6 +195,21 @@ def _unexplained(selection: Selection, balance: Balance, is_little: bool) -> str
 def _alike(effect: Named) -> str:
     where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like)
     return f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}"
+
+
+def _nearly(selection: Selection, effect: Named) -> list[str]:
+    """What would have done nearly as much in the place of an effect, in words."""
+    turn = next(turn for turn in selection.rounds if turn.winner is not None and turn.winner.name == effect.name)
+    told = []
+    for trial in turn.trials:
+        pairs = (trial.share, turn.winner.share), (trial.held_out_share, turn.winner.held_out_share)
+        known = [(own, most) for own, most in pairs if np.isfinite(own) and np.isfinite(most)]
+        is_rival = trial.name not in (*selection.accepted, *effect.like) and all(own >= NEARLY * most > 0.0 for own, most in known)
+        if is_rival:
+            removed = " and ".join(_percent(own) for own, _ in known)
+            less = turn.winner.gain - trial.gain
+            told.append(f"{trial.name} in the place of {effect.name} removes nearly as much ({removed}), but drives are less likely with it: 2 ln L is lower by {less:.0f}")
+    return told
 
 
 def _floor(selection: Selection) -> str:
