@@ -228,6 +228,18 @@ def test_a_dead_channel_is_refused_with_its_column_and_value(tmp_path, dead, sai
     assert message.startswith(f"{path}: column 'p [deg/s]': {said}") and "expected at least 3 different values" in message
 
 
+def test_a_rate_in_degrees_that_is_said_to_be_in_radians_is_refused_with_its_column(tmp_path):
+    turning = table().assign(p=3.0 * np.sin(np.arange(1000)))
+    wrong, right = ({**COLUMNS, "roll_rate": {"column": "p", "unit": unit}} for unit in ("rad/s", "deg/s"))
+    path = write(tmp_path, turning)
+    with pytest.raises(InputError) as problem:
+        readers.read(path, wrong)
+    assert str(problem.value) == (
+        f"{path}: column 'p': roll_rate has a root mean square of 2.12 rad/s (expected at most 0.5 rad/s; is its unit right?)"
+    )
+    assert np.std(readers.read(path, right)["roll_rate"].values) < 0.05
+
+
 def test_a_coarse_channel_is_kept_and_so_is_a_simulated_vehicle_that_does_not_roll(tmp_path):
     coarse = table().assign(**{"r [deg/s]": np.round(0.6 * np.sin(np.arange(1000)))})  # -1, 0 and 1: the last digit
     assert set(np.round(np.degrees(readers.read(write(tmp_path, coarse), COLUMNS)["yaw_rate"].values), 9)) == {-1.0, 0.0, 1.0}

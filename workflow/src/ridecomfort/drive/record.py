@@ -35,6 +35,9 @@ FINEST = 1e-6
 FEWEST = 3
 """Values that a signal takes on at least: a coarse gyroscope on a straight road still reads nought and a step to either side."""
 
+FASTEST = {"roll_rate": 0.5, "pitch_rate": 0.5, "yaw_rate": 1.5}
+"""rad/s (rms); what turns faster all along a drive is in degrees a second, not a road vehicle."""
+
 ROLES = ("fit", "check")
 """A drive is fitted, or kept for checking and never fitted."""
 
@@ -196,6 +199,17 @@ def check_alive(name: str, values: np.ndarray, *, file=None, place: str | None =
             f"(expected at least {FEWEST} different values; was the sensor dead, or the column filled?)",
             file=file,
             place=place or name,
+        )
+
+
+def check_turning(name: str, values: np.ndarray, *, file=None, place: str | None = None) -> None:
+    """InputError where a measured signal (SI units) is an angular rate and larger than that of any road vehicle, as one in another unit is."""
+    found = np.asarray(values, dtype=float)
+    rms = float(np.sqrt(np.mean(np.square(found[np.isfinite(found)])))) if np.isfinite(found).any() else 0.0
+    if rms > FASTEST.get(name, np.inf):
+        most = f"{FASTEST[name]:g} {VARIABLES[name].unit}"
+        raise InputError(
+            f"{name} has a root mean square of {rms:.3g} {VARIABLES[name].unit} (expected at most {most}; is its unit right?)", file=file, place=place or name
         )
 
 

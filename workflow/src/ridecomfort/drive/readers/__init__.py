@@ -61,7 +61,8 @@ def read(path, columns: Mapping[str, Mapping] | None = None, *, measured: bool =
 
     ``columns`` maps quantities to ``{"column": ..., "unit": ..., "factor": 1}``.
     Attributes given here (name, role, gravity, sensor, ...) win over what the file says. A signal that is constant is
-    refused where it was ``measured``; a simulated vehicle need not roll or yaw on an even, straight road.
+    refused where it was ``measured``, for a simulated vehicle need not roll or yaw on an even, straight road; so is an angular rate that no
+    road vehicle has.
     """
     from .. import record
 
@@ -73,4 +74,5 @@ def read(path, columns: Mapping[str, Mapping] | None = None, *, measured: bool =
         if signal in quantities:
             column = (columns or {}).get(signal, {}).get("column", signal)
             record.check_alive(signal, quantities[signal][1], file=path, place=f"column {column!r}")
+            record.check_turning(signal, quantities[signal][1], file=path, place=f"column {column!r}")
     return record.from_arrays(quantities, **{"name": path.stem, **own, **attributes}, file=path)
