@@ -274,3 +274,8 @@ def test_ports_are_all_in_use():
     assert {entry.effect.port for entry in ENTRIES.values()} == set(PORTS)
     assert set(COMPILED) < set(PORTS)
     assert FOLDER.is_dir()
+
+
+def test_the_example_in_the_instructions_is_one_of_the_users_effects(repository):
+    example = repository / "tests" / "contract" / "user_effects" / "damper_quadratic.py"
+    assert example.read_text(encoding="utf-8").strip() in (repository / "CONTRIBUTING.md").read_text(encoding="utf-8")
