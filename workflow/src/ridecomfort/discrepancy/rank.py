@@ -108,8 +108,9 @@ def suspicions(experiment: Car, selection: Selection, is_explained: bool, is_lef
     first, last = selection.states[0], selection.states[-1]
     reasons += suspect.of_signals(experiment, first.fit.residuals)
     reasons += suspect.of_clocks(experiment, selection.frame)
-    is_floor_known = selection.has_repeats or selection.floor_squares.any()
-    if is_floor_known and not is_explained and not is_left:
+    # Without repeats clock and gains of what an effect does to every signal pass for those of the record.
+    is_asked = selection.has_repeats or selection.floor_squares.any() and not selection.accepted
+    if is_asked and not is_explained and not is_left:
         reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
     sites = {experiment.records[index].site: index for index in reversed(selection.frame.indices)}
     for index in sites.values():
