@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import InputError
+from . import evidence, floor
 from . import experiment as exp
-from . import floor
 from .experiment import Size
 from .selection import Selection
 
@@ -86,42 +86,39 @@ def _is_off(size: Size, selection: Selection) -> bool:
 
 def _much(off: Sequence[Size], selection: Selection) -> list[Size]:
     """Those of the sizes that do much where they are not as the file says, and nothing else that is fitted makes good."""
-    columns = _columns(selection)
-    others = [columns[key] for key in columns if key not in {size.key for size in off}]
-    power = [np.sum(_left(_way(size, selection) * columns[size.key], others) ** 2) for size in off]
+    normal, keys, ways = _normal(selection), selection.states[-1].fit.keys, _ways(off, selection)
+    others = [k for k, key in enumerate(keys) if key not in ways]
+    left = normal - normal[:, others] @ _steps(normal, others, normal)
+    power = [ways[size.key] ** 2 * left[keys.index(size.key), keys.index(size.key)] for size in off]
     return [size for size, own in zip(off, power) if own >= LEAST_POWER * max(power)]
 
 
 def _at_file(selection: Selection, held: Sequence[Size]) -> dict[str, float]:
     """The values of the last model with those that are ``held`` at the vehicle's file, all others as they come closest to it then: by its
     linear columns."""
-    experiment, columns, values = selection.frame.experiment, _columns(selection), dict(selection.states[-1].fit.values)
+    experiment, fit, ways = selection.frame.experiment, selection.states[-1].fit, _ways(held, selection)
     sizes = [*experiment.free, *(size for candidate in experiment.candidates for size in (*candidate.sizes, *candidate.shaping))]
-    known, own = {size.key: size for size in sizes}, {size.key for size in held}
-    others = [key for key in columns if key in known and key not in own]
-    change = sum(_way(size, selection) * columns[size.key] for size in held)
-    for key, step in zip(others, _steps(change, [columns[key] for key in others])):
-        size = known[key]
-        values[key] = float(np.clip(values[key] - step * size.probe, size.lower, size.upper))
+    known, values, normal = {size.key: size for size in sizes}, dict(fit.values), _normal(selection)
+    others = [k for k, key in enumerate(fit.keys) if key in known and key not in ways]
+    change = sum(way * normal[:, fit.keys.index(key)] for key, way in ways.items())
+    for k, step in zip(others, _steps(normal, others, change)):
+        size = known[fit.keys[k]]
+        values[size.key] = float(np.clip(values[size.key] - step * size.probe, size.lower, size.upper))
     return {**values, **{size.key: size.neutral for size in held}}
 
 
-def _columns(selection: Selection) -> dict[str, np.ndarray]:
-    """White change per probe of all that the last model fits, by key."""
-    fit = selection.states[-1].fit
-    return dict(zip(fit.keys, fit.columns))
+def _normal(selection: Selection) -> np.ndarray:
+    """Products of the white changes per probe of all that the last model fits, in the order of its keys."""
+    columns = selection.states[-1].fit.columns
+    return evidence.product(columns, columns)
 
 
-def _way(size: Size, selection: Selection) -> float:
-    """Probes from the value of the last model to that of the file."""
-    return (size.neutral - selection.states[-1].fit.values[size.key]) / size.probe
+def _ways(sizes: Sequence[Size], selection: Selection) -> dict[str, float]:
+    """Probes from the value of the last model to that of the file, by key."""
+    values = selection.states[-1].fit.values
+    return {size.key: (size.neutral - values[size.key]) / size.probe for size in sizes}
 
 
-def _steps(change: np.ndarray, columns: Sequence[np.ndarray]) -> np.ndarray:
-    """Steps along columns whose sum comes closest to a change."""
-    return np.linalg.lstsq(np.stack(columns, axis=1), change, rcond=None)[0] if len(columns) else np.zeros(0)
-
-
-def _left(change: np.ndarray, columns: Sequence[np.ndarray]) -> np.ndarray:
-    """What columns leave of a change."""
-    return change - sum((step * column for step, column in zip(_steps(change, columns), columns)), np.zeros_like(change))
+def _steps(normal: np.ndarray, others: Sequence[int], change: np.ndarray) -> np.ndarray:
+    """Steps of those others whose sum comes closest to what has these products (key, ...) with every column."""
+    return np.linalg.pinv(normal[np.ix_(others, others)], hermitian=True) @ change[others]
