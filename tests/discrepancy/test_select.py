@@ -282,7 +282,8 @@ def test_what_would_have_done_nearly_as_much_is_told(part, is_told):
     model = Linear(1, {"effect_2.size": 1.5})
     selection, _ = judged(model)
     (turn, *others), winner = selection.rounds, selection.rounds[0].winner
-    rival = replace(winner, name="effect_4", share=part * winner.share, held_out_share=0.98 * winner.held_out_share, gain=winner.gain - 12.0)
+    squares = winner.before.squares - part * (winner.before.squares - winner.after.squares)
+    rival = replace(winner, name="effect_4", after=replace(winner.after, squares=squares), gain=winner.gain - 12.0)
     found = judge.judge(replace(selection, rounds=(replace(turn, trials=(winner, rival)), *others)), model.candidates)
     told = [reason for reason in found.reasons if reason.startswith("effect_4 in the place of effect_2 removes nearly as much")]
     assert bool(told) is is_told and found.verdict == "named" and [effect.name for effect in found.effects] == ["effect_2"]

@@ -200,15 +200,14 @@ def _alike(effect: Named) -> str:
 def _nearly(selection: Selection, effect: Named) -> list[str]:
     """What would have done nearly as much in the place of an effect, in words."""
     turn = next(turn for turn in selection.rounds if turn.winner is not None and turn.winner.name == effect.name)
+    removed = lambda trial: shares(selection, trial.before, trial.after)
     told = []
     for trial in turn.trials:
-        pairs = (trial.share, turn.winner.share), (trial.held_out_share, turn.winner.held_out_share)
-        known = [(own, most) for own, most in pairs if np.isfinite(own) and np.isfinite(most)]
+        known = [(own, most) for own, most in zip(removed(trial), removed(turn.winner)) if np.isfinite(own) and np.isfinite(most)]
         is_rival = trial.name not in (*selection.accepted, *effect.like) and all(own >= NEARLY * most > 0.0 for own, most in known)
-        if is_rival:
-            removed = " and ".join(_percent(own) for own, _ in known)
-            less = turn.winner.gain - trial.gain
-            told.append(f"{trial.name} in the place of {effect.name} removes nearly as much ({removed}), but drives are less likely with it: 2 ln L is lower by {less:.0f}")
+        if is_rival and known:
+            much, less = " and ".join(_percent(own) for own, _ in known), turn.winner.gain - trial.gain
+            told.append(f"{trial.name} in the place of {effect.name} removes nearly as much ({much}), but drives are less likely with it: 2 ln L is lower by {less:.0f}")
     return told
 
 
