@@ -11,6 +11,7 @@ import csv
 import time
 from collections.abc import Collection, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -32,8 +33,9 @@ SHARES = {"clean": 8, "messy": 4, "another shape": 1, "another setting": 2, "two
 """Trials of each kind in a round."""
 
 
-def one(job: tuple[str, int, int]) -> dict | None:
-    """A trial (kind, seed, number of its kind) as a row of trials.csv; None where so much is hidden that the car does not arrive."""
+def one(job: tuple[str, int, int], alone: bool = False) -> dict | None:
+    """A trial (kind, seed, number of its kind) as a row of trials.csv; None where so much is hidden that the car does not arrive. ``alone``:
+    without the repeats of the first drive."""
     kind, seed, number = job
     car = parameters.read(REPOSITORY / "config" / "vehicles" / "midsize.yaml")
     draw = kinds.draw(kind, seed, number)
@@ -46,8 +48,9 @@ def one(job: tuple[str, int, int]) -> dict | None:
         print(kind, "+".join(draw.hidden), f"no trial: {problem}", sep=" | ", flush=True)
         return None
     among = [name for name in library.find() if name not in draw.missing]
+    measured, noise_density = trials.alone(trial) if alone else (trial.measured, None)
     start = time.process_time()
-    table, verdict, proposal = discrepancy.diagnose(trial.measured, car, among=among, seed=number, workers=1)
+    table, verdict, proposal = discrepancy.diagnose(measured, car, among=among, seed=number, workers=1, noise_density=noise_density)
     seconds = time.process_time() - start
     row = {"kind": kind, "seed": seed, "number": number, "hidden": "+".join(draw.hidden), "kappa": draw.kappa}
     row |= {"reached": trial.truth["reached"], **score.score(draw, trial.truth, table, verdict)}
@@ -81,13 +84,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--rounds", type=int, default=8, help=f"rounds of {sum(SHARES.values())} trials of all kinds (default 8)")
     parser.add_argument("--seed", type=int, default=1, help="of the trials (default 1)")
     parser.add_argument("--kinds", nargs="+", choices=list(SHARES), default=list(SHARES), metavar="KIND", help="of these kinds alone")
+    parser.add_argument("--alone", action="store_true", help="with one fitted drive, not three repeats, the noise of the instruments being known")
     parser.add_argument("--workers", type=int, default=2, help="trials at a time (default 2)")
     parser.add_argument("--output", type=Path, default=REPOSITORY / "results" / "blind")
     options = parser.parse_args(arguments)
     options.output.mkdir(parents=True, exist_ok=True)
     rows: list[dict] = []
     with ProcessPoolExecutor(options.workers) as pool:
-        for row in pool.map(one, jobs(options.rounds, options.seed, options.kinds)):
+        for row in pool.map(partial(one, alone=options.alone), jobs(options.rounds, options.seed, options.kinds)):
             if row is None:
                 continue
             rows.append(row)

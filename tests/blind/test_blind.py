@@ -90,6 +90,15 @@ def test_a_trial_becomes_a_row_and_rows_a_table(car_file):
     assert "| first name right, clean, kappa >= 0.3 | 95 % | 100 %" in table and "oracle" in table
 
 
+def test_of_a_trial_without_repeats_the_search_is_given_one_drive_beside_that_held_out_and_the_noise_of_both(car_file):
+    trial = trials.make(5, parameters.read(car_file), {})
+    measured, noise_density = trials.alone(trial)
+    (_, drives), densities = measured["trial"], noise_density["trial"]
+    assert [drive.attrs["role"] for drive in drives] == ["fit", "check"] and set(densities) == {"drive_1", "drive_4"}
+    # White noise of this density fills the records up to half of their rate.
+    assert densities["drive_1"]["gyroscope"] * np.sqrt(50.0) == pytest.approx(trials.GYROSCOPE)
+
+
 def test_a_road_that_is_interpolated_otherwise_is_no_missing_effect(car_file):
     car = parameters.read(car_file)
     trial = trials.make(104, car, {}, 1.0, interpolation="linear")

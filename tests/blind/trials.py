@@ -27,8 +27,11 @@ from tests.vehicle.roads import rough
 LENGTH, SPEED, SLOWER = 700.0, 22.0, 0.75
 """m of road, m/s of the repeats, share of it at which the drive held out goes."""
 
+RATE = 100.0
+"""Hz, of the records."""
+
 ACCELEROMETER, GYROSCOPE = 0.03, 0.001
-"""m/s2 and rad/s rms of noise at 100 Hz: instrument, mount and engine, 5 to 30 % of what the road makes."""
+"""m/s2 and rad/s rms of noise at RATE: instrument, mount and engine, 5 to 30 % of what the road makes."""
 
 PATH_ERROR, PATH_LENGTH = 0.02, 30.0
 """m by which the recorded path is wrong (rms), and over which length."""
@@ -135,6 +138,16 @@ def make(
         drives = [align.align(record, scanned, car, simulate=simulate.run) for record in drives]
     truth = {"effects": sizes, "car": hidden, "kappa": kappa, "reached": min(reached[: len(effects)], default=0.0)}
     return Trial({"trial": (road, drives)}, truth)
+
+
+def alone(trial: Trial) -> tuple[dict[str, tuple], dict]:
+    """What the search is given of a trial where no drive was repeated: the first of the repeats and the drive held out, and by site and drive
+    the densities of the noise that they hold."""
+    ((site, (road, drives)),) = trial.measured.items()
+    kept = [drives[0], drives[-1]]
+    per_root_hertz = np.sqrt(2.0 / RATE)
+    known = {"accelerometer": ACCELEROMETER * per_root_hertz, "gyroscope": GYROSCOPE * per_root_hertz}
+    return {site: (road, kept)}, {site: {drive.attrs["name"]: known for drive in kept}}
 
 
 def _quiet(names: Sequence[str]) -> dict[str, dict[str, float]]:
@@ -244,8 +257,8 @@ class Remains:
 
 def _judged(series: np.ndarray) -> np.ndarray:
     """Series (..., 6, sample) in the band that is judged, the second at both ends left out."""
-    fast = judged.judged(series, 100.0, SIGNALS)
-    return judged.band(fast, 100.0, (0.0, opening.HIGHEST * 50.0))[..., 100:-100]
+    fast = judged.judged(series, RATE, SIGNALS)
+    return judged.band(fast, RATE, (0.0, opening.HIGHEST * 0.5 * RATE))[..., 100:-100]
 
 
 def _scale(remains: Remains, drive, effects, kappa: float) -> tuple[float, float]:
