@@ -165,6 +165,14 @@ def test_what_is_written_below_the_maps_has_room(study, monkeypatch):
     assert made.bbox.x0 <= written.x0 and written.x1 <= made.bbox.x1 and made.bbox.y0 < written.y0
 
 
+def test_what_may_be_chance_is_not_on_the_map(study):
+    own = study.sites[0].comparison.sel(signal="a_z")
+    for times, is_seen in ((1.9, False), (2.1, True)):
+        noisy = own.assign(error_map=times * own["floor_density"].broadcast_like(own["error_map"]), floor_density=own["floor_density"])
+        _, above = located._above(noisy)
+        assert above.shape[0] == own.sizes["s_map"] and above.any() == is_seen
+
+
 def test_maps_of_two_models_compare_by_their_colours(study):
     site = study.sites[0]
     better = Compared(site.name, site.measured, made_up.comparison((0.5, 0.1)))

@@ -22,6 +22,9 @@ from ..units import printed
 PALEST, DARKEST = 0.1, 30.0
 """Ends of the colours in percent of the signal's power per octave: the same for every model and site, so that maps compare."""
 
+CHANCE = 2.0
+"""Times the floor up to which the error of a cell may be chance: below it lay 99 % of the cells of a signal that was all noise."""
+
 TICKS = (0.1, 0.3, 1, 3, 10, 30)
 
 UNCOUNTED = "#E1E3E6"
@@ -80,7 +83,7 @@ def located(site: Compared, model: str) -> Figure:
     bar = drawn.colorbar(image, cax=top[0], orientation="horizontal", extend="both")
     bar.set_ticks(TICKS, labels=[f"{tick:g}" for tick in TICKS])
     bar.ax.minorticks_off()
-    bar.set_label("error above the floor, same colours for every model [% of the signal's power per octave]")
+    bar.set_label("error above the floor, where the error is more than twice the floor [% of the signal's power per octave]")
     top[0].xaxis.set_ticks_position("top")
     top[0].xaxis.set_label_position("top")
     below = panels[-1][0]
@@ -96,13 +99,15 @@ def located(site: Compared, model: str) -> Figure:
 
 
 def _above(found: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies (Hz), and error above the floor, (place, frequency), in percent of the signal's measured power per octave."""
+    """Frequencies (Hz), and error above the floor, (place, frequency), in percent of the signal's measured power per octave; nil where it may be
+    CHANCE."""
     lines = found["frequency_map"].values
     rows = np.unique(np.round(PER_OCTAVE * np.log2(lines)), return_inverse=True)[1]
     mean = lambda values: np.stack([values[..., rows == row].mean(axis=-1) for row in range(rows.max() + 1)], axis=-1)  # noqa: E731
     frequency, power = mean(lines), float(found["measured_power"].sum())
-    above = mean(found["error_map"].values - found["floor_density"].values)
-    return frequency, 100 * np.log(2) * frequency * np.maximum(above, 0.0) / (power or np.inf)
+    error, floor = mean(found["error_map"].values), mean(found["floor_density"].values)
+    above = np.where(error > CHANCE * floor, error - floor, 0.0)
+    return frequency, 100 * np.log(2) * frequency * above / (power or np.inf)
 
 
 def _boxes(axes, errors, signal: str, place: np.ndarray) -> None:
