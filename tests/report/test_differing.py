@@ -168,7 +168,7 @@ def test_what_is_written_below_the_maps_has_room(study, monkeypatch):
 def test_what_may_be_chance_is_not_on_the_map(study):
     own = study.sites[0].comparison.sel(signal="a_z")
     for times, is_seen in ((1.9, False), (2.1, True)):
-        noisy = own.assign(error_map=times * own["floor_density"].broadcast_like(own["error_map"]), floor_density=own["floor_density"])
+        noisy = own.assign(error_map=times * own["floor_density"].broadcast_like(own["error_map"]))
         _, above = located._above(noisy)
         assert above.shape[0] == own.sizes["s_map"] and above.any() == is_seen
 

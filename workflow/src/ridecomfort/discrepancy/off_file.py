@@ -11,6 +11,7 @@ from ..errors import InputError
 from . import evidence, floor
 from . import experiment as exp
 from .experiment import Size
+from .refit import Fit
 from .selection import Selection
 
 LEAST_LEFT = 0.001
@@ -62,11 +63,13 @@ def off_file(selection: Selection) -> OffFile | None:
     All else that was fitted makes good what it can of values that are held otherwise, as a calibration would.
     """
     final, frame, fit = selection.final, selection.frame, selection.states[-1].fit
-    held = _much([size for size in frame.experiment.free if size.held and _is_off(size, selection)], selection)
-    if not held:
+    off = [size for size in frame.experiment.free if size.held and _is_off(size, selection)]
+    if not off:
         return None
+    normal = evidence.product(fit.columns, fit.columns)
+    held = _much(off, fit, normal)
     try:
-        residuals = exp.simulate(frame.experiment, {**fit.values, **_at_file(selection, held)}, frame.indices)
+        residuals = exp.simulate(frame.experiment, _at_file(held, selection, normal), frame.indices)
     except (InputError, ValueError):  # a vehicle that cannot be driven
         return None
     measured = {index: frame.experiment.measured(index) for index in frame.indices}
@@ -84,21 +87,22 @@ def _is_off(size: Size, selection: Selection) -> bool:
     return not lower <= size.neutral <= upper
 
 
-def _much(off: Sequence[Size], selection: Selection) -> list[Size]:
-    """Those of the sizes that do much where they are not as the file says, and nothing else that is fitted makes good."""
-    normal, keys, ways = _normal(selection), selection.states[-1].fit.keys, _ways(off, selection)
-    others = [k for k, key in enumerate(keys) if key not in ways]
+def _much(off: Sequence[Size], fit: Fit, normal: np.ndarray) -> list[Size]:
+    """Those of the sizes that do much where they are not as the file says, and nothing else that is fitted makes good; ``normal``: products of
+    the columns of the ``fit``."""
+    ways, places = _ways(off, fit), {size.key: fit.keys.index(size.key) for size in off}
+    others = [k for k, key in enumerate(fit.keys) if key not in ways]
     left = normal - normal[:, others] @ _steps(normal, others, normal)
-    power = [ways[size.key] ** 2 * left[keys.index(size.key), keys.index(size.key)] for size in off]
-    return [size for size, own in zip(off, power) if own >= LEAST_POWER * max(power)]
+    power = {key: ways[key] ** 2 * left[k, k] for key, k in places.items()}
+    return [size for size in off if power[size.key] >= LEAST_POWER * max(power.values())]
 
 
-def _at_file(selection: Selection, held: Sequence[Size]) -> dict[str, float]:
-    """The values of the last model with those that are ``held`` at the vehicle's file, all others as they come closest to it then: by its
-    linear columns."""
-    experiment, fit, ways = selection.frame.experiment, selection.states[-1].fit, _ways(held, selection)
+def _at_file(held: Sequence[Size], selection: Selection, normal: np.ndarray) -> dict[str, float]:
+    """The values of the last model of a selection with those that are ``held`` at the vehicle's file, all others as they come closest to it
+    then: by its linear columns, of which ``normal`` are the products."""
+    experiment, fit = selection.frame.experiment, selection.states[-1].fit
     sizes = [*experiment.free, *(size for candidate in experiment.candidates for size in (*candidate.sizes, *candidate.shaping))]
-    known, values, normal = {size.key: size for size in sizes}, dict(fit.values), _normal(selection)
+    known, ways, values = {size.key: size for size in sizes}, _ways(held, fit), dict(fit.values)
     others = [k for k, key in enumerate(fit.keys) if key in known and key not in ways]
     change = sum(way * normal[:, fit.keys.index(key)] for key, way in ways.items())
     for k, step in zip(others, _steps(normal, others, change)):
@@ -107,16 +111,9 @@ def _at_file(selection: Selection, held: Sequence[Size]) -> dict[str, float]:
     return {**values, **{size.key: size.neutral for size in held}}
 
 
-def _normal(selection: Selection) -> np.ndarray:
-    """Products of the white changes per probe of all that the last model fits, in the order of its keys."""
-    columns = selection.states[-1].fit.columns
-    return evidence.product(columns, columns)
-
-
-def _ways(sizes: Sequence[Size], selection: Selection) -> dict[str, float]:
-    """Probes from the value of the last model to that of the file, by key."""
-    values = selection.states[-1].fit.values
-    return {size.key: (size.neutral - values[size.key]) / size.probe for size in sizes}
+def _ways(sizes: Sequence[Size], fit: Fit) -> dict[str, float]:
+    """Probes from the value of a fit to that of the file, by key."""
+    return {size.key: (size.neutral - fit.values[size.key]) / size.probe for size in sizes}
 
 
 def _steps(normal: np.ndarray, others: Sequence[int], change: np.ndarray) -> np.ndarray:
