@@ -99,8 +99,9 @@ def calibration() -> xr.Dataset:
             **{key: ("parameter", np.array(values)) for key, values in numbers.items()},
             "unit": ("parameter", np.array(["N/m", "N"])),
             "verdict": ("parameter", np.array(["identified", "at its lower bound"])),
+            "correlation": (("parameter", "other"), np.array([[1.0, 0.3], [0.3, 1.0]])),
         },
-        {"parameter": ["spring_stiffness_front", "suspension_friction.front"]},
+        {"parameter": (own := ["spring_stiffness_front", "suspension_friction.front"]), "other": own},
         {"remarks": "suspension_friction.front is at its lower bound: the data ask for more than the bounds allow"},
     )
 

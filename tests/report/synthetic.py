@@ -317,9 +317,10 @@ def calibration() -> xr.Dataset:
             "initial_nrmse": (("drive", "signal"), np.full((2, 6), 0.11)),
             "value_sequence": ("parameter", value),
             "verdict": ("parameter", ["well determined"] * 5),
+            "correlation": (("parameter", "other"), np.eye(5)),
             "iterations": ("step", [5, 4, 3, 6, 4, 7]),
             "step_value": (("step", "parameter"), after),
         },
-        {"parameter": list(CALIBRATED), "step": steps},
+        {"parameter": list(CALIBRATED), "other": list(CALIBRATED), "step": steps},
         {"applied": "joint", "stopping_rule": "relative change of cost or step below 1e-06", "remarks": "none"},
     )

@@ -75,6 +75,16 @@ def test_an_interval_that_ends_at_a_bound_or_holds_no_effect_at_all_is_said(stud
     assert row["verdict"] == said
 
 
+def test_a_parameter_that_is_hardly_told_from_another_is_not_only_called_identified(study):
+    (name, calibration), *_ = study.calibrations.items()
+    alike = calibration.assign(correlation=(("parameter", "other"), np.array([[1.0, -0.97], [-0.97, 1.0]])))
+    told = rows(differing.tables(replace(study, calibrations={name: alike}))["calibrated"])
+    assert told[0]["verdict"] == "identified, hardly told from suspension friction: front (-0.97)"
+    assert told[1]["verdict"].endswith("may be nil, hardly told from spring stiffness front (-0.97)")
+    unknown = calibration.assign(correlation=(("parameter", "other"), np.full((2, 2), np.nan)))
+    assert "told" not in rows(differing.tables(replace(study, calibrations={name: unknown}))["calibrated"])[0]["verdict"]
+
+
 def test_that_sizes_of_effects_may_differ_from_the_searchs_is_said_where_there_are_any(tables, study):
     said = "may differ from those of the missing effects"
     assert any(said in note for note in tables["calibrated"].notes)

@@ -13,7 +13,7 @@ from matplotlib.text import Text
 from ridecomfort.discrepancy import confirm, select, tries
 from ridecomfort.discrepancy.ranking import FORMS
 from ridecomfort.report import diagnosed, style
-from ridecomfort.report.figures import evidence
+from ridecomfort.report.figures import evidence, signature
 from ridecomfort.report.study import Diagnosis
 from ridecomfort.report.tables import diagnosis
 from tests.report import differing as made_up
@@ -158,6 +158,21 @@ def test_what_the_named_effects_would_show_is_not_cut_off():
     for axes in each.axes:
         for line in axes.lines:
             assert np.nanmax(np.abs(line.get_ydata())) < axes.get_ylim()[1]
+
+
+def test_what_no_curve_explains_looks_small_and_pale():
+    found = made_up.diagnosis()
+    found.ranking.update(made_up.curves())
+    for one in ("missing", "missing_error", "named_missing"):
+        found.ranking[one] = 0.01 * found.ranking[one]
+    found.ranking["seen_share"] = 0.001 + 0.0 * found.ranking["seen_share"]
+    with style.styled():
+        each = diagnosed.figures(found)["signature"]()
+    assert signature.NONE_EXPLAINS in each.legends[0].get_title().get_text()
+    curves = [line for axes in each.axes for line in axes.lines if line.get_marker() in ("o", "s")]
+    assert curves and all(line.get_alpha() < 1.0 for line in curves)
+    for axes in each.axes:
+        assert axes.get_ylim()[1] == signature.LEAST_REACH["N"] > 5 * max(np.nanmax(np.abs(line.get_ydata())) for line in axes.lines)
 
 
 def test_the_names_of_five_effects_fit_beside_their_curves():

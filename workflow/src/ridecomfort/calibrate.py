@@ -51,7 +51,7 @@ DISAGREE = 0.01
 """Relative difference of cost from which on two fits are different ones, and which is said."""
 
 AGREE = "agree"
-"""What there is to be said of starts that neither led nowhere nor disagree."""
+"""What is said of starts none of which led nowhere, and two of which at least found the best."""
 
 PROFILE_PLACES = 9
 """Places of a profile of the cost."""
@@ -137,7 +137,7 @@ def calibrate(
     over ``step`` cost, iterations, evaluations, step_value, step_nrmse, stopped; over ``iteration`` the way there.
     Where asked for, over ``profile`` and ``place``: profile_value and profile_cost, the least cost with the parameter held
     there, up to twice its interval to either side. Attributes: stopping rule, remarks in words, and of these what
-    is to be said of the ``starts`` (AGREE where nothing is). Raises InputError.
+    leaves open whether the best of the ``starts`` is the best there is (AGREE where nothing does). Raises InputError.
     """
     if applied not in ("joint", "sequence"):
         raise InputError(f"{applied!r} (expected joint or sequence)", place="applied")
@@ -175,7 +175,7 @@ def calibrate(
     result["restart_cost"] = "restart", np.array([fit.cost for fit in fits])
     result["restart_value"] = ("restart", "parameter"), np.stack([task.values(fit.point) for fit in fits])
     result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
-    of_starts = _of_starts(task, fits, best, refused)
+    of_starts, in_doubt = _of_starts(task, fits, best, refused)
     remarks = [
         *_clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge), *_of_clocks(result),
         *of_starts,
@@ -188,7 +188,7 @@ def calibrate(
         stopping_rule=f"relative change of cost or step below {tolerance:g} (scipy least_squares, trf: ftol, xtol)",
         drives=", ".join(again.drive.attrs["name"] for again in task.replays),
         remarks="; ".join(remarks) or "none",
-        starts="; ".join(of_starts) or AGREE,
+        starts="; ".join(in_doubt) or AGREE,
     )
     return result
 
@@ -239,22 +239,26 @@ def _of_clocks(result: xr.Dataset) -> list[str]:
     return [said + lacks] if eager.size else []
 
 
-def _of_starts(task: Problem, fits: Sequence[Descent], best: Descent, refused: Sequence[str]) -> list[str]:
-    """What is to be said of starts that led nowhere, or elsewhere."""
-    said = []
+def _of_starts(task: Problem, fits: Sequence[Descent], best: Descent, refused: Sequence[str]) -> tuple[list[str], list[str]]:
+    """What is to be said of starts that led nowhere, or elsewhere, and what of it leaves open whether the best was found: one start alone did."""
+    said, in_doubt = [], []
     if refused:
         said.append(f"{len(refused)} of {len(refused) + len(fits)} starts led to a vehicle that does not drive ({refused[0]})")
+        in_doubt += said
     worst = max(fits, key=lambda fit: fit.cost)
     above = worst.cost / best.cost - 1
     if above > DISAGREE:
         most = int(np.argmax(np.abs(worst.point - best.point)))
         ends = [f"{task.values(fit.point)[most]:.4g}" for fit in (worst, best)]
         cost = f"a cost {100 * above:.1f} % above the best" if above < 1.0 else f"{1.0 + above:.3g} times the cost of the best"
-        said.append(
-            f"starts disagree: the worst of {len(fits)} ends at {cost}, which is taken; they differ most "
-            f"in {task.parameters[most]}, {ends[0]} against {ends[1]}"
-        )
-    return said
+        differ = f"the worst of {len(fits)} ends at {cost}, which is taken; they differ most in {task.parameters[most]}, {ends[0]} against {ends[1]}"
+        together = sum(fit.cost < best.cost * (1 + DISAGREE) for fit in fits)
+        if together > 1:
+            said.append(f"{together} of {len(fits)} starts end at the best, {differ}")
+        else:
+            said.append(f"starts disagree: {differ}; more of them (calibration: restarts) may find a better one")
+            in_doubt += said[-1:]
+    return said, in_doubt
 
 
 def effect_parameters(chosen, held: Mapping[str, Mapping[str, float]]) -> tuple[dict, dict]:

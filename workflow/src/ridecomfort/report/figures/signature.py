@@ -20,11 +20,20 @@ POORLY_KNOWN = 8.0
 SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "1": (100.0, "%"), "N": (1.0, "N"), "m/s": (1.0, "m/s")}
 """Factor to, and unit in which a unit is shown."""
 
+LEAST_REACH = {"N": 30.0, "rad": 5e-4, "1": 0.03}
+"""By unit, what the scale of a panel reaches at least: what is smaller is none to look for a cause in, and looks flat."""
+
+EXPLAINS, PALE = 0.01, 0.4
+"""Share of the error below which curves are pale, and how pale: mostly they show traces of what is missing elsewhere, or chance."""
+
 ROW, LONGEST, IN_LEGEND = 1.9, 20, 48
 """Inches of a row of panels, letters in a line beside it and of one in the legend."""
 
 READ = "Straight lines and levels do not show: calibration could take them up."
 """How the figure is read."""
+
+NONE_EXPLAINS = f"No curve explains {100 * EXPLAINS:.0f} % of the error, noise included: all are pale."
+"""What it says where none does."""
 
 AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
 
@@ -44,10 +53,12 @@ def signature(found: Diagnosis) -> Figure:
     panels = drawn.subplots(len(places), len(axles), squeeze=False, sharex="row", sharey="row")
     rows = {str(place): ranking.sel(seen=place) for place in places}
     reaches = {kind: max(_reach(one) for one in rows.values() if _kind(one) == kind) for kind in map(_kind, rows.values())}
+    explains = {place: bool(one["seen_share"] >= EXPLAINS) for place, one in rows.items()}
     for panel, (place, one) in zip(panels, rows.items()):
         factor, unit = SHOWN[str(one["seen_unit"].item())]
         times, missing_unit = SHOWN[str(one["missing_unit"].item())]
         reach, share = reaches[_kind(one)], 100 * float(one["seen_share"])
+        strength = 1.0 if explains[place] else PALE
         for axes, axle in zip(panel, axles):
             own = one.sel(axle=axle)
             missing, error = times * own["missing"].values, times * BAND * own["missing_error"].values
@@ -55,9 +66,9 @@ def signature(found: Diagnosis) -> Figure:
             at = factor * own["seen_at"].values
             colour, marker = AXLE_LINES[str(axle)]
             axes.axhline(0.0, color=style.FLOOR, linewidth=0.7)
-            axes.fill_between(at[known], (missing - error)[known], (missing + error)[known], color=colour, alpha=0.2, linewidth=0)
-            axes.plot(at[known], missing[known], color=colour, marker=marker, markersize=3.5)
-            axes.plot(at[known], times * own["named_missing"].values[known], color=style.ERROR, linestyle="--")
+            axes.fill_between(at[known], (missing - error)[known], (missing + error)[known], color=colour, alpha=0.2 * strength, linewidth=0)
+            axes.plot(at[known], missing[known], color=colour, marker=marker, markersize=3.5, alpha=strength)
+            axes.plot(at[known], times * own["named_missing"].values[known], color=style.ERROR, linestyle="--", alpha=strength)
             axes.set_ylim(-times * reach, times * reach)
             axes.set_title(f"{axle} {place}" + (f"; both: {share:.0f} % of the error" if axes is panel[-1] else ""))
             axes.set_xlabel(f"{one['seen_axis'].item()} [{unit}]")
@@ -72,7 +83,7 @@ def signature(found: Diagnosis) -> Figure:
     handles.append(Patch(color=style.FAINT, alpha=0.5, label="90 % interval"))
     if ranking["named_missing"].notnull().any():
         handles.append(Line2D([], [], color=style.ERROR, linestyle="--", label=fill(f"what would show: {together}", IN_LEGEND)))
-    drawn.legend(handles=handles, loc="outside upper center", ncols=3, title=READ, title_fontsize=7)
+    drawn.legend(handles=handles, loc="outside upper center", ncols=3, title=READ if any(explains.values()) else f"{READ}\n{NONE_EXPLAINS}", title_fontsize=7)
     return drawn
 
 
@@ -87,7 +98,7 @@ def _reach(one) -> float:
     estimated = np.abs(one["missing"]) + BAND * one["missing_error"]
     shown = np.abs(one["named_missing"].fillna(0.0))
     reach = np.maximum(estimated, shown).values[known]
-    return 1.1 * float(reach.max(initial=0.0)) + 1e-9
+    return max(1.1 * float(reach.max(initial=0.0)), LEAST_REACH[str(one["missing_unit"].item())])
 
 
 def _known(one):

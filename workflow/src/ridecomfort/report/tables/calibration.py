@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import xarray as xr
 
+from ... import identifiability
 from ...vocabulary import SIGNALS
 from .. import catalogue, published
 from ..notation import symbol, unit, words
@@ -196,12 +198,18 @@ def calibrated(found: Difference) -> Table:
 
 
 def _in_words(parameter: str, chosen: xr.Dataset) -> str:
-    """What is known of a parameter, of effects whether there may be none."""
+    """What is known of a parameter, of effects whether there may be none, and the one it is hardly told from."""
     said, (lower, upper) = str(chosen["verdict"].item()), (float(chosen[f"interval_{end}"]) for end in ("lower", "upper"))
-    if "." in parameter and lower <= 0.0 <= upper:
-        return f"{said}, may be nil"
     is_cut = lower <= float(chosen["lower"]) or upper >= float(chosen["upper"])
-    return f"{said}, its interval ends at a bound" if is_cut and said == "identified" else said
+    if "." in parameter and lower <= 0.0 <= upper:
+        said = f"{said}, may be nil"
+    elif is_cut and said == "identified":
+        said = f"{said}, its interval ends at a bound"
+    others = chosen["correlation"].drop_sel(other=parameter)
+    strongest = others[int(np.abs(others).fillna(0.0).argmax("other"))] if others.size else None
+    if strongest is not None and abs(strongest) > identifiability.COLLINEAR:
+        said += f", hardly told from {words(strongest['other'].item().replace('.', ': '))} ({float(strongest):+.2f})"
+    return said
 
 
 def _drives(site: Site, role: str) -> list[int]:

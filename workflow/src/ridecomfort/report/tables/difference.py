@@ -12,6 +12,9 @@ from ..study import Compared, Difference
 from ..table import Column, Source, Table
 from ..units import printed
 
+JUDGED = f"From {judged.LOWEST:g} Hz on, this model"
+"""Heading of what is told of the frequencies that a model answers for."""
+
 
 def alignment(study: Difference) -> Table:
     """What stood between each record and its road."""
@@ -92,10 +95,10 @@ def explainable(study: Difference) -> Table:
         Column("unit", ("", "Unit")),
         *(Column(f"{key}_{state}", (title, word), ".4f") for key, title in (("rmse", "RMSE"), ("nrmse", "NRMSE [-]"))
           for state, word in (("uncalibrated", "uncalibrated"), ("model", "this model"))),
-        Column("floor_rmse", ("Floor, this model", "RMSE"), ".4f"),
-        Column("explainable_rmse", ("Above the floor", "RMSE, this model"), ".4f"),
-        Column("explainable_pct", ("Above the floor", "of the error [%]"), ".0f"),
-        Column("left_pct", ("Above the floor", "of uncalibrated [%]"), ".0f"),
+        Column("floor_rmse", (JUDGED, "RMSE of the floor"), ".4f"),
+        Column("explainable_rmse", (JUDGED, "RMSE above the floor"), ".4f"),
+        Column("explainable_pct", (JUDGED, "above the floor, of the squared error [%]"), ".0f"),
+        Column("left_pct", (JUDGED, "above the floor, of uncalibrated [%]"), ".0f"),
     )  # fmt: skip
     rows, sources, breaks, notes = [], [], [], []
     for site in study.sites:
@@ -119,8 +122,8 @@ def explainable(study: Difference) -> Table:
     notes.append(
         "NRMSE: RMSE over the range of the measured signal. The floor is what no model of this road and car could explain, "
         "as far as this model shows it: what it lacks differs between repeats, too, so a better one shows a lower floor, and the error "
-        f"ladder has the lowest of its models. Floor and error above it are from {judged.IN_WORDS}: slower errors are drifts of "
-        "instruments and what the driver makes of the path."
+        f"ladder has the lowest of its models. RMSE and NRMSE are of all frequencies, floor and error above it from {judged.IN_WORDS}: "
+        "slower errors are drifts of instruments and what the driver makes of the path."
     )
     return _table(study, "explainable", columns, rows, sources, notes, breaks[1:])
 
