@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import tomllib
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 import ridecomfort
 
 PACKAGE = Path(ridecomfort.__file__).parent
+REPOSITORY = Path(__file__).resolve().parent.parent
 
 ORDER = [
     {"vocabulary", "errors", "store", "schema", "pool"},
@@ -77,6 +79,13 @@ def test_only_its_own_steps_import_the_stand_in():
 def test_no_module_is_longer_than_a_person_reads_at_once():
     long = {str(path.relative_to(PACKAGE)): count for path in modules() if (count := len(path.read_text().splitlines())) > 500}
     assert not long
+
+
+def test_the_package_holds_modules_and_the_data_that_it_declares():
+    declared = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]
+    data = {path for room, patterns in declared.items() for pattern in patterns for path in PACKAGE.parent.joinpath(*room.split(".")).glob(pattern)}
+    others = {path for path in PACKAGE.rglob("*") if path.is_file() and path.suffix not in (".py", ".pyc", ".nbi", ".nbc")}
+    assert others == data and data
 
 
 def test_nothing_on_the_way_to_a_verdict_names_the_truth():

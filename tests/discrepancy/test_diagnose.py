@@ -111,13 +111,13 @@ def test_a_name_that_leaves_an_error_for_certain_gives_way_to_a_force_that_is_a_
 
 
 def test_a_name_that_leaves_little_but_that_for_certain_gives_way_to_a_force_that_leaves_half_of_it():
-    little = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.82, held_out_share=0.77, is_shared=True)
+    little = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.82, held_out_share=0.77, may_be_shared=True)
     exact = replace(SURE, share=0.96, held_out_share=0.95)
     assert reconsidered(little, exact).verdict == "outside"
     for weaker in (replace(exact, share=0.88), replace(exact, held_out_share=0.8)):
         assert_kept(reconsidered(little, weaker), little)
     assert reconsidered(little, replace(exact, p_value=0.03)) is little
-    assert reconsidered(replace(little, is_shared=False), exact).verdict == "named"
+    assert reconsidered(replace(little, may_be_shared=False), exact).verdict == "named"
     hardly = replace(little, share=0.98, held_out_share=0.98)
     assert reconsidered(hardly, replace(exact, share=0.995, held_out_share=0.995)) is hardly
 

@@ -26,7 +26,7 @@ def test_signal_band_place_and_condition_are_named(located):
 
 def test_it_is_one_sentence_with_its_shares(located):
     (sentence,) = findings.words(located)
-    assert sentence.startswith("a_z, 8-14 Hz, half of it at 1.") and "speeds above" in sentence
+    assert sentence.startswith("a_z, 8-14 Hz, half of it between 1.") and "speeds above" in sentence
     assert sentence.endswith("100 % of its explainable error")
 
 

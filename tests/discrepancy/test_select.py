@@ -415,7 +415,7 @@ def test_without_repeats_what_a_name_leaves_may_be_more_than_noise(is_repeated):
     model = Linear(1, {"effect_2.size": 2.0})
     _, found = judged(model if is_repeated else alone(model))
     assert (found.verdict, [effect.name for effect in found.effects]) == ("named", ["effect_2"])
-    assert found.is_shared is not is_repeated
+    assert found.may_be_shared is not is_repeated
 
 
 def test_what_was_probed_from_the_same_rung_is_not_probed_again():

@@ -44,8 +44,8 @@ def fitted(monkeypatch, rates: dict[str, float], bends: float, noise: float = 0.
     factors = np.array([rates.get(name, 1.0) for name in names])[:, None]
     measured = factors * simulated + noise * random.standard_normal(simulated.shape)
     known = {"drive": SimpleNamespace(attrs={}), "road": SimpleNamespace(road=None)}
-    again = SimpleNamespace(measured=lambda: measured, compared=np.ones(3000, bool), **known)
-    came = SimpleNamespace(records=[SimpleNamespace(name="first", rate=100.0)], replays=[again], channels=names)
+    record, again = SimpleNamespace(name="first", rate=100.0), SimpleNamespace(**known)
+    came = SimpleNamespace(records=[record], replays=[again], channels=names, measured=lambda index: measured)
     amounts = np.zeros(30)
     amounts[nuisances.OF_RATES] = (1.0 - factors[3:].mean()) / nuisances.GAIN
     frame = SimpleNamespace(indices=[0], experiment=SimpleNamespace(shifts=lambda *_: np.zeros(3)), amounts=lambda *_: amounts)
@@ -64,8 +64,7 @@ def test_of_a_drive_the_sign_of_what_runs_against_the_model_by_itself_is_asked_f
     measured = simulated + 0.1 * random.standard_normal(simulated.shape)
     measured[names.index("a_y")] *= -1.0
     measured[names.index("yaw_rate")] = random.standard_normal(3000) - 0.5 * simulated[names.index("yaw_rate")]
-    again = SimpleNamespace(measured=lambda: measured, compared=np.ones(3000, bool))
-    came = SimpleNamespace(records=[SimpleNamespace(name="first", rate=100.0)], replays=[again], channels=names)
+    came = SimpleNamespace(records=[SimpleNamespace(name="first", rate=100.0)], channels=names, measured=lambda index: measured)
     (reason,) = suspect.of_signals(came, {0: simulated - measured})
     assert reason.startswith("first: a_y runs against the model")
 

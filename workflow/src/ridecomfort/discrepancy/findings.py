@@ -81,10 +81,10 @@ class Finding:
         """The stretch in words."""
         if self.stretch is None:
             return "all along the road" if self.least > PATCHY else f"at many places, half of it on {100 * self.least:.0f} % of the road"
-        return "half of it at {:.2f}-{:.2f} km".format(*(place / 1000 for place in self.stretch))
+        return "half of it between {:.2f} and {:.2f} km".format(*(place / 1000 for place in self.stretch))
 
     def words(self) -> str:
-        """Such as "a_z, 8-14 Hz, half of it at 1.20-1.50 km, relatively most at speeds above 70 km/h: 12 % of its power"."""
+        """Such as "a_z, 8-14 Hz, half of it between 1.20 and 1.50 km, relatively most at speeds above 70 km/h: 12 % of its power"."""
         when = f", relatively most at {self.when}" if self.when else ""
         return (
             f"{self.signal}, {self.lower:g}-{self.upper:g} Hz, {self.where}{when}: {100 * self.power_share:.1f} % of the "

@@ -95,7 +95,7 @@ def judge(
     else:
         kind = "nothing"
     if kind != "outside" and balance.is_shared and not balance.is_left:
-        reasons.append(f"repeats share an error yet, but nowhere more than a driver's foot and hands may make, or than matters: {selection.remaining}")
+        reasons.append(f"repeats share an error yet, but nowhere more than a driver's foot and hands may make, or than matters; most surely {selection.remaining.band}")
     if effects and selection.birge_ratio > 1.0:
         reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
     said = (*reasons, _floor(selection))

@@ -31,7 +31,7 @@ removed less than DOUBTFUL, the z of a force were at most 2.2 on fitted and 1.8 
 
 def is_doubtful(verdict: Verdict) -> bool:
     """Whether what is named explains so little, or is so large, that it may stand in for something else."""
-    most = 1.0 - WORTH / (1.0 - HALF) if verdict.is_shared else DOUBTFUL
+    most = 1.0 - WORTH / (1.0 - HALF) if verdict.may_be_shared else DOUBTFUL
     return verdict.verdict in ("named", "cluster") and (verdict.share < most or _is_in_doubt(verdict))
 
 
@@ -135,7 +135,7 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
         return proposal.share > verdict.share + EQUAL and not BETTER * proposal.held_out_share < held_out
     is_more = proposal.share > BETTER * verdict.share and not proposal.held_out_share < held_out
     is_more = is_more or fits_better and _is_in_doubt(verdict) and left(proposal) <= MOST_LEFT * left(verdict)
-    return is_more or verdict.is_shared and _leaves_less(verdict, proposal)
+    return is_more or verdict.may_be_shared and _leaves_less(verdict, proposal)
 
 
 def left(found: Verdict | Discovery) -> float:

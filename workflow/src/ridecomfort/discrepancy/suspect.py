@@ -138,9 +138,9 @@ def of_fit(experiment: Car, frame: Frame, residuals) -> list[str]:
 
 def _own_gains(experiment: Car, index: int, residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Gain of each signal of a record beside the model, in the band that is judged, and its standard error, (6,) each."""
-    record, again = experiment.records[index], experiment.replays[index]
+    record = experiment.records[index]
     left = judged(residual, record.rate, experiment.channels)
-    simulated = judged(again.measured()[:, again.compared] + residual, record.rate, experiment.channels)
+    simulated = judged(experiment.measured(index) + residual, record.rate, experiment.channels)
     power = np.maximum(np.sum(simulated**2, axis=1), np.finfo(float).tiny)
     seconds = residual.shape[1] / record.rate
     return 1.0 - np.sum(left * simulated, axis=1) / power, np.sqrt(np.sum(left**2, axis=1) / power / (INDEPENDENT * seconds))
@@ -184,8 +184,7 @@ def of_signals(experiment: Car, residuals) -> list[str]:
     """Reasons in words to doubt the sign or the unit of a signal, by what the model does in the band that is judged."""
     reasons = []
     for index, residual in residuals.items():
-        record, again = experiment.records[index], experiment.replays[index]
-        measured = again.measured()[:, again.compared]
+        record, measured = experiment.records[index], experiment.measured(index)
         turned = against(measured, measured + residual, record.rate, experiment.channels)
         pair = judged(np.stack([measured, measured + residual]), record.rate, experiment.channels)
         for name, *found in zip(experiment.channels, turned, correlation(*pair), ratio(*pair)):

@@ -62,7 +62,7 @@ class Named:
 
 @dataclass(frozen=True)
 class Verdict:
-    """``verdict`` is one of SAID; ``effects`` in the order in which they were found; ``reasons`` in words; ``is_shared``: whether repeats
+    """``verdict`` is one of SAID; ``effects`` in the order in which they were found; ``reasons`` in words; ``may_be_shared``: whether repeats
     surely share an error still, or none tells, ``is_left``: one that is worth explaining."""
 
     verdict: str
@@ -71,7 +71,7 @@ class Verdict:
     share: float
     held_out_share: float
     is_left: bool = False
-    is_shared: bool = False
+    may_be_shared: bool = False
     beyond_bounds: BeyondBounds | None = None
     """Parameters of the vehicle that would explain more if they lay beyond their bounds, where effects explain too little."""
     at_bounds: tuple[AtBound, ...] = ()
