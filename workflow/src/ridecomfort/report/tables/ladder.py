@@ -33,7 +33,7 @@ def error_ladder(study: Difference) -> Table:
         columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
     of_all_signals = len(columns)
     columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".0f"))
-    columns.append(Column("all_fall_pct", ("All signals", "fall [%]"), ".2f"))
+    columns.append(Column("all_fall_pct", ("All signals", "fall [%]"), ".1f"))
     columns.append(Column("all_falling_pct", ("All signals", "stretches falling [%]"), ".0f"))
     columns.append(Column("all_helps", ("All signals", "helps")))
     rows, breaks, bold = [], [], set()
