@@ -7,9 +7,12 @@ from dataclasses import replace
 import pytest
 
 from ridecomfort.discrepancy.beyond import AtBound, Beyond, BeyondBounds
+from ridecomfort.discrepancy.diagnose import _beside_the_file
 from ridecomfort.discrepancy.discover import Discovery
 from ridecomfort.discrepancy.judge import with_bounds, with_parameters, with_remainder
+from ridecomfort.discrepancy.off_file import Held, OffFile
 from ridecomfort.discrepancy.reconsider import beside_a_force, heard, humming, is_doubtful, named_all_the_same, reconsidered
+from ridecomfort.discrepancy.righted import Outcome
 from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
@@ -17,6 +20,7 @@ NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
 SIZE = {"parameter": "compliance", "size": 2e-6, "unit": "rad/N", "interval": [1.9e-6, 2.1e-6], "interval_of_noise": [1.9e-6, 2.1e-6],
         "plausible": [0.0, 4e-6], "is_plausible": True}  # fmt: skip
 
+HELD = OffFile((Held("roll_inertia", "kg m2", 572.0, 589.0, (588.0, 590.0)),), {"roll_rate": 0.002})
 SURE = Discovery("discovered", "tyre", "tyre_vertical", {"once_a_turn": {"front_left_sine": 60.0}}, {"once_a_turn": {}}, "force = ...", 0.9, 0.9, 0.0015, "", {}, None)
 
 
@@ -358,3 +362,12 @@ def test_what_explains_most_is_named_unless_such_a_force_leaves_half():
 def test_on_a_road_that_may_be_another_such_a_force_counts_where_it_leaves_half():
     assert reconsidered(LITTLE, WITH_FRICTION, is_road_open=True) is LITTLE
     assert reconsidered(LITTLE, replace(WITH_FRICTION, share=0.45), is_road_open=True).verdict == "named"
+
+
+@pytest.mark.parametrize(("share", "held_out_share", "is_told"), [(0.84, 0.91, True), (0.7, 0.75, False), (0.9, float("nan"), True)])
+def test_parameters_beside_the_file_are_told_with_a_form_that_explains_nearly_all(share, held_out_share, is_told):
+    """What a form leaves may drive parameters of the vehicle elsewhere."""
+    proposed = replace(SURE, share=share, held_out_share=held_out_share, off_file=HELD)
+    found = _beside_the_file(OUTSIDE, Outcome(None, OUTSIDE, proposed, None, None))
+    assert found is (HELD if is_told else None)
+    assert _beside_the_file(OUTSIDE, Outcome(None, OUTSIDE, None, None, None)) is None

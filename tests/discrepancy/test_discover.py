@@ -100,6 +100,8 @@ def test_a_form_is_told_with_its_size_at_typical_motion_of_what_it_sees():
     wave = typically("tyre", {"once_a_turn_by_spin": {"rear_left_cosine": 0.01, "rear_left_sine": 0.0}})
     assert wave == "49 N rear left at spin 70 rad/s"
     assert typically("body", {"drag": {"": -0.3}}) == "120 N at speed 20 m/s"
+    both = typically("strut", {"velocity_direction": {"front": 57.3}, "velocity_signed_square": {"front": 9.0}})
+    assert both.startswith("velocity direction: 57 N front at") and "; velocity signed square: " in both
 
 
 @pytest.mark.parametrize("place", PLACES)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ridecomfort import simulate
-from ridecomfort.discrepancy.judged import against, band, coherence, correlation, judged
+from ridecomfort.discrepancy.judged import against, band, coherence, correlation, doubt, judged, taken_for
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS
 from tests.vehicle.roads import road, rough
@@ -62,6 +62,17 @@ def test_a_wrong_sign_is_told_of_what_the_road_or_its_bends_move_and_of_no_right
     assert not against(measured, simulated, 100.0, SIGNALS).any()
     turned = against(-measured, simulated, 100.0, SIGNALS)
     assert (turned[1:] < -0.5).all()
+
+
+def test_exchanged_columns_are_told_by_what_each_goes_with(repository):
+    """On a road that bends, at one speed: a_x has hardly more than noise, and yaw rate does in bends what a_y does, in another unit."""
+    measured, simulated = measured_and_simulated(repository, 4e-6, 0.004)
+    assert taken_for(measured, simulated, SIGNALS) == [""] * len(SIGNALS)
+    exchanged = measured[[1, 0, 2, 3, 4, 5]]
+    assert taken_for(exchanged, simulated, SIGNALS)[0] == "a_y"
+    rates = measured[[0, 1, 2, 4, 3, 5]]
+    assert taken_for(rates, simulated, SIGNALS)[3:] == ["pitch_rate", "roll_rate", ""]
+    assert doubt("a_x", "a_y", 0.0, 1.0, 1.0) == "a_x does what the model does in a_y: are columns exchanged, or is the sensor turned?"
 
 
 def test_slow_parts_that_a_bank_turns_round_are_no_wrong_sign():

@@ -81,6 +81,13 @@ def test_a_signal_of_the_wrong_sign_is_told_before_all_that_is_found_of_it(compa
     assert findings.words(locate.locate(turned))[0] == "a_y runs against the model (correlation -1.00): is its sign right?"
 
 
+def test_a_signal_that_stands_in_the_column_of_another_is_told_first_too(comparison):
+    other = comparison.copy(deep=True)
+    other["measured"].loc[{"signal": "a_z"}] = other["measured"].sel(signal="a_y")
+    other["residual"].loc[{"signal": "a_z"}] = (other["simulated"].isel(state=0) - other["measured"]).sel(signal="a_z")
+    assert findings.words(locate.locate(other))[0].startswith("a_z does what the model does in a_y")
+
+
 def test_a_signal_in_another_unit_is_told_first_too(comparison):
     """Degrees per second that were read as radians."""
     other = comparison.copy(deep=True)

@@ -132,6 +132,7 @@ def test_parameters_that_calibration_holds_beside_the_drives_are_to_be_calibrate
     for said in (made_up.VERDICT, made_up.nothing()):
         told = rows(diagnosed.tables(made_up.diagnosis({**said, "off_file": off}))["verdict"])
         assert [row["what"] for row in told][-2:] == ["the vehicle's file", "next"]
+        assert told[-1]["in_words"].startswith("First put the vehicle's file right, as the row above says. Then: ")
         assert told[-2]["in_words"].startswith("Add roll_inertia, damping_front to calibration: parameters in config/study.yaml")
     assert "the vehicle's file" not in [row["what"] for row in rows(diagnosed.tables(made_up.diagnosis())["verdict"])]
 

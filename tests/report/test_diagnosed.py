@@ -63,6 +63,9 @@ def test_a_proposed_form_is_shown():
     row = rows(diagnosed.tables(found)["missing_effects"])[-1]
     assert row["effect"] == "discovered 2 (proposed form)" and float(row["interval_lower"]) == 78.0 and float(row["p_value"]) == 0.0015
     assert (row["fitted_pct"], row["held_out_pct"], row["absorbed_pct"]) == (84.0, 92.0, None)
+    held = [*PROPOSAL["sizes"], {"parameter": "velocity_linear", "unit": "1", "size": 0.0, "interval": None}]
+    with_nil = {**verdict, "proposal": verdict["proposal"] | {"sizes": held}}
+    assert rows(diagnosed.tables(replace(found, verdict=with_nil))["missing_effects"])[-1]["parameter"] == row["parameter"]
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
 
 
@@ -82,7 +85,7 @@ def test_effects_beside_a_proposed_form_are_switched_on_together_with_it():
     said = rows(diagnosed.tables(made_up.diagnosis(verdict))["verdict"])
     by_name = {row["what"]: row["in_words"] for row in said}
     assert by_name["in the library"].endswith(", beside the proposed form.") and "second choice" not in said[-1]["in_words"]
-    assert f"effects: [discovered, {', '.join(names)}]" in said[-1]["in_words"]
+    assert f"effects: [{', '.join(names)}, discovered]" in said[-1]["in_words"]  # as they stand in the table of sizes
     assert any(what.startswith("with ") and what.endswith(" it removes") for what in by_name)
     *effects, form = rows(diagnosed.tables(made_up.diagnosis(verdict))["missing_effects"])
     assert sum(row["fitted_pct"] or 0.0 for row in effects) + form["fitted_pct"] == pytest.approx(84.0)

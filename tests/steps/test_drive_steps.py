@@ -106,8 +106,12 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     compare.main(**common, calibration=None, config=friction, output=files / "comparison.nc", workers="1")
     assert list(store.read(files / "comparison.nc")["state"].values) == ["reference", "with_effects"]
 
-    # A wrong sign is for the person who waits, too.
+    # A wrong sign is for the person who waits, too, and that nothing is held out.
     assert NOTE not in capsys.readouterr().err
+    store.write(drives.load().isel(drive=[0]), files / "fitted.nc", title="Without another", configuration={})
+    alone = common | {"measured": files / "fitted.nc"}
+    compare.main(**alone, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc", workers="1")
+    assert f"{NOTE}here: no drive is held out (role: check)" in capsys.readouterr().err
     turned = drives.load()
     turned["pitch_rate"] *= -1.0
     store.write(turned, files / "turned.nc", title="Turned", configuration={})

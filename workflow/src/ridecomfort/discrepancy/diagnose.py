@@ -8,14 +8,14 @@ import xarray as xr
 
 from .. import pool
 from . import opening, turns
-from .balance import total_shares
+from .balance import DOUBTFUL, total_shares
 from .beyond import at_bounds, ends_at_bounds
 from .car import Car
 from .discover import Discovery, discovered
 from .explain import REPEATS
 from .judge import with_allowances, with_bounds, with_held, with_parameters
 from .missing_force import missing_force
-from .off_file import off_file
+from .off_file import OffFile, off_file
 from .rank import ranked
 from .ranking import with_forms
 from .reconsider import beside_a_force, heard, humming, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
@@ -61,8 +61,8 @@ def diagnose(
             found = None
         verdict = beside_a_force(verdict, proposal)
     verdict = with_bounds(with_parameters(verdict, found and found.of(vehicle)), at_bounds(outcome.stands_on, experiment.free))
-    if found is None and verdict.verdict in ("named", "cluster", "nothing"):
-        verdict = with_held(verdict, off_file(outcome.selection))
+    if found is None:
+        verdict = with_held(verdict, _beside_the_file(verdict, outcome))
     table = outcome.table
     if signatures:
         say("drawing the missing force")
@@ -71,6 +71,14 @@ def diagnose(
         )
         table = table.merge(curves)
     return table, with_allowances(verdict, {candidate.name for candidate in experiment.candidates}), proposal
+
+
+def _beside_the_file(verdict: Verdict, outcome: Outcome) -> OffFile | None:
+    """Parameters that calibration holds beside the drives, where what was found explains nearly all: else what is missing may drive them there."""
+    if verdict.verdict in ("named", "cluster", "nothing"):
+        return off_file(outcome.selection)
+    explains = outcome.proposed is not None and left(outcome.proposed) <= 1.0 - DOUBTFUL
+    return outcome.proposed.off_file if explains else None
 
 
 def _may_lie_beyond(first: Ranked) -> bool:

@@ -26,6 +26,7 @@ from .form import effect_source, in_words, typically
 from .judge import ANOTHER_SHAPE, standing
 from .made import beside
 from .meanings import senses, such_as, told
+from .off_file import OffFile, off_file
 from .places import FORCE, PLACES, parameter, scale, settings
 from .probe import Job, Raw
 from .ranking import dataset
@@ -74,6 +75,8 @@ class Discovery:
     sizes: tuple[dict, ...] = ()
     """Its factors and what shapes it as in an effect file, each with ``parameter``, ``unit``, ``size`` and, where it was fitted, the 90 %
     ``interval``."""
+    off_file: OffFile | None = None
+    """Parameters of the vehicle that calibration holds, and to which the drives give other values than its file beside the force."""
     residuals: Mapping[int, np.ndarray] | None = None
     """Those of the fitted drives, as they were aligned for the model that was diagnosed, with it and what stands beside it."""
 
@@ -151,9 +154,10 @@ def discovered(
             known=heard_as(line, radius),
         )  # fmt: skip
         residuals = exp.simulate(rung.experiment, {**rung.fit.values, **selection.final.values}, rung.fit.residuals)
+        held = off_file(selection) if selection.accepted else None
     evidence = dataset(rung.experiment, selection)
     found = proposed(replace(selection, probed={}), name, known)
-    return replace(found, evidence=evidence, residuals=residuals)  # columns of all terms are large
+    return replace(found, evidence=evidence, residuals=residuals, off_file=held)  # columns of all terms are large
 
 
 def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Discovery:

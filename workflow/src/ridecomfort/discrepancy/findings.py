@@ -22,7 +22,7 @@ OF_A_SIGNAL = 2
 HALF = 0.5
 """Share of an error that the stretch of road named for it holds."""
 
-EVERYWHERE, PATCHY = 0.35, 0.2
+EVERYWHERE, PATCHY = 0.35, 0.3
 """Share of the road from which on one stretch that holds HALF of an error says nothing, and up to which many that do are told to be few."""
 
 PREVAILING, HELD, LEAST = 2.0, 0.1, 0.1
@@ -119,9 +119,9 @@ def are_small(found: Sequence[Finding]) -> bool:
 
 
 def doubts(located: xr.Dataset) -> list[str]:
-    """Signals whose sign or unit is in doubt, in words: what else is found of them means nothing then."""
-    found = zip(*(located[name].values for name in ("signal", "against", "correlation", "ratio")))
-    return [said for name, *of_it in found if (said := doubt(str(name), *map(float, of_it)))]
+    """Signals whose column, sign or unit is in doubt, in words: what else is found of them means nothing then."""
+    found = zip(*(located[name].values.tolist() for name in ("signal", "goes_with", "against", "correlation", "ratio")))
+    return [said for of_it in found if (said := doubt(*of_it))]
 
 
 def words(located: xr.Dataset, count: int = 5) -> list[str]:

@@ -51,7 +51,9 @@ SEEN = {
 
 def typically(place: str, terms: Factors) -> str:
     """How large each term of a force is at typical motion of what it sees, by part of the car; with signs where parts push against one another."""
-    return "; ".join(_typically(place, name, factors) for name, factors in terms.items() if factors)
+    told = {name: _typically(place, name, factors) for name, factors in terms.items() if factors}
+    of = lambda name: f"{_spaced(name)}: " if len(told) > 1 else ""
+    return "; ".join(f"{of(name)}{size}" for name, size in told.items())
 
 
 def _typically(place: str, name: str, factors: Mapping[str, float]) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.fft import dct, idct
 from scipy.signal import csd, welch
 
+from ..vocabulary import VARIABLES
 from .response import SEGMENT
 
 LOWEST = 0.8
@@ -37,6 +38,9 @@ does, and anyway, since turned round it would be more than half what the model s
 COHERENT = 0.8
 """Share of the power of a signal that must be coherent with the model for its sign to be told: what else moves it (hands, noise, links that
 steer) may run against the model, too."""
+
+ANOTHER, OWN = 0.8, 0.3
+"""Correlation with the model's motion in another direction from which on, and with that in its own up to which, a signal is taken for the other."""
 
 TIMES, ALIKE = 5.0, 0.5
 """Times by which the rms of a signal may differ from that of a model which it goes with (correlation above ALIKE): degrees are 57 radians."""
@@ -80,6 +84,18 @@ def against(measured: np.ndarray, simulated: np.ndarray, rate: float, signals: S
     return np.where(correlation(*fast) > ALIKE, found, np.minimum(found, slow))
 
 
+def taken_for(measured: np.ndarray, simulated: np.ndarray, signals: Sequence[str]) -> list[str]:
+    """For each of these signals (signal, sample) another of the same unit which the model moves as it does, where its own moves otherwise;
+    empty where there is none. Of all but their means: where they are slow, in bends and as the car is braked, they differ most."""
+    one, other = (each - each.mean(axis=-1, keepdims=True) for each in (measured, simulated))
+    found = []
+    for name, row in zip(signals, one):
+        alike = dict(zip(signals, np.abs(correlation(row, other)).tolist()))
+        likely = [each for each in signals if VARIABLES[each].unit == VARIABLES[name].unit and alike[each] > ANOTHER and alike[name] < OWN]
+        found.append(max(likely, key=alike.get, default=""))
+    return found
+
+
 def _told_against(one: np.ndarray, other: np.ndarray, rate: float) -> np.ndarray:
     """Correlation (signal,) where it speaks for a wrong sign, else 0."""
     alike = correlation(one, other)
@@ -87,9 +103,11 @@ def _told_against(one: np.ndarray, other: np.ndarray, rate: float) -> np.ndarray
     return np.where(is_told, alike, 0.0)
 
 
-def doubt(name: str, turned: float, found: float, times: float) -> str:
-    """What is said of a signal ``turned`` round (``against``), or with this correlation with the model and so many times its rms; empty
-    where nothing is."""
+def doubt(name: str, other: str, turned: float, found: float, times: float) -> str:
+    """What is said of a signal that goes with an ``other`` (``taken_for``), is ``turned`` round (``against``), or has this correlation with the
+    model and so many times its rms; empty where nothing is."""
+    if other:
+        return f"{name} does what the model does in {other}: are columns exchanged, or is the sensor turned?"
     if turned < 0.0:
         return f"{name} runs against the model (correlation {turned:.2f}): is its sign right?"
     if found > ALIKE and not 1.0 / TIMES < times < TIMES:

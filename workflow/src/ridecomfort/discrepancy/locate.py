@@ -65,7 +65,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     of a ``condition`` (SI units; edges in ``condition_edge``, means in ``condition_level``) ``condition_error`` and
     ``condition_measured(condition, class, signal, band)``, the floor of which is
     ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated, the ``ratio(signal)`` of their rms, and what of the
-    first speaks for a wrong sign, ``against(signal)`` (``judged.against``); and what ``response.responses`` says of transfer functions.
+    first speaks for a wrong sign, ``against(signal)`` (``judged.against``); another signal that it goes with instead, ``goes_with(signal)`` (``judged.taken_for``); and what ``response.responses`` says of transfer functions.
     Attribute ``located_state`` names the state, ``floor`` where the floor is known from.
     """
     name = str(comparison["state"].values[-1] if state is None else state)
@@ -94,7 +94,8 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
         floor_density = np.where(frequency <= explain.highest(rows).mean(), _density(rows)[:, None], 0.0)
     joined = lambda part: np.concatenate([getattr(drive, part) for drive in drives], axis=1)
     signal, error = joined("signal"), joined("error")
-    turned = judged.against(joined("measured"), joined("measured") + joined("residual"), rate, comparison["signal"].values)
+    recorded, names = joined("measured"), comparison["signal"].values
+    driven = recorded + joined("residual")
     result = xr.Dataset(
         {
             "error_power": (("signal", "stretch", "band"), power),
@@ -112,7 +113,8 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
             },
             "correlation": ("signal", judged.correlation(signal, signal + error), {"units": "1"}),
             "ratio": ("signal", judged.ratio(signal, signal + error), {"units": "1"}),
-            "against": ("signal", turned, {"units": "1"}),
+            "against": ("signal", judged.against(recorded, driven, rate, names), {"units": "1"}),
+            "goes_with": ("signal", np.array(judged.taken_for(recorded, driven, names.tolist()))),
             "stretch_start": ("stretch", edges[:-1], {"units": "m"}),
             "stretch_end": ("stretch", edges[1:], {"units": "m"}),
             "band_lower": ("band", [band[0] for band in bands], {"units": "Hz"}),

@@ -12,7 +12,7 @@ from ..drive import turning
 from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
-from .judged import against, correlation, doubt, judged, ratio
+from .judged import against, correlation, doubt, judged, ratio, taken_for
 
 ROAD_BAND = (0.1, 0.8)
 """Cycles per metre in which the spectrum of a road follows a power law (ISO 8608 holds to 2.83)."""
@@ -181,13 +181,14 @@ def of_road(experiment: Car, frame: Frame, place: float) -> list[str]:
 
 
 def of_signals(experiment: Car, residuals) -> list[str]:
-    """Reasons in words to doubt the sign or the unit of a signal, by what the model does in the band that is judged."""
+    """Reasons in words to doubt the column, the sign or the unit of a signal, by what the model does."""
     reasons = []
     for index, residual in residuals.items():
         record, measured = experiment.records[index], experiment.measured(index)
+        others = taken_for(measured, measured + residual, experiment.channels)
         turned = against(measured, measured + residual, record.rate, experiment.channels)
         pair = judged(np.stack([measured, measured + residual]), record.rate, experiment.channels)
-        for name, *found in zip(experiment.channels, turned, correlation(*pair), ratio(*pair)):
+        for name, *found in zip(experiment.channels, others, turned, correlation(*pair), ratio(*pair)):
             if said := doubt(name, *found):
                 reasons.append(f"{record.name}: {said}")
     return reasons

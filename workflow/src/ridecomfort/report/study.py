@@ -112,8 +112,10 @@ class Diagnosis:
         return standin_mark(list(self.standin))
 
     def subject(self) -> str:
-        """Which model was diagnosed, and on which sites, as a sentence."""
-        return f"Diagnosed: the model {self.model} on {', '.join(label(site) for site in self.sites)}."
+        """Which model was diagnosed, on which sites, and with what calibrated, as a sentence."""
+        calibrated = self.ranking.attrs.get("calibrated", "")
+        tail = f"; calibrated was {calibrated}" if calibrated else ""
+        return f"Diagnosed: the model {self.model} on {', '.join(label(site) for site in self.sites)}{tail}."
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,8 @@ from ridecomfort.discrepancy import compare, findings, locate
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
+ALL_FITTED = "{site}: no drive is held out (role: check), so that nothing tells whether what is fitted holds on others"
+
 
 def main(road, measured, vehicle, calibration, config, output, workers):
     car = parameters.read(vehicle)
@@ -33,9 +35,12 @@ def main(road, measured, vehicle, calibration, config, output, workers):
     store.write(
         result, output, title=f"Simulated against measured drives on {config['site']}", configuration=config
     )
+    roles = set(result["role"].values.tolist())
+    if calibration is not None and roles == {"fit"}:
+        doubts = [*doubts, ALL_FITTED.format(site=config["site"])]
     for doubt in doubts:
         note(doubt)
-    print(*words[len(doubts) :], sep="\n", file=sys.stderr)
+    print(*(said for said in words if said not in doubts), sep="\n", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -34,6 +34,8 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     name = next(name for name in _names() if name not in known)
     told = {"among": config["among"], "noise_density": config["noise_density"], "signatures": True, "name": name}
     table, found, proposal = discrepancy.diagnose(drives, car, **told, **settings)
+    if settings["calibration"] is not None:
+        table.attrs["calibrated"] = ", ".join(settings["calibration"]["parameter"].values.tolist())
     content = {"sites": config["sites"], **found.json()}
     for old in Path(verdict).parent.glob(f"{DISCOVERED}*.py"):  # of drives or of a model before
         old.unlink()

@@ -85,7 +85,7 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
             axes.locator_params(axis="x", nbins=count)
             axes.tick_params(axis="y", length=0)
     panels[0][1].set_title("refits: fitted / held out")
-    panels[-1][0].set_xlabel("gain of 2 ln(likelihood), scale of roots [-]")
+    panels[-1][0].set_xlabel("gain of 2 ln(likelihood), square-root scale [-]")
     panels[-1][1].set_xlabel("error removed [%]")
     handles = [
         Patch(color=ACCEPTED, label="accepted into the next round"),

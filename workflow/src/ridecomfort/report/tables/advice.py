@@ -52,6 +52,9 @@ ROAD_FIRST = (
 )
 """What comes before anything else where the road may be another between its points."""
 
+FILE_FIRST = "First put the vehicle's file right, as the row above says. Then: "
+"""What comes before where calibration holds parameters beside the drives."""
+
 STAND_IN = " The model holds a form of its own, which may not be exact: take out again what does not lower the error ladder on drives held out."
 """What is added to names beside a proposed form, for the rest of which they may stand in."""
 
@@ -65,6 +68,11 @@ WORTHWHILE = 0.1
 
 def next_step(found: Diagnosis) -> str:
     """What to do next, a sentence or a few."""
+    return f"{FILE_FIRST if found.verdict.get('off_file') else ''}{_after_the_file(found)}"
+
+
+def _after_the_file(found: Diagnosis) -> str:
+    """What to do next but for the vehicle's file."""
     said, proposal = found.verdict, found.verdict.get("proposal") or {}
     own = list(found.switched_on)
     other = next((word for word in ("linear", "cubic") if f"interpolation: {word})" in found.ranking.attrs.get("road", "")), "")
@@ -112,7 +120,7 @@ def calibrated_too(off_file: Mapping) -> str:
     """What to do where calibration holds parameters of the vehicle to which the drives give other values."""
     names = ", ".join(one["parameter"] for one in off_file["parameters"])
     return (
-        f"Add {names} to calibration: parameters in config/study.yaml, and compare again: the search lets them be wrong, but calibration holds them, "
+        f"Add {names} to calibration: parameters in config/study.yaml, compare and diagnose again: the search lets them be wrong, but calibration holds them, "
         "so that the error ladder falls less than is said here, and calibrated sizes of effects may make up for them."
     )
 
@@ -156,7 +164,7 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     if (min if may_end else max)(fitted_of_form, held_out_of_form) < LITTLE:
         return may_end + go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
     file = Path(found.files.get("verdict", "")).parent / f"{proposal['name']}.py"
-    try_form = TRY_FORM.format(file=file, keys=", ".join([*own, proposal["name"], *(proposal.get("beside") or ())]))
+    try_form = TRY_FORM.format(file=file, keys=", ".join([*own, *(proposal.get("beside") or ()), proposal["name"]]))
     if not library_helps(said) or said.get("is_beside_form"):
         return may_end + try_form
     library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form - AS_GOOD

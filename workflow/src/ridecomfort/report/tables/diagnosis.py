@@ -159,7 +159,8 @@ def missing_effects(found: Diagnosis) -> Table:
     if proposal.get("form"):
         breaks.append(len(rows))
         of_all = (proposal["p_value"], *_own_shares(proposal, found.verdict["effects"]), None)
-        for number, size in enumerate(proposal["sizes"]):
+        told_of_form = [size for size in proposal["sizes"] if size["interval"] or size["size"]]  # a part that is held at nil is none
+        for number, size in enumerate(told_of_form):
             told = (words(size["parameter"]), unit(size["unit"]), size["size"], *(size["interval"] or (None, None)))
             of_form = of_all if number == 0 else (None,) * 4
             rows.append((f"{words(proposal['name'])} (proposed form)", *told, "" if size["interval"] else "held", *of_form, ""))
