@@ -69,6 +69,13 @@ def test_a_proposed_form_is_shown():
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
 
 
+def test_a_verdict_says_of_which_calibration_it_is():
+    found = made_up.diagnosis()
+    assert "Diagnosed: the model base on Ts1, Ts2." in diagnosed.tables(found)["verdict"].notes
+    found.ranking.attrs["calibrated"] = "tyre_friction, roll_inertia"
+    assert "Diagnosed: the model base on Ts1, Ts2, with tyre_friction, roll_inertia calibrated." in diagnosed.tables(found)["verdict"].notes
+
+
 def test_a_form_is_written_in_usual_notation_and_says_what_a_side_is():
     form = in_words("contact", {"slip_of_load": {"front": -2.4e-06}, "side_slip_of_sides": {"front": 0.0076}}, {"slip_of_load": {"linear": 0.14}})
     verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"form": form, "place": "contact", "port": "tyre_planar"}}

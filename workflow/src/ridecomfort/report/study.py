@@ -114,7 +114,7 @@ class Diagnosis:
     def subject(self) -> str:
         """Which model was diagnosed, on which sites, and with what calibrated, as a sentence."""
         calibrated = self.ranking.attrs.get("calibrated", "")
-        tail = f"; calibrated was {calibrated}" if calibrated else ""
+        tail = f", with {calibrated} calibrated" if calibrated else ""
         return f"Diagnosed: the model {self.model} on {', '.join(label(site) for site in self.sites)}{tail}."
 
 
