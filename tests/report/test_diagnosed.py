@@ -71,9 +71,10 @@ def test_a_proposed_form_is_shown():
 
 def test_a_verdict_says_of_which_calibration_it_is():
     found = made_up.diagnosis()
-    assert "Diagnosed: the model base on Ts1, Ts2." in diagnosed.tables(found)["verdict"].notes
+    notes = diagnosed.tables(found)["verdict"].notes
+    assert "Diagnosed: the model base on Ts1, Ts2." in notes and not any("Calibrated" in note for note in notes)
     found.ranking.attrs["calibrated"] = "tyre_friction, roll_inertia"
-    assert "Diagnosed: the model base on Ts1, Ts2, with tyre_friction, roll_inertia calibrated." in diagnosed.tables(found)["verdict"].notes
+    assert "Calibrated in it: tyre_friction, roll_inertia." in diagnosed.tables(found)["verdict"].notes
 
 
 def test_a_form_is_written_in_usual_notation_and_says_what_a_side_is():

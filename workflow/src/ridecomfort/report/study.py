@@ -112,10 +112,13 @@ class Diagnosis:
         return standin_mark(list(self.standin))
 
     def subject(self) -> str:
-        """Which model was diagnosed, on which sites, and with what calibrated, as a sentence."""
-        calibrated = self.ranking.attrs.get("calibrated", "")
-        tail = f", with {calibrated} calibrated" if calibrated else ""
-        return f"Diagnosed: the model {self.model} on {', '.join(label(site) for site in self.sites)}{tail}."
+        """Which model was diagnosed, and on which sites, as a sentence."""
+        return f"Diagnosed: the model {self.model} on {', '.join(label(site) for site in self.sites)}."
+
+    def calibrated(self) -> str:
+        """What of that model was calibrated, as a sentence; empty where nothing was."""
+        names = self.ranking.attrs.get("calibrated", "")
+        return f"Calibrated in it: {names}." if names else ""
 
 
 @dataclass(frozen=True)

@@ -315,6 +315,6 @@ def _percent(share: float | None) -> float | None:
 
 
 def _table(found: Diagnosis, name, columns, rows, sources, notes=(), breaks=()) -> Table:
-    notes = [*notes, found.subject(), *filter(None, [found.standin_note()])]
+    notes = [*notes, found.subject(), *filter(None, [found.calibrated(), found.standin_note()])]
     caption = catalogue.DIAGNOSIS_TABLES[name]
     return Table(name, caption, tuple(columns), tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks))
