@@ -22,7 +22,7 @@ OF_A_SIGNAL = 2
 HALF = 0.5
 """Share of an error that the stretch of road named for it holds."""
 
-EVERYWHERE, PATCHY = 0.35, 0.3
+EVERYWHERE, PATCHY = 0.35, 0.25
 """Share of the road from which on one stretch that holds HALF of an error says nothing, and up to which many that do are told to be few."""
 
 PREVAILING, HELD, LEAST = 2.0, 0.1, 0.1
