@@ -366,7 +366,8 @@ def test_starts_that_end_elsewhere_are_said_with_the_parameter_they_differ_in():
     assert in_doubt == [words]
     # That another start ends where the best does leaves no doubt of it.
     (words,), in_doubt = calibrate._of_starts(task, [best, near, far], best, [])
-    assert words.startswith("2 of 3 starts end at the best, the worst of 3 ends at a cost 20.0 %") and not in_doubt
+    assert words.startswith("2 of 3 starts end at the best, the worst of 3 ends at a cost 20.0 % above") and words.endswith("most in two, 1 against 5")
+    assert not in_doubt
     assert calibrate._of_starts(task, [best, near], best, ["spins"])[1] == ["1 of 3 starts led to a vehicle that does not drive (spins)"]
 
 

@@ -111,7 +111,9 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     store.write(drives.load().isel(drive=[0]), files / "fitted.nc", title="Without another", configuration={})
     alone = common | {"measured": files / "fitted.nc"}
     compare.main(**alone, calibration=files / "calibration.nc", config=model, output=files / "comparison.nc", workers="1")
-    assert f"{NOTE}here: no drive is held out (role: check)" in capsys.readouterr().err
+    assert f"{NOTE}here: no drive is held out here (role: check)" in capsys.readouterr().err
+    compare.main(**alone, calibration=files / "calibration.nc", config=model | {"site": "there"}, output=files / "comparison.nc", workers="1")
+    assert NOTE not in capsys.readouterr().err, "nothing is fitted to the drives of a site that is calibrated on another"
     turned = drives.load()
     turned["pitch_rate"] *= -1.0
     store.write(turned, files / "turned.nc", title="Turned", configuration={})

@@ -64,8 +64,9 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; by classes of equal duration
     of a ``condition`` (SI units; edges in ``condition_edge``, means in ``condition_level``) ``condition_error`` and
     ``condition_measured(condition, class, signal, band)``, the floor of which is
-    ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated, the ``ratio(signal)`` of their rms, and what of the
-    first speaks for a wrong sign, ``against(signal)`` (``judged.against``); another signal that it goes with instead, ``goes_with(signal)`` (``judged.taken_for``); and what ``response.responses`` says of transfer functions.
+    ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated, the ``ratio(signal)`` of their rms, what of the
+    first speaks for a wrong sign, ``against(signal)`` (``judged.against``), and another signal that it goes with instead,
+    ``goes_with(signal)`` (``judged.taken_for``); and what ``response.responses`` says of transfer functions.
     Attribute ``located_state`` names the state, ``floor`` where the floor is known from.
     """
     name = str(comparison["state"].values[-1] if state is None else state)

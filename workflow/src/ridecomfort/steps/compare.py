@@ -7,7 +7,7 @@ from ridecomfort.discrepancy import compare, findings, locate
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
-ALL_FITTED = "{site}: no drive is held out (role: check), so that nothing tells whether what is fitted holds on others"
+ALL_FITTED = "{site}: no drive is held out here (role: check), so that only other sites could tell whether what is fitted holds"
 
 
 def main(road, measured, vehicle, calibration, config, output, workers):
@@ -35,12 +35,12 @@ def main(road, measured, vehicle, calibration, config, output, workers):
     store.write(
         result, output, title=f"Simulated against measured drives on {config['site']}", configuration=config
     )
-    roles = set(result["role"].values.tolist())
-    if calibration is not None and roles == {"fit"}:
-        doubts = [*doubts, ALL_FITTED.format(site=config["site"])]
     for doubt in doubts:
         note(doubt)
-    print(*(said for said in words if said not in doubts), sep="\n", file=sys.stderr)
+    is_fitted = calibration is not None and calibration.attrs["calibrated_on"] == config["site"]
+    if is_fitted and "check" not in result["role"].values:
+        note(ALL_FITTED.format(site=config["site"]))
+    print(*words[len(doubts) :], sep="\n", file=sys.stderr)
 
 
 if __name__ == "__main__":

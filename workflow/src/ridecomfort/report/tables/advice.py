@@ -68,15 +68,11 @@ WORTHWHILE = 0.1
 
 def next_step(found: Diagnosis) -> str:
     """What to do next, a sentence or a few."""
-    return f"{FILE_FIRST if found.verdict.get('off_file') else ''}{_after_the_file(found)}"
-
-
-def _after_the_file(found: Diagnosis) -> str:
-    """What to do next but for the vehicle's file."""
     said, proposal = found.verdict, found.verdict.get("proposal") or {}
     own = list(found.switched_on)
     other = next((word for word in ("linear", "cubic") if f"interpolation: {word})" in found.ranking.attrs.get("road", "")), "")
     before = ROAD_FIRST.format(other=other) if other and said["verdict"] != "suspect" else ""
+    before += FILE_FIRST if said.get("off_file") else ""
     named = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
     if said["verdict"] == "nothing":
         return f"{before}{NEXT['nothing']} {_left(said)}"
