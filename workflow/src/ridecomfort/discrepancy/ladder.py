@@ -30,6 +30,10 @@ FEWEST = 5
 RISEN = 0.01
 """By how much more of what the reference leaves a model may leave on fitted drives than the one before it until that is said."""
 
+WORSE = 0.25
+"""By how much more of what the reference leaves of a signal a model may leave than the one before it, while all signals together fall, until that is
+said: a quarter, several times what chance makes of a signal near its floor."""
+
 
 @dataclass(frozen=True)
 class Measured:
@@ -145,6 +149,22 @@ def risen(found: xr.Dataset) -> list[tuple[str, str]]:
         for rung, before, now in zip(found["rung"].values[2:], left[1:], left[2:]):
             if now > before + 100 * RISEN:
                 said.append((str(site), f"{rung} leaves {now:.0f} % on the fitted drives, more than the {before:.0f} % without it"))
+    return said
+
+
+def worsened(found: xr.Dataset) -> list[tuple[str, str]]:
+    """Site and words for every model of a ladder with which all signals fall but some rise by more than WORSE, on drives held out where there are any."""
+    said = []
+    for site in found["site"].values:
+        groups = [group for group in (HELD_OUT, FITTED) if found["rmse"].sel(site=site, group=group).notnull().any()]
+        chosen = found.sel(site=site, group=groups[0])
+        for before, now in zip(chosen["rung"].values, chosen["rung"].values[1:]):
+            lower, higher = (chosen["left"].sel(rung=rung).values for rung in (before, now))
+            rises = np.flatnonzero(higher > lower + WORSE)
+            if rises.size and chosen["left_overall"].sel(rung=now) < chosen["left_overall"].sel(rung=before):
+                signals = (f"{chosen['signal'].values[k]} ({100 * lower[k]:.0f} to {100 * higher[k]:.0f} %)" for k in rises)
+                told = f"{now}: on drives {groups[0]} more is left of {', '.join(signals)}, though less of all signals"
+                said.append((str(site), f"{told}: what was fitted may stand in for something that is missing"))
     return said
 
 

@@ -19,7 +19,7 @@ def main(comparisons, sections, config, output):
         for site, fitted in sites.items()
     }
     found = ladder.ladder(measured, models, config["titles"])
-    for site, words in ladder.risen(found):
+    for site, words in (*ladder.risen(found), *ladder.worsened(found)):
         note(f"{site}: {words}")
     store.write(found, output, title="Error ladder", configuration=config)
 

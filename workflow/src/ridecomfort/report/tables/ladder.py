@@ -65,7 +65,10 @@ def error_ladder(study: Difference) -> Table:
     )
     known = zip(study.ladder["site"].values, study.ladder["floor_known"].values)
     floors = [f"{catalogue.label(str(site))}: floor {how}" for site, how in known]
-    titled = study.ladder.assign_coords(rung=[rung_title(str(rung)) for rung in study.ladder["rung"].values])
+    titled = study.ladder.assign_coords(
+        rung=[rung_title(str(rung)) for rung in study.ladder["rung"].values],
+        signal=[notation.signal(str(name)) for name in study.ladder["signal"].values],
+    )
     notes = (
         f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
@@ -78,7 +81,7 @@ def error_ladder(study: Difference) -> Table:
         "which does not count among all then. The diagnosis tells other shares: it takes all sites together and aligns their drives for every model.",
         *_of_reference(study),
         "; ".join(floors) + ".",
-        *(f"{catalogue.label(site)}: {words}." for site, words in (*rungs.risen(titled), *rungs.disagreeing(titled))),
+        *(f"{catalogue.label(site)}: {words}." for site, words in _remarks(titled)),
     )
     return _table(study, "error_ladder", columns, rows, sources, notes, breaks[1:], frozenset(bold))
 
@@ -139,6 +142,11 @@ def _of_reference(study: Difference) -> list[str]:
         f"100 % are what the base model leaves with {', '.join(names)} calibrated. With others calibrated they are other 100 %: "
         "compare such ladders by their RMSE."
     ]
+
+
+def _remarks(titled: xr.Dataset) -> list[tuple[str, str]]:
+    """Site and words for what the numbers of a ladder do not say of themselves."""
+    return [*rungs.risen(titled), *rungs.worsened(titled), *rungs.disagreeing(titled)]
 
 
 def _groups(found: xr.Dataset):
