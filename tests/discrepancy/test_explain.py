@@ -64,6 +64,20 @@ def test_noise_that_was_low_passed_away_is_no_floor(cut_off, bandwidth):
     assert found["floor_rmse"].values.ravel() == pytest.approx(expected, rel=0.01)
 
 
+def test_on_another_road_the_floor_is_that_of_the_repeats_on_which_the_vehicle_is_calibrated():
+    compared = comparison()[1]
+    there, here = explain(compared), compared.isel(drive=[0])
+    found = explain(here, elsewhere=("alpha", there))
+    assert found["floor_rmse"].values[0] == pytest.approx(np.sqrt((there["floor_rmse"] ** 2).mean("drive").values))
+    assert found.attrs["floor"].startswith("from repeats on alpha")
+    # Its own noise densities and repeats are nearer, and a site without repeats knows nothing either.
+    named = here.isel(signal=[0]).assign_coords(drive=["one"], signal=["a_z"])
+    known = explain(named, {"one": {"accelerometer": 0.01, "gyroscope": 0.002}}, ("alpha", there))
+    assert "assumed from the noise densities" in known.attrs["floor"]
+    assert explain(compared, elsewhere=("alpha", there)).attrs["floor"] == "from repeats"
+    assert "nil" in explain(here, elsewhere=("alpha", explain(here))).attrs["floor"]
+
+
 def test_repeats_know_better_than_a_data_sheet():
     compared = comparison()[1].assign_coords(drive=["one", "two", "three"])
     found = explain(compared, {"one": {"accelerometer": 10.0, "gyroscope": 10.0}})

@@ -11,6 +11,11 @@ rule comparison:
             site=study.calibrated_on(wildcards.site) or [],
             model=wildcards.model,
         ),
+        elsewhere=lambda wildcards: expand(
+            "results/{site}/{model}/comparison.nc",
+            site=study.calibrated_elsewhere(wildcards.site) or [],
+            model=wildcards.model,
+        ),
     output:
         "results/{site}/{model}/comparison.nc",
     params:
@@ -23,7 +28,7 @@ rule comparison:
     threads: 1 if len(study.measured) > 1 else 2
     shell:
         "OPENBLAS_NUM_THREADS=1 python -m ridecomfort.steps.compare --road {input.road:q} --measured {input.measured:q}"
-        " --vehicle {input.vehicle:q} --calibration {input.calibration:q}"
+        " --vehicle {input.vehicle:q} --calibration {input.calibration:q} --elsewhere {input.elsewhere:q}"
         " --config {params.config:q} --output {output:q} --workers {threads} 2> {log:q}"
 
 

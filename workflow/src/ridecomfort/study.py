@@ -103,6 +103,11 @@ class Study:
             return site if has_fit(self.sites[site]) else None
         return None if named == NO_CALIBRATION else named
 
+    def calibrated_elsewhere(self, site: str) -> str | None:
+        """Another site on whose drives the vehicle of this site is calibrated, if any."""
+        other = self.calibrated_on(site)
+        return None if other == site else other
+
     def road(self, site: str) -> str:
         """File of a site's road; of a scanned one the file that the scan becomes."""
         return self.sites[site]["road"].get("file", f"results/{site}/road.crg")

@@ -45,6 +45,7 @@ def compare(
     simulate: Callable[..., xr.Dataset],
     options: Mapping | None = None,
     noise_density: Mapping[str, Mapping[str, float]] | None = None,
+    elsewhere: tuple[str, xr.Dataset] | None = None,
     each: Callable = map,
 ) -> xr.Dataset:
     """The model driven over every measured path, state by state, beside what was measured there.
@@ -58,7 +59,7 @@ def compare(
     ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
     recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``, ``cut_off``,
     of the last state ``suspension_velocity``, ``tyre_velocity``, ``road_heave`` and ``road_tilt`` (``wheels.wheels``), and
-    the floor and the explainable error (``explain.explain``, which ``noise_density`` is for). ``each`` maps a function over drives
+    the floor and the explainable error (``explain.explain``, which ``noise_density`` and ``elsewhere`` are for). ``each`` maps a function over drives
     (``map``, or that of threads).
     """
     drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
@@ -108,7 +109,7 @@ def compare(
         },
     )
     result = result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal")
-    return explain(result, noise_density)
+    return explain(result, noise_density, elsewhere)
 
 
 def _below(again: Replay, vehicle, simulated: np.ndarray) -> np.ndarray:

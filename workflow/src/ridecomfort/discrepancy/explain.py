@@ -23,6 +23,7 @@ that their paths may lie apart. On other tracks wheels meet another road, so tha
 REPEATS = "from repeats"
 NIL = "taken as nil: no drive was repeated"
 ASSUMED = "assumed from the noise densities of the instruments: no drive was repeated; errors of path and road are not in it"
+FROM_ELSEWHERE = "from repeats on {site}, on whose drives the vehicle is calibrated: no drive was repeated here"
 """What a floor is known from, as in the attribute ``floor``."""
 
 STRETCH = 5.0
@@ -55,7 +56,9 @@ class OwnNoise:
     noise: np.ndarray
 
 
-def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, float]] | None = None) -> xr.Dataset:
+def explain(
+    comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, float]] | None = None, elsewhere: tuple[str, xr.Dataset] | None = None
+) -> xr.Dataset:
     """A comparison (``compare.compare``) with its floor and its explainable error.
 
     Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no
@@ -64,7 +67,8 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
     ``explained_share(state, drive, signal)``, the share of the first state's explainable mean square that is gone; and
     ``square_by_stretch(state, drive, signal, stretch_of_time)``, mean squares of the error over STRETCH each, nan after the end. Without
     repeats the floor is that of the instruments alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz),
-    "gyroscope": rad/s/sqrt(Hz)}, one-sided), or nil; attribute ``floor`` says which.
+    "gyroscope": rad/s/sqrt(Hz)}, one-sided); else the mean of those of ``elsewhere``, the site that the vehicle is calibrated on and what this
+    function returned there, if drives were repeated on it; else nil. Attribute ``floor`` says which.
     """
     floors = np.full((comparison.sizes["state"], comparison.sizes["drive"], comparison.sizes["signal"]), np.nan)
     for state, name in enumerate(comparison["state"].values):
@@ -75,6 +79,10 @@ def explain(comparison: xr.Dataset, noise_density: Mapping[str, Mapping[str, flo
         floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
     elif noise_density:
         floor_squares, known_from = _filled(_of_instruments(comparison, noise_density)), ASSUMED
+    elif elsewhere is not None and elsewhere[1].attrs["floor"] == REPEATS:
+        site, repeated = elsewhere
+        one = (repeated["floor_rmse"] ** 2).mean("drive").sel(signal=comparison["signal"]).values
+        floor_squares, known_from = np.broadcast_to(one, floors.shape[1:]), FROM_ELSEWHERE.format(site=site)
     else:
         floor_squares, known_from = np.zeros(floors.shape[1:]), NIL
     floor_squares = np.minimum(floor_squares, square.min(axis=0))

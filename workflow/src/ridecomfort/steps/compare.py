@@ -10,7 +10,11 @@ from ridecomfort.vehicle import parameters
 ALL_FITTED = "{site}: no drive is held out here (role: check), so that only other sites could tell whether what is fitted holds"
 
 
-def main(road, measured, vehicle, calibration, config, output, workers):
+FLOOR = ("floor_rmse",)
+"""What is read of the comparison of the site that the vehicle is calibrated on."""
+
+
+def main(road, measured, vehicle, calibration, elsewhere, config, output, workers):
     car = parameters.read(vehicle)
     states = {"reference": (car, {})}
     if calibration is not None:
@@ -25,6 +29,7 @@ def main(road, measured, vehicle, calibration, config, output, workers):
         simulate=simulate.run,
         options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
         noise_density=config["noise_density"],
+        elsewhere=None if elsewhere is None else (calibration.attrs["calibrated_on"], store.read(elsewhere, FLOOR)),
         each=pool.side_by_side(int(workers)),
     )
     located = locate.locate(result)
@@ -44,4 +49,4 @@ def main(road, measured, vehicle, calibration, config, output, workers):
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("road", "measured", "vehicle"), optional=("calibration",), texts=("workers",)).run()
+    Command(main, inputs=("road", "measured", "vehicle"), optional=("calibration", "elsewhere"), texts=("workers",)).run()
