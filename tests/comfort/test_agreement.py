@@ -68,6 +68,9 @@ def test_a_road_of_less_than_two_blocks_has_no_interval():
     assert found.value == pytest.approx(series.mean()) and np.isnan([found.lower, found.upper]).all()
     assert agreement.verdict(found) == "cannot be said"
     assert np.isnan(agreement.lag([(series, series)], 1.0).lower)
+    # Beside a longer road it would be drawn as it is, without any scatter.
+    longer = np.random.default_rng(4).standard_normal(400)
+    assert np.isnan(agreement.bootstrap(np.mean, [(longer,), (series,)], 1.0, block=100.0).lower)
 
 
 def test_a_method_of_one_grade_says_nothing_of_agreement():

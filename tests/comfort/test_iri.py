@@ -122,6 +122,14 @@ def test_local_roughness_finds_the_step():
     assert found[0]["peak"] > 2.5 * iri.survey(profile, 0.1, s).max()
 
 
+@pytest.mark.parametrize("beginning", [0.0, 0.3, 28.3, 1234.5])
+@pytest.mark.parametrize("spacing", [0.1, 0.02])
+def test_where_a_profile_begins_does_not_matter(beginning, spacing):
+    """The moving average stands on the edge of a half interval at 0.1 m: 3 intervals (Sayers 1995), whatever the last digit of a position."""
+    s, height = rough(200.0, spacing)
+    assert iri.iri(height(s), beginning + s) == pytest.approx(iri.iri(height(s), spacing), rel=1e-6)
+
+
 def test_a_short_rest_is_left_out():
     assert iri.segments(0.0, 999.9, 100.0)[0].size == 10
     assert iri.segments(0.0, 1040.0, 100.0)[0].size == 10
@@ -134,7 +142,7 @@ def test_a_short_rest_is_left_out():
         (([0.0, 1.0, 0.0], [0.0, 0.2, 0.1]), "ascend"),
         (([0.0, 1.0, 0.0], 0.0), "spacing"),
         (([0.0], 0.1), "two heights"),
-        ((np.zeros(100), 0.1, 50.0), "longer than the profile"),
+        ((np.zeros(100), 0.1, 50.0), "more than twice as long as the profile"),
         ((np.zeros(100), 0.1, -5.0), "not a length"),
     ],
 )

@@ -111,6 +111,8 @@ def test_factors_by_point_and_axis():
 def test_daily_exposure_and_caution_zone():
     assert exposure.a8(1.0, 2 * 3600) == pytest.approx(0.5)
     assert exposure.a8_of_periods([(1.0, 2 * 3600), (0.5, 8 * 3600)]) == pytest.approx(np.sqrt(0.25 + 0.25))
+    with pytest.raises(InputError, match="exposure"):
+        exposure.a8_of_periods([(1.0, -5.0)])
     # ISO 2631-1:1997 figure B.1: 3 and 6 m/s2 at 10 min, equal energy from there on.
     assert (exposure.rms_zone(60).lower, exposure.rms_zone(600).upper) == (3.0, 6.0)
     eight_hours = exposure.rms_zone(8 * 3600)

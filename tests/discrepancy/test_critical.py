@@ -49,7 +49,7 @@ def test_a_section_has_the_worst_style_that_is_left_in_its_whole_length(found):
 
 def test_what_the_model_does_not_do_it_is_not_graded_for(found):
     assert set(graded(found, "thresholds", "calibrated").values()) == {0}
-    assert set(graded(found, "iso2631", "calibrated").values()) == {0}
+    assert set(graded(found, "iso2631", "calibrated").values()) == {0, critical.NOT_DRIVEN}
 
 
 def test_iso2631_counts_the_bands_whose_lower_edge_is_reached(found):
@@ -60,7 +60,14 @@ def test_iso2631_counts_the_bands_whose_lower_edge_is_reached(found):
 
 def test_sections_of_the_run_in_are_not_there(found):
     assert found["window_start"].min() >= 60.0
-    assert (found["grade"] >= 0).all()
+    assert (found["grade"].sel({"method": "thresholds"}) >= 0).all()
+
+
+def test_sections_of_the_first_second_have_no_running_rms_yet(found):
+    """ISO 2631-1 averages over the second before: it is known from 70 m on at 10 m/s."""
+    grades = graded(found, "iso2631", "measured")
+    assert {grade for place, grade in grades.items() if place < 70.0} == {critical.NOT_DRIVEN}
+    assert min(grade for place, grade in grades.items() if place >= 75.0) == 0
 
 
 def test_repeats_share_a_group(found):

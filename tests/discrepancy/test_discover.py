@@ -318,6 +318,8 @@ def test_a_term_that_only_stood_in_for_others_is_not_in_the_form_and_yet_counts_
     assert set(both.terms) == set(terms.values())
     one = proposed(replace(selection, needless=frozenset({"strut:velocity_size"})), "found", ())
     assert set(one.terms) == {"deflection_cube"} and "velocity_size" not in one.source and one.share == both.share
+    turn = selection.rounds[selection.accepted.index("strut:deflection_cube")]
+    assert one.p_value == turn.p_value[turn.names.index("strut:deflection_cube")]
     assert proposed(replace(selection, needless=frozenset(selection.accepted)), "found", ()).place == ""
 
 

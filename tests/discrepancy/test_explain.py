@@ -37,8 +37,24 @@ def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_com
 def test_the_squares_by_stretch_are_parts_of_the_whole():
     found = explain(comparison()[1])
     whole = found["explainable_rmse"] ** 2 + found["floor_rmse"] ** 2
-    assert found.sizes["stretch_of_time"] > 3
-    np.testing.assert_allclose(found["square_by_stretch"].mean("stretch_of_time"), whole.transpose("state", "drive", "signal"), rtol=0.05)
+    assert found.sizes["stretch_of_road"] > 3
+    np.testing.assert_allclose(found["square_by_stretch"].mean("stretch_of_road"), whole.transpose("state", "drive", "signal"), rtol=0.05)
+
+
+def test_a_stretch_is_the_same_road_for_drives_at_any_speed():
+    """At 20 and 10 m/s from 30 m on: an error between 300 and 400 m stands in the same stretch of both; ends that are not covered are empty."""
+    time = np.arange(6000) / 100.0
+    s = np.stack([30.0 + 20.0 * time, 30.0 + 10.0 * time])
+    wave = np.sin(2 * np.pi * 5.0 * time)
+    residual = np.where((s > 300.0) & (s < 400.0), wave, 1e-3 * wave)[None, :, None]
+    over = lambda values: (("drive", "time"), values)
+    compared = xr.Dataset(
+        {"residual": (("state", "drive", "signal", "time"), residual), "s": over(s), "e": over(np.zeros_like(s))},
+        {"state": ["reference"], "signal": ["a_z"], "time": time},
+    )
+    square = explain(compared)["square_by_stretch"].values[0, :, 0]
+    assert np.nanargmax(square, axis=1).tolist() == [3, 3]
+    assert np.isnan(square[:, 0]).all() and np.isfinite(square[0, 1:12]).all() and np.isnan(square[1, 7:]).all()
 
 
 def test_without_repeats_the_floor_is_said_to_be_taken_as_nil():

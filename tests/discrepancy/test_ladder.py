@@ -19,7 +19,7 @@ def comparison(*squares, floor=1.0, states=("reference", "calibrated"), by_stret
             "explainable_rmse": (("state", "drive", "signal"), np.sqrt(values**2 - floor)),
             "nrmse": (("state", "drive", "signal"), 0.1 * values),
             "floor_rmse": (("drive", "signal"), np.full((2, 1), np.sqrt(floor))),
-            "square_by_stretch": (("state", "drive", "signal", "stretch_of_time"), stretches[:, None, None] * np.ones((1, 2, 1, 1))),
+            "square_by_stretch": (("state", "drive", "signal", "stretch_of_road"), stretches[:, None, None] * np.ones((1, 2, 1, 1))),
             "role": ("drive", ["fit", "check"]),
         },
         {"state": list(states), "drive": ["one", "slow"], "signal": ["a_z"]},

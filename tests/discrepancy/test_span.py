@@ -27,6 +27,14 @@ def made():
     return rows, series, whitening
 
 
+def test_what_is_left_out_at_the_ends_makes_no_sample_beside_it_weigh_more():
+    rng = np.random.default_rng(1)
+    white = rng.standard_normal((6, 4000))
+    white[:, :100] = white[:, -100:] = 0.0
+    scale = spectrum.local_scale(white, RATE)
+    assert scale[100:3900] == pytest.approx(1.0, abs=0.1)
+
+
 def test_rows_of_one_place_are_one_piece(made):
     apart = span.taken_apart(made[0])
     assert sorted(tuple(piece.numbers) for piece in apart.pieces) == [(0,), (1, 2), (3,), (4,), (5, 6)]

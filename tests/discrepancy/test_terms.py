@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from ridecomfort.discrepancy import places
 from ridecomfort.discrepancy.places import PLACES
 
 STEP = 1e-4
@@ -41,6 +42,13 @@ def test_a_damper_behind_rubber_that_hardens_has_no_force_at_first_and_all_of_it
     moving = Moving("strut", "late_velocity_hardening", knee=0.001)
     assert moving.after(0.0, velocity=0.2) == pytest.approx(-0.2)
     assert moving.after(1.0, velocity=0.2) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_what_hardens_in_compression_has_its_size_there():
+    """6.2832 * 10 Hz * 1 mm * (1 + (1/2)^2) less 0.12 m/s at typical motion; of what acts in rebound the size is that in rebound."""
+    assert places.scale("strut", "late_velocity_hardening") == pytest.approx(abs(2.0 * pi * 10.0 * 0.001 * 1.25 - 0.12), rel=1e-3)
+    assert places.scale("strut", "rebound_beyond") == pytest.approx(places.scale("strut", "bump_beyond"))
+    assert places.scale("strut", "rebound_at_first") == pytest.approx(places.scale("strut", "bump_at_first"))
 
 
 def test_rubber_that_hardens_is_twice_as_stiff_at_its_knee():

@@ -118,7 +118,7 @@ VARIABLES = _table(
     ("tyre_velocity", "m/s", "velocity of compression of the tyre, rms over the wheels"),
     ("road_heave", "m", "mean height of the road under the front wheels"),
     ("road_tilt", "m", "height of the road under the front left wheel above that under the right one"),
-    ("square_by_stretch", "1", "mean square of what is judged of the error over a few seconds each, in the unit of the signal squared"),
+    ("square_by_stretch", "1", "mean square of what is judged of the error over stretches of road, in the unit of the signal squared"),
     ("error_power", "1", "mean square error, in the unit of the signal squared"),
     ("floor_power", "1", "mean square of the floor, in the unit of the signal squared"),
     ("band_floor", "1", "mean square of the floor over all of the road, in the unit of the signal squared"),

@@ -99,14 +99,14 @@ def bootstrap(
 
     ``series``: per site a sequence of equally long arrays (places,), ``spacing`` m
     apart; ``statistic`` takes them, sites joined. Resamples in which it is not
-    defined are left out. Without a site of two blocks there is no interval (NaN).
+    defined are left out. Where a site is shorter than two blocks, of which no others could be drawn, there is no interval (NaN).
     """
     joined = [np.concatenate(parts) for parts in zip(*series)]
     counts = [len(site[0]) for site in series]
     rng = np.random.default_rng(seed)
     length = max(1, round(block / spacing))
     drawn: list[float] = []
-    for _ in range(repetitions if max(counts) >= 2 * length else 0):
+    for _ in range(repetitions if min(counts) >= 2 * length else 0):
         places = blocks(counts, length, rng)
         drawn.append(statistic(*(each[places] for each in joined)))
     return _estimate(statistic(*joined), drawn)
@@ -141,7 +141,7 @@ def lag(
     rng, length = np.random.default_rng(seed), max(1, round(block / spacing))
     running = np.concatenate([np.zeros((len(shifts), 1)), np.cumsum(joined, axis=1)], axis=1)
     drawn: list[float] = []
-    for _ in range(repetitions if max(counts) >= 2 * length else 0):
+    for _ in range(repetitions if min(counts) >= 2 * length else 0):
         total, offset = np.zeros(len(shifts)), 0
         for count in counts:
             size = min(length, count)

@@ -60,7 +60,7 @@ def a8(rms, exposure: float):
 def a8_of_periods(periods: Mapping[float, float] | list[tuple[float, float]]) -> float:
     """A(8) in m/s2 of several periods (rms in m/s2, exposure in s) of one day (ISO 2631-1:1997 B.3.2)."""
     pairs = periods.items() if isinstance(periods, Mapping) else periods
-    return float(np.sqrt(sum(rms**2 * exposure for rms, exposure in pairs) / WORKING_DAY))
+    return float(np.sqrt(sum(rms**2 * _positive(exposure, "exposure") for rms, exposure in pairs) / WORKING_DAY))
 
 
 @dataclass(frozen=True)

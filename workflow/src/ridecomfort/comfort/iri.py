@@ -32,7 +32,7 @@ def iri(
     None for a profile that is smoothed already. ``state``: the quarter-car's at
     the first sample (``Response.state``), else that of the first 11 m.
 
-    Raises InputError for gaps, samples out of order or a segment longer than the profile.
+    Raises InputError for gaps, samples out of order or a profile shorter than half a segment.
     Source: sec:IRI_concept, put right (docs/method.md); Sayers (1995), TRR 1501; ASTM E1926-08.
     """
     response = respond(profile, spacing, moving_average=moving_average, speed=speed, state=state)
@@ -49,7 +49,7 @@ def segments(first: float, last: float, length: float) -> tuple[np.ndarray, np.n
         raise InputError(f"{length!r} is not a length; expected more than 0 m", place="segment")
     count = int((last - first) / length + 1.0 - LEAST_SHARE + 1e-9)
     if count == 0:
-        raise InputError(f"is longer than the profile of {last - first:g} m", place=f"segment of {length:g} m")
+        raise InputError(f"is more than twice as long as the profile of {last - first:g} m", place=f"segment of {length:g} m")
     start = first + length * np.arange(count)
     return start, np.minimum(start + length, last)
 

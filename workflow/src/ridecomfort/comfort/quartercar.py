@@ -25,6 +25,9 @@ MOVING_AVERAGE = 0.25
 FINE_SPACING = 0.05
 """m; samples this close resolve a profile that is smoothed over ``MOVING_AVERAGE``."""
 
+ROUNDING = 1e-6
+"""Of an interval; half intervals are rounded up though the mean spacing of positions is a last digit too large (Sayers 1995 has 3 at 0.1 m)."""
+
 CONVERGED = 1e-12
 
 
@@ -213,7 +216,7 @@ def _slopes(heights, position, steps, even: bool, base: float | None) -> np.ndar
     """
     middle, half = 0.5 * (position[1:] + position[:-1]), 0.5 * steps
     if base and even:
-        count = max(1, int(base / steps.mean() + 0.5))
+        count = max(1, int(base / steps.mean() + 0.5 + ROUNDING))
         # An even number of intervals is centred on a sample: the one behind the interval.
         middle = position[1:] if count % 2 == 0 else middle
         half = np.full(len(steps), 0.5 * count * steps.mean())

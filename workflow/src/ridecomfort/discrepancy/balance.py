@@ -66,15 +66,15 @@ class Balance:
     """Whether what was found is too little to be what is missing."""
 
 
-def balanced(selection: Selection, notes: Sequence[str], is_material: bool) -> Balance:
-    """The balance of a selection; ``notes`` say that the road may be another than that of its file, ``is_material`` whether what repeats share
+def balanced(selection: Selection, notes: Sequence[str], matters: bool) -> Balance:
+    """The balance of a selection; ``notes`` say that the road may be another than that of its file, ``matters`` whether what repeats share
     is worth explaining."""
     share, held_out = total_shares(selection)
     band = selection.remaining.band
     # A road that is another makes errors that repeats share, but fast ones.
     in_band = band is not None and band.z > SHARED_BAND_Z and (not notes or is_slow(selection))
     still = something_left(selection) or in_band
-    is_left = is_material and (still or bool(answered(selection)))
+    is_left = matters and (still or bool(answered(selection)))
     explained = max(share, selection.shared_gone) if selection.has_repeats else share
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     is_refuted = is_met and held_out < CONFIRMED

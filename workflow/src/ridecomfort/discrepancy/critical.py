@@ -14,6 +14,9 @@ from . import explain
 
 METHODS = ("thresholds", "iso2631")
 ACCELERATIONS = ("a_x", "a_y", "a_z")
+SETTLED = {"linear": 1.0, "exponential": 3.0}
+"""Time constants from the beginning of a drive until a running rms knows enough of what came before: all of it, or 95 % of its power."""
+
 NOT_DRIVEN = -1
 """Grade of a section that a drive does not cover."""
 
@@ -34,7 +37,8 @@ def critical(
 
     Returns ``grade(source, method, drive, window)``: by thresholds the number of driving styles whose band some
     acceleration leaves in the whole section, by ISO 2631 the number of bands behind the first whose lower edge the
-    total value reaches in the whole section; 0 is not critical, NOT_DRIVEN where the drive is not compared. ``source`` is
+    total value reaches in the whole section; 0 is not critical, NOT_DRIVEN where the drive is not compared, or its running rms knows too little of
+    what came before. ``source`` is
     "measured" and each state. ``window_start`` in m; ``repeat_group(drive)`` is equal for drives that repeat one another,
     else unique.
     """
@@ -51,7 +55,7 @@ def critical(
     for drive in range(count):
         row = comparison.isel(drive=drive, time=compared[drive])
         own = row["s"].values
-        covered = along.whole((places >= own[0]) & (places <= own[-1]))
+        covered = np.stack([along.whole((places >= start) & (places <= own[-1])) for start in (own[0], _settled(row, settings))])
         for k, source in enumerate(sources):
             signals = row["measured"] if source == "measured" else row["simulated"].sel(state=source)
             signals = {name: signals.sel(signal=name).values for name in ACCELERATIONS}
@@ -70,6 +74,13 @@ def critical(
         {"source": sources, "method": list(METHODS), "drive": comparison["drive"].values},
         {"critical_length": length},
     )
+
+
+def _settled(row: xr.Dataset, settings: Mapping) -> float:
+    """Place (m) from which on the running rms of a drive is known."""
+    time = row["time"].values
+    seconds = SETTLED[settings.get("averaging", "linear")] * settings.get("time_constant", 1.0)
+    return float(np.interp(time[0] + seconds, time, row["s"].values))
 
 
 def _graded(signals, time, own, places, along, table, edges, settings) -> np.ndarray:

@@ -67,7 +67,7 @@ class Discovery:
     """Fall of twice the negative log-likelihood with the best term of every place."""
     selection: Selection
     is_large: bool = False
-    """Whether the first term gains so much on the fitted drives that the error changes its colour by it."""
+    """Whether the first of its terms gains so much on the fitted drives that the error changes its colour by it."""
     evidence: xr.Dataset | None = None
     """What became of every term, as for the library (``ranking.dataset``)."""
     beside: tuple[Named, ...] = ()
@@ -170,7 +170,7 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     needed = [name for name in ours if name not in selection.needless]
     if not needed:
         return Discovery(name, "", "", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
-    place, terms, shaped = _place(ours[0]), {}, {}
+    place, terms, shaped = _place(needed[0]), {}, {}
     for accepted in needed:
         term = accepted.partition(":")[2]
         keys = {part: _key(place, term, part) for part in PLACES[place].terms[term].parts}
@@ -180,8 +180,8 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     form = in_words(place, terms, shaped)
     effects = _beside(selection, known, PLACES[place].port, ours)
     share, held_out = np.add(_removed(selection, ours), _removed(selection, [effect.name for effect in effects])).tolist()
-    turn = selection.rounds[selection.accepted.index(ours[0])]
-    p_value = float(turn.p_value[turn.names.index(ours[0])])
+    turn = selection.rounds[selection.accepted.index(needed[0])]
+    p_value = float(turn.p_value[turn.names.index(needed[0])])
     sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {told(place, terms)}."
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(

@@ -26,8 +26,11 @@ ASSUMED = "assumed from the noise densities of the instruments: no drive was rep
 FROM_ELSEWHERE = "from repeats on {site}, on whose drives the vehicle is calibrated: no drive was repeated here"
 """What a floor is known from, as in the attribute ``floor``."""
 
-STRETCH = 5.0
-"""s of a drive over which the error is averaged in ``square_by_stretch``: longer than an axle or a body swings on after what it met."""
+STRETCH = 100.0
+"""m of road over which errors are taken together: longer than an axle or a body swings on after what it met."""
+
+REACHED = 1.0
+"""m from the end of a stretch at which a drive has come through it: its last sample lies a little before."""
 
 INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 """Instrument that a signal of this unit is recorded with."""
@@ -65,7 +68,8 @@ def explain(
     model of this road and car could explain, from the differences of repeats at equal place in the best state;
     ``explainable_rmse(state, drive, signal)``, the root of mean square less floor;
     ``explained_share(state, drive, signal)``, the share of the first state's explainable mean square that is gone; and
-    ``square_by_stretch(state, drive, signal, stretch_of_time)``, mean squares of the error over STRETCH each, nan after the end. Without
+    ``square_by_stretch(state, drive, signal, stretch_of_road)``, mean squares of the error over STRETCH each, the same for all drives, nan where
+    one does not cover a stretch. Without
     repeats the floor is that of the instruments alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz),
     "gyroscope": rad/s/sqrt(Hz)}, one-sided); else the mean of those of ``elsewhere``, the site that the vehicle is calibrated on and what this
     function returned there, if drives were repeated on it; else nil. Attribute ``floor`` says which.
@@ -92,7 +96,7 @@ def explain(
         floor_rmse=(("drive", "signal"), np.sqrt(floor_squares)),
         explainable_rmse=(("state", "drive", "signal"), np.sqrt(above)),
         explained_share=(("state", "drive", "signal"), share, {"units": "1"}),
-        square_by_stretch=(("state", "drive", "signal", "stretch_of_time"), by_stretch),
+        square_by_stretch=(("state", "drive", "signal", "stretch_of_road"), by_stretch),
     ).assign_attrs(floor=known_from)
 
 
@@ -144,18 +148,24 @@ def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral
 
 
 def _squares(comparison: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Mean squares (state, drive, signal) of what is judged of the residuals, and the same by whole stretches of STRETCH (..., stretch)."""
+    """Mean squares (state, drive, signal) of what is judged of the residuals, and the same by whole stretches of road (..., stretch)."""
     residual = comparison["residual"].transpose("state", "drive", "signal", "time").values
+    place = comparison["s"].transpose("drive", "time").values
     rate = rate_of(comparison["time"].values)
-    length = max(int(STRETCH * rate), 1)
+    first, last = (int(end // STRETCH) for end in (np.nanmin(place), np.nanmax(place)))
     found = np.empty(residual.shape[:-1])
-    by_stretch = np.full((*residual.shape[:-1], residual.shape[-1] // length), np.nan)
+    by_stretch = np.full((*residual.shape[:-1], last - first + 1), np.nan)
     for state, drive in np.ndindex(found.shape[:2]):
         kept = np.isfinite(residual[state, drive]).all(axis=0)
         square = judged(residual[state, drive][:, kept], rate, comparison["signal"].values) ** 2
         found[state, drive] = np.mean(square, axis=1)
-        count = square.shape[1] // length
-        by_stretch[state, drive, :, :count] = square[:, : count * length].reshape(len(square), count, length).mean(axis=-1)
+        own = place[drive, kept]
+        number = (own // STRETCH).astype(int) - first
+        count = np.bincount(number, minlength=last - first + 1)
+        start = STRETCH * (first + np.arange(count.size))
+        covered = (start >= own.min() - REACHED) & (start + STRETCH <= own.max() + REACHED) & (count > 0)
+        for signal, values in enumerate(square):
+            by_stretch[state, drive, signal, covered] = np.bincount(number, values, count.size)[covered] / count[covered]
     return found, by_stretch
 
 

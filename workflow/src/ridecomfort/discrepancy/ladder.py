@@ -225,11 +225,11 @@ def _repeats(sections: xr.Dataset) -> np.ndarray:
     """Share (method,) of the sections that two repeats grade alike, mean over all pairs; nan without repeats."""
     grade = sections["grade"].sel(source="measured").transpose("method", "drive", "window").values
     groups = sections["repeat_group"].values
-    alike, both = np.zeros(grade.shape[0]), 0
+    alike, both = np.zeros((2, grade.shape[0]))
     for i in range(len(groups)):
         for j in range(i):
             if groups[i] == groups[j]:
-                there = (grade[0, i] != critical.NOT_DRIVEN) & (grade[0, j] != critical.NOT_DRIVEN)
+                there = (grade[:, i] != critical.NOT_DRIVEN) & (grade[:, j] != critical.NOT_DRIVEN)
                 alike += ((grade[:, i] == grade[:, j]) & there).sum(axis=1)
-                both += there.sum()
-    return alike / both if both else np.full(grade.shape[0], np.nan)
+                both += there.sum(axis=1)
+    return np.where(both > 0, alike / np.maximum(both, 1), np.nan)

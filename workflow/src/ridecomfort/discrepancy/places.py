@@ -67,12 +67,12 @@ PLACES: Mapping[str, Place] = {
             "deflection_size_times_velocity": Term("abs(deflection) * velocity", "N s/m2", beside="velocity"),
             "deflection_times_velocity": Term("deflection * velocity", "N s/m2", beside="velocity"),
             "bump_beyond": acting_beyond("max(deflection - clearance, 0.0)", 0.02, 0.005, 0.06),
-            "rebound_beyond": acting_beyond("min(deflection + clearance, 0.0)", 0.02, 0.005, 0.06),
+            "rebound_beyond": acting_beyond("min(deflection + clearance, 0.0)", 0.02, 0.005, 0.06, in_rebound=True),
             "bump_damping_beyond": acting_beyond(
                 "max(deflection - clearance, 0.0) * max(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity"
             ),
             "rebound_damping_beyond": acting_beyond(
-                "min(deflection + clearance, 0.0) * min(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity"
+                "min(deflection + clearance, 0.0) * min(velocity, 0.0)", 0.015, 0.0, 0.05, unit="N s/m2", beside="velocity", in_rebound=True
             ),
             "deflection_direction": Term("tanh(deflection / 0.002)", "N", beside="deflection"),
             "velocity_size_times_deflection_direction": Term("abs(velocity) * tanh(deflection / 0.002)", "N s/m", beside="velocity"),
@@ -100,7 +100,7 @@ PLACES: Mapping[str, Place] = {
             "late_velocity_hardening": hardening(),
             "bump_velocity_when_thrown": when_thrown("max(velocity, 0.0)"),
             "bump_at_first": at_first("max(velocity, 0.0)", "velocity > 0.0"),
-            "rebound_at_first": at_first("min(velocity, 0.0)", "velocity < 0.0"),
+            "rebound_at_first": at_first("min(velocity, 0.0)", "velocity < 0.0", in_rebound=True),
             "swinging_deflection": swinging("deflection", 0.006, "deflection - way", "N/m", "force", AXLES, "deflection"),
         },
     ),
@@ -340,7 +340,7 @@ def _known(place: str, term: str, expression: str) -> dict[str, object]:
     known |= {state.name: state.typical for state in own.states} | {one.name: one.typical for one in own.settings}
     if "clearance" in known or "rest" in expression:
         known |= {key: 2 * value for key, value in typical.items() if key != "rest"}
-    if "min(" in expression:
+    if own.in_rebound:
         known |= {key: -known[key] for key in typical}
     return known
 

@@ -90,12 +90,15 @@ class _Estimate:
         where = [curves.row(key, seen) for key, often in zip(columns, is_often) if often]
         rows, residual = evidence.without(white[is_often], self.free), self.to_explain[0]
         # What is usual holds what the data do not show, near zero.
-        held = np.linalg.inv(rows @ rows.T + np.eye(len(rows)) / seen.usual**2)
+        known = np.eye(len(rows)) / seen.usual**2
+        held = np.linalg.inv(rows @ rows.T + known)
         found = -self.to_explain @ rows.T @ held
         left = residual + found[0] @ rows
         sums = np.stack([np.bincount(blocks, row * left) for row in rows])
+        used = int(np.sum(np.any(sums != 0, axis=0)))
+        factor = used / max(used - len(rows), 1)  # as in ``refit.covariance``
         values, spread, is_met = np.zeros((2, count)), np.zeros((count, count)), np.isin(np.arange(count), where)
-        values[: len(found), where], spread[np.ix_(where, where)] = found, held @ (sums @ sums.T) @ held
+        values[: len(found), where], spread[np.ix_(where, where)] = found, held @ (factor * sums @ sums.T + known) @ held
         shown = _as_known(seen, spread, is_met)
         missing, named = np.where(is_met, values @ shown.T, np.nan)
         error = np.where(is_met, np.sqrt(np.diag(shown @ spread @ shown.T)), np.nan)

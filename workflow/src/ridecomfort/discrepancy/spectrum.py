@@ -33,22 +33,25 @@ LEAST = 1e-8
 copies another."""
 
 
+SMOOTHEST = 0.05
+"""Share of its mean below which local power does not count as less: a sample on a smooth stretch weighs at most twenty times as much."""
+
+
 @dataclass(frozen=True)
 class Spectrum:
     """Cross-spectral density in units of white noise: a white series of unit variance has the unit matrix.
 
-    ``frequency`` (Hz), ``density`` (frequency, channel, channel), ``seconds`` of record it rests on; ``lowest`` (Hz):
-    frequency by channel below which it says nothing of a channel.
+    ``frequency`` (Hz), ``density`` (frequency, channel, channel); ``lowest`` (Hz): frequency by channel below which it says nothing of a
+    channel.
     """
 
     frequency: np.ndarray
     density: np.ndarray
-    seconds: float
     lowest: tuple[float, ...] = ()
 
     def __add__(self, other: Spectrum) -> Spectrum:
         """Sum of two spectra on the frequencies of the first."""
-        return replace(self, density=self.density + _at(other, self.frequency), seconds=min(self.seconds, other.seconds))
+        return replace(self, density=self.density + _at(other, self.frequency))
 
     def __mul__(self, factor: float) -> Spectrum:
         return replace(self, density=factor * self.density)
@@ -100,8 +103,7 @@ def cross_spectrum(
     # No average reaches across an edge below which a channel says nothing.
     sections = np.split(np.arange(frequency.size), np.searchsorted(frequency, sorted(set(lowest))))
     parts = [uniform_filter1d(density[own], width, axis=0, mode="nearest") for own in sections if own.size]
-    seconds = sum(part.shape[1] for part in series) / rate
-    return Spectrum(frequency, np.concatenate(parts), seconds, lowest)
+    return Spectrum(frequency, np.concatenate(parts), lowest)
 
 
 def _faster(series: np.ndarray, rate: float, lowest: tuple[float, ...]) -> np.ndarray:
@@ -181,10 +183,16 @@ def _times(matrix, bins):
 def local_scale(white: np.ndarray, rate: float, seconds: float = 4.0) -> np.ndarray:
     """Running rms (sample,) over all channels of a white series (channel, sample), against its mean over the record.
 
-    Errors are larger where the road is rough; where they are, a sample weighs less.
+    Errors are larger where the road is rough; where they are, a sample weighs less. What ``Whitening`` leaves out at both ends does not count.
     """
-    power = uniform_filter1d(np.mean(white**2, axis=0), max(1, int(seconds * rate)), mode="nearest")
-    return np.sqrt(np.maximum(power, 0.05 * power.mean()) / power.mean())
+    power = np.mean(white**2, axis=0)
+    inside = power > 0.0
+    if not inside.any():
+        return np.ones(power.shape)
+    over = lambda values: uniform_filter1d(values, max(1, int(seconds * rate)), mode="nearest")
+    mean, share = power[inside].mean(), over(inside.astype(float))
+    local = over(power) / np.where(share > 0.0, share, 1.0)
+    return np.sqrt(np.maximum(local / mean, SMOOTHEST))
 
 
 def _regular(density: np.ndarray) -> np.ndarray:

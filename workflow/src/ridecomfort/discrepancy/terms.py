@@ -63,7 +63,7 @@ class Term:
     on the body acts ``ahead`` of the centre of gravity and ``above`` it (m, expressions) where that is given. ``beside``: what it may be linear in, too;
     ``turn``: the angle that the parts of TURNING, WAVES or WHIRL are cosine and sine of; ``after``: the unit of the ``period``, m of way or s
     of time, after which it comes back, where it is looked for only once such a period was heard; ``often``: how often it comes in a
-    turn of a wheel, of what turns with one."""
+    turn of a wheel, of what turns with one; ``in_rebound``: it is nil in compression."""
 
     expression: str
     unit: str
@@ -77,6 +77,7 @@ class Term:
     turn: str = ""
     after: str = ""
     often: int = 0
+    in_rebound: bool = False
 
     def written(self, expression: str) -> str:
         """An ``expression`` of it, with the wave that it comes and goes as if it does."""
@@ -135,12 +136,12 @@ def pressed_down() -> Term:
     return Term("pressed", "N", states=(pressed,), settings=(angle,), beside="deflection")
 
 
-def at_first(part: str, is_there: str) -> Term:
+def at_first(part: str, is_there: str, in_rebound: bool = False) -> Term:
     """A ``part`` of the velocity that counts in full at the beginning of each stroke to a side and less and less in its course, as if a valve
     were ``closed``; it opens at once while the velocity is not to that side."""
     frequency = shape_setting("frequency", "Hz", 3.0, 0.5, 20.0, "frequency of strokes up to which it is lost")
     closed = State("closed", f"{2 * pi:.4f} * frequency * (1.0 - closed) if {is_there} else -{AT_ONCE} * closed", 0.4)
-    return Term(f"{part} * (1.0 - closed)", "N s/m", states=(closed,), settings=(frequency,), beside="velocity")
+    return Term(f"{part} * (1.0 - closed)", "N s/m", states=(closed,), settings=(frequency,), beside="velocity", in_rebound=in_rebound)
 
 
 def remembering(what: str, unit: str, *times: float) -> Term:
@@ -157,10 +158,10 @@ def sliding(expression: str, unit: str, beside: str) -> Term:
     return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
 
 
-def acting_beyond(expression: str, *clearances: float, unit: str = "N/m", beside: str = "deflection") -> Term:
+def acting_beyond(expression: str, *clearances: float, unit: str = "N/m", beside: str = "deflection", in_rebound: bool = False) -> Term:
     """What acts from a deflection on: a typical clearance, the least and the largest."""
     clearance = shape_setting("clearance", "m", *clearances, "deflection from which on it acts")
-    return Term(expression, unit, settings=(clearance,), beside=beside)
+    return Term(expression, unit, settings=(clearance,), beside=beside, in_rebound=in_rebound)
 
 
 def on_spring(

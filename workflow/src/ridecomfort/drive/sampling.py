@@ -14,10 +14,10 @@ LARGEST_JITTER = 0.2
 """Largest distance of a time stamp from a uniform clock, in sampling intervals, for inertial signals."""
 
 LARGEST_SHIFT = 0.02
-"""Distance in intervals within which samples stand on a clock: at 20 Hz and 100 Hz sampling a phase of 0.2 degrees."""
+"""Distance in intervals within which samples stand on a clock: at 20 Hz and 100 Hz sampling a phase of 1.4 degrees."""
 
 LARGEST_GAP = 0.25
-"""s; longest pause in a slow quantity (speed, place): over it, 0.5 m/s2 bends a line by less than 4 mm/s."""
+"""s; longest pause in a slow quantity (speed, place): over it, 0.5 m/s2 bends a line of place by less than 4 mm."""
 
 HALF_WIDTH, KAISER = 5, 4.0
 """Half width of the anti-alias filter in periods of twice its cut-off, and shape of its window: flat to 0.8 of the
@@ -74,14 +74,21 @@ def require_uniform(time: np.ndarray, *, file=None, place: str = "time") -> tupl
     return start, interval, jitter
 
 
-def _kernel(distance: np.ndarray, interval: float, cut_off: float, half: int) -> np.ndarray:
+def _kernel(distance: np.ndarray, interval: float, cut_off: float) -> np.ndarray:
     """Windowed sinc (Kaiser) at distances in intervals; rows sum to one."""
-    window = np.i0(KAISER * np.sqrt(np.clip(1 - (distance / half) ** 2, 0, None))) / np.i0(KAISER)
-    kernel = np.sinc(2 * cut_off * interval * distance) * window
+    kernel = _windowed_sinc(distance, interval, cut_off)
     return kernel / kernel.sum(axis=-1, keepdims=True)
 
 
+def _windowed_sinc(distance: np.ndarray, interval: float, cut_off: float) -> np.ndarray:
+    """The filter at distances in intervals, nil beyond its half width."""
+    width = HALF_WIDTH / (2 * cut_off * interval)
+    window = np.i0(KAISER * np.sqrt(np.clip(1 - (distance / width) ** 2, 0, None))) * (np.abs(distance) <= width)
+    return np.sinc(2 * cut_off * interval * distance) * window
+
+
 def _half_width(interval: float, cut_off: float) -> int:
+    """Whole intervals that hold half of the filter."""
     return int(np.ceil(HALF_WIDTH / (2 * cut_off * interval)))
 
 
@@ -99,7 +106,7 @@ def band_limited(start: float, interval: float, values: np.ndarray, time: np.nda
         part = slice(first, first + 8192)
         place = (time[part] - start) / interval
         whole = np.clip(np.floor(place).astype(int), 0, len(values) - 1)
-        kernel = _kernel((place - whole)[:, None] - taps, interval, cut_off, half)
+        kernel = _kernel((place - whole)[:, None] - taps, interval, cut_off)
         result[part] = np.einsum("ij,ij->i", kernel, padded[whole[:, None] + taps + half])
     return result
 
@@ -107,14 +114,14 @@ def band_limited(start: float, interval: float, values: np.ndarray, time: np.nda
 def low_pass(values: np.ndarray, interval: float, cut_off: float) -> np.ndarray:
     """Uniform samples (time, channel) through the same filter as ``band_limited``, on their own clock."""
     half = _half_width(interval, cut_off)
-    return _convolve(np.ascontiguousarray(values), _kernel(np.arange(-half, half + 1.0), interval, cut_off, half))
+    return _convolve(np.ascontiguousarray(values), _kernel(np.arange(-half, half + 1.0), interval, cut_off))
 
 
 def low_pass_matrix(count: int, interval: float, cut_off: float) -> csr_array:
     """``low_pass`` of ``count`` samples as a sparse matrix, for signals that are mostly zero."""
     half = _half_width(interval, cut_off)
     offsets = np.arange(-half, half + 1)
-    taps = _kernel(offsets.astype(float), interval, cut_off, half)
+    taps = _kernel(offsets.astype(float), interval, cut_off)
     rows = np.repeat(np.arange(count), offsets.size)
     columns = np.clip(rows + np.tile(offsets, count), 0, count - 1)
     return csr_array((np.tile(taps, count), (rows, columns)), shape=(count, count))
@@ -156,11 +163,8 @@ def resampled_slopes(values: np.ndarray, interval: float, places: np.ndarray, cu
 @lru_cache
 def _tables(interval: float, cut_off: float) -> tuple[np.ndarray, np.ndarray]:
     """The kernel of ``band_limited`` and its slope per interval at a place FINE points an interval behind a sample: (point, tap)."""
-    width = HALF_WIDTH / (2 * cut_off * interval)
-    half = int(np.ceil(width))
-    distance = np.arange(-half * FINE, (half + 1) * FINE + 1) / FINE
-    window = np.i0(KAISER * np.sqrt(np.clip(1 - (distance / width) ** 2, 0, None))) * (np.abs(distance) <= width)
-    kernel = np.sinc(2 * cut_off * interval * distance) * window
+    half = _half_width(interval, cut_off)
+    kernel = _windowed_sinc(np.arange(-half * FINE, (half + 1) * FINE + 1) / FINE, interval, cut_off)
     taps = FINE * np.arange(1, 2 * half + 1) - np.arange(FINE + 1)[:, None]
     return kernel[taps], -np.gradient(kernel, 1 / FINE)[taps]
 

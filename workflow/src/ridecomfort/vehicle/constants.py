@@ -78,7 +78,7 @@ def static_loads(vehicle: Vehicle) -> np.ndarray:
 
 
 def pitch_arm(vehicle: Vehicle) -> float:
-    """Height in m of the centre of gravity of the sprung mass above the wheel centres."""
+    """Height in m of the centre of gravity of the sprung mass above the wheel centres, tyres not pressed in: 1 to 2 cm less than at rest."""
     return vehicle["cg_height"] - vehicle["tyre_radius"]
 
 

@@ -8,7 +8,7 @@ of the centre of gravity of the sprung mass. Roll and pitch are small angles, so
 Each wheel moves up and down and spins. Fore, aft and sideways it goes with the body, forward
 at the height of its centre and sideways about the roll centre: its contact moves sideways by
 scrub = (height of the roll centre) / y per metre of travel, and a side force F_y on it presses
-the wheel down by scrub F_y. That makes 6 + 4 + 4 degrees of freedom.
+the wheel up by scrub F_y. That makes 6 + 4 + 4 degrees of freedom.
 
 Equations of motion in these moving axes (Boltzmann-Hamel; T is the kinetic energy)::
 

@@ -82,7 +82,7 @@ def agreement_table(study: Study) -> Table:
         "over it. The lag is by how much the first method follows the second along the road; it was sought within 50 m, and "
         "an interval that reaches so far tells none.",
         f"95 % intervals by block bootstrap: blocks of {found.attrs['block']:g} m within each site, "
-        f"{found.attrs['repetitions']} resamples, so that they respect the correlation along the road; none on roads of less "
+        f"{found.attrs['repetitions']} resamples, so that they respect the correlation along the road; none where a road is shorter "
         "than two blocks. No kappa where a method knows one grade only.",
     )
     return _table(study, "agreement", columns, rows, sources, notes, breaks)
