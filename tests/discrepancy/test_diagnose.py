@@ -236,7 +236,7 @@ def test_parameters_beyond_their_bounds_are_a_reason_more():
     said = with_parameters(named, beyond())
     assert said.verdict == "named" and said.reasons[:-1] == named.reasons
     assert said.reasons[-1].startswith("another 30 % of the explainable error, 20 % on drives held out,")
-    assert "roll_inertia 390 kg m2 for 572" in said.reasons[-1]
+    assert "roll_inertia 390 kg m2 (380 to 400) for 572" in said.reasons[-1]
     assert said.json()["beyond_bounds"]["parameters"][0]["interval"] == [380.0, 400.0]
     assert with_parameters(named, None) is named
 
@@ -245,7 +245,7 @@ def test_parameters_are_told_beside_effects_only_where_there_are_any_and_for_the
     named = replace(NOTHING, verdict="named", effects=(FOUND,))
     assert with_parameters(named, beyond()).reasons[-1].startswith("another 30 % of the explainable error")
     assert with_parameters(LITTLE_ALONE, beyond()).reasons[-1].startswith("30 % of the explainable error")
-    assert "roll_inertia 390 kg m2 for 600" in beyond().of({"roll_inertia": 600.0}).words(is_more=False)
+    assert "roll_inertia 390 kg m2 (380 to 400) for 600" in beyond().of({"roll_inertia": 600.0}).words(is_more=False)
 
 
 def test_where_they_are_all_that_is_missing_it_is_no_effect_of_the_library():
@@ -368,6 +368,8 @@ def test_on_a_road_that_may_be_another_such_a_force_counts_where_it_leaves_half(
 def test_parameters_beside_the_file_are_told_with_a_form_that_explains_nearly_all(share, held_out_share, is_told):
     """What a form leaves may drive parameters of the vehicle elsewhere."""
     proposed = replace(SURE, share=share, held_out_share=held_out_share, off_file=HELD)
-    found = _beside_the_file(OUTSIDE, Outcome(None, OUTSIDE, proposed, None, None))
+    found = _beside_the_file(OUTSIDE, Outcome(None, OUTSIDE, proposed, None, None), None)
     assert found is (HELD if is_told else None)
-    assert _beside_the_file(OUTSIDE, Outcome(None, OUTSIDE, None, None, None)) is None
+    assert _beside_the_file(OUTSIDE, Outcome(None, OUTSIDE, None, None, None), None) is None
+    beyond = BeyondBounds((), 0.3, 0.3, is_first=True)
+    assert _beside_the_file(OUTSIDE, Outcome(None, OUTSIDE, proposed, None, None), beyond) is None, "others may lie beyond beside a form, too"

@@ -68,3 +68,11 @@ def test_what_does_little_beside_another_is_not_told():
     """The height is surely not as the file says, but does a hundredth of what the inertia does."""
     (inertia,) = off_file(searched(OfVehicle({"inertia": 4.0, "height": 0.4}))).parameters
     assert inertia.parameter == "inertia"
+
+
+def test_what_is_told_already_is_not_told_again_and_is_fitted_beside_the_others():
+    """A bar beyond its bounds, say, that comes first: the inertia beside it is told in the same verdict."""
+    selection = searched(OfVehicle({"inertia": 1.5, "height": 2.0}))
+    assert {one.parameter for one in off_file(selection).parameters} == {"inertia", "height"}
+    (inertia,) = off_file(selection, ["height"]).parameters
+    assert inertia.parameter == "inertia" and inertia.value == pytest.approx(1.5, abs=0.1)

@@ -58,7 +58,7 @@ def test_the_places_of_an_error_that_sits_at_a_few_of_them_are_told(is_everywher
     pairs = [(record, series[a], series[b]) for a in range(3) for b in range(a)]
     places = shared._places(pairs, 0, (1.0, 3.0))
     said = str(shared.Band("a_y", 1.0, 3.0, 13.0, places))
-    assert said == ("a_y, 1-3 Hz (z = 13.0)" if is_everywhere else "a_y, 1-3 Hz (z = 13.0), half of it at 0.20-0.22, 0.80-0.82 km")
+    assert said == ("a_y, 1-3 Hz (z = 13.0)" if is_everywhere else "a_y, 1-3 Hz (z = 13.0), half of it at 0.20-0.22, 0.80-0.82 km of ts1")
 
 
 @pytest.mark.parametrize(("share", "noise", "matters"), [(0.02, 0.0, False), (0.2, 0.0, True), (0.2, 0.17, False), (0.2, 0.1, True)])

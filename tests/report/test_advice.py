@@ -118,6 +118,7 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     assert words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": less_sure}))["verdict"]) == said
     named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
     assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
+    assert rows(named)[-1]["in_words"].startswith("This was found with the vehicle put right as above, so that both may be done in one go. ")
     # Beside an error that nothing explains, a few percent that go with the file are not all that is missing.
     little = beyond | {"share": 0.06, "held_out_share": 0.06}
     for is_first, is_left in ((False, False), (True, True)):
@@ -132,7 +133,7 @@ def test_parameters_that_calibration_holds_beside_the_drives_are_to_be_calibrate
     for said in (made_up.VERDICT, made_up.nothing()):
         told = rows(diagnosed.tables(made_up.diagnosis({**said, "off_file": off}))["verdict"])
         assert [row["what"] for row in told][-2:] == ["the vehicle's file", "next"]
-        assert told[-1]["in_words"].startswith("First put the vehicle's file right, as the row above says. Then: ")
+        assert told[-1]["in_words"].startswith("First, or in the same go, put the vehicle's file right, as the row above says. Then: ")
         assert told[-2]["in_words"].startswith("Add roll_inertia, damping_front to calibration: parameters in config/study.yaml")
     assert "the vehicle's file" not in [row["what"] for row in rows(diagnosed.tables(made_up.diagnosis())["verdict"])]
 

@@ -154,6 +154,7 @@ VARIABLES = _table(
     ("critical_measured", "1", "critical sections of the measured drives"),
     ("agreeing", "1", "sections that the replay grades as the measured drive"),
     ("changed", "1", "sections that the replay grades otherwise than on the rung before"),
+    ("changed_in_all", "1", "sections that the replay grades otherwise than the calibrated base model"),
     ("repeats_agreeing", "1", "share of the sections that repeats of a drive grade alike"),
     ("a_wx", "m/s2", "running rms of the frequency-weighted acceleration along x"),
     ("a_wy", "m/s2", "running rms of the frequency-weighted acceleration along y"),

@@ -116,6 +116,10 @@ class BeyondBounds:
             return f"{share}; other shares are of what they leave"
         return f"another {share}" if is_more else share
 
+    def names(self) -> list[str]:
+        """All parameters that are told."""
+        return [one.parameter for one in (*self.parameters, *self.less_sure)]
+
     def of(self, vehicle) -> BeyondBounds:
         """The same with the values that this vehicle has as given: what it was calibrated to is no value of its file."""
         given = lambda those: tuple(replace(one, given=float(vehicle[one.parameter])) for one in those)
@@ -262,8 +266,9 @@ def _beyond(
 
 
 def _told(those: Sequence[Beyond]) -> str:
-    """Their values beside those that the vehicle was given with, in words."""
-    words = lambda one: f"{one.parameter} {_rounded(one.value):g} {one.unit}".removesuffix(" 1") + f" for {_rounded(one.given):g}"
+    """Their values with 90 % intervals beside those that the vehicle was given with, in words."""
+    interval = lambda one: " ({:.4g} to {:.4g})".format(*one.interval)
+    words = lambda one: f"{one.parameter} {one.value:.4g} {one.unit}".removesuffix(" 1") + f"{interval(one)} for {one.given:.4g}"
     return ", ".join(map(words, those))
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 from .. import pool
 from . import opening, turns
 from .balance import DOUBTFUL, total_shares
-from .beyond import at_bounds, ends_at_bounds
+from .beyond import BeyondBounds, at_bounds, ends_at_bounds
 from .car import Car
 from .discover import Discovery, discovered
 from .explain import REPEATS
@@ -60,9 +60,9 @@ def diagnose(
         if is_beside and proposal.share > verdict.share + found.share:
             found = None
         verdict = beside_a_force(verdict, proposal)
+    beside_file = _beside_the_file(verdict, outcome, found)
     verdict = with_bounds(with_parameters(verdict, found and found.of(vehicle)), at_bounds(outcome.stands_on, experiment.free))
-    if found is None:
-        verdict = with_held(verdict, _beside_the_file(verdict, outcome))
+    verdict = with_held(verdict, beside_file)
     table = outcome.table
     if signatures:
         say("drawing the missing force")
@@ -73,10 +73,14 @@ def diagnose(
     return table, with_allowances(verdict, {candidate.name for candidate in experiment.candidates}), proposal
 
 
-def _beside_the_file(verdict: Verdict, outcome: Outcome) -> OffFile | None:
-    """Parameters that calibration holds beside the drives, where what was found explains nearly all: else what is missing may drive them there."""
+def _beside_the_file(verdict: Verdict, outcome: Outcome, found: BeyondBounds | None) -> OffFile | None:
+    """Parameters that calibration holds beside the drives, where what was found explains nearly all: else what is missing may drive them there.
+    Beside those ``found`` beyond their bounds, only where these came first: else no model has all of it."""
+    is_in_model = found is None or found.is_first
     if verdict.verdict in ("named", "cluster", "nothing"):
-        return off_file(outcome.selection)
+        return off_file(outcome.selection, found.names() if found else ()) if is_in_model else None
+    if found is not None:
+        return None
     explains = outcome.proposed is not None and left(outcome.proposed) <= 1.0 - DOUBTFUL
     return outcome.proposed.off_file if explains else None
 

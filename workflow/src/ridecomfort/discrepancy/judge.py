@@ -131,7 +131,7 @@ def with_bounds(verdict: Verdict, found: Sequence[AtBound]) -> Verdict:
     """A verdict with the parameters of the vehicle that end at their bounds, but those of which it says already that they lie beyond: a
     reason more, unless the data are suspect, which comes first."""
     beyond = verdict.beyond_bounds
-    known = {one.parameter for one in (*beyond.parameters, *beyond.less_sure)} if beyond else set()
+    known = beyond.names() if beyond else []
     kept = tuple(one for one in found if one.parameter not in known)
     told = kept if verdict.verdict != "suspect" else ()
     what = DRIVEN if all(one.is_last for one in told) else DRIVEN + BEYOND

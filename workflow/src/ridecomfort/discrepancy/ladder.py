@@ -55,7 +55,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     ``falling`` of the stretches of the drives, and ``fall_p_value`` is how likely chance alone makes it fall so (Wilcoxon's signed ranks of the
     stretches: of rough ones, which hold most of the error, there are few; of less than FEWEST both are nan). Over ``method`` in place of signal: numbers
     of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
-    ``changed`` (other grade than on the rung before); ``repeats_agreeing``, the share of sections that repeats grade alike.
+    ``changed`` (other grade than on the rung before) and ``changed_in_all`` (than on the reference rung); ``repeats_agreeing``, the share of sections that repeats grade alike.
     Nan where there is no such drive, rung or repeat. ``starts`` (rung, site): what calibration says of its starts, where a site's own
     drives were fitted.
     """
@@ -77,7 +77,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
             if not drives.any():
                 continue
             floor_squares[k, g] = _floor_squares(site, drives)
-            before, stretches = None, None
+            grades, stretches = {}, None
             for r, (model, state) in enumerate(_rungs(site, models)):
                 if state is None:
                     continue
@@ -87,7 +87,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
                     falls[r, k, g] = _mean_of_drives(higher - stretches)
                 squares[r, k, g] = (rows["explainable_rmse"] ** 2 + rows["floor_rmse"] ** 2).mean("drive").values
                 relative[r, k, g] = (rows["nrmse"] ** 2).mean("drive").values
-                before = _count(site.sections[model].isel(drive=drives), state, before, counts, (r, k, g))
+                grades[r] = _count(site.sections[model].isel(drive=drives), state, grades, counts, (r, k, g))
             repeated[k, g] = _repeats(site.sections[models[0]].isel(drive=drives))
     floor_squares = np.fmin(floor_squares, np.fmin.reduce(squares, axis=0))
     reference = 1 if np.isfinite(squares[1]).any() else 0
@@ -175,7 +175,7 @@ def disagreeing(found: xr.Dataset) -> list[tuple[str, str]]:
     return [(site, f"{rung}: {words}") for (site, rung), words in texts if words not in ("", AGREE)]
 
 
-COUNTS = ("compared", "critical_simulated", "critical_measured", "agreeing", "changed")
+COUNTS = ("compared", "critical_simulated", "critical_measured", "agreeing", "changed", "changed_in_all")
 
 
 def _rungs(site: Measured, models: Sequence[str]) -> list[tuple[str, str | None]]:
@@ -206,8 +206,9 @@ def _floor_squares(site: Measured, drives: np.ndarray) -> np.ndarray:
     return np.fmin.reduce(floors, axis=0)
 
 
-def _count(sections: xr.Dataset, state: str, before, counts, at) -> np.ndarray:
-    """Count the sections of a state into ``counts`` at this rung, and return their grades (method, drive, window)."""
+def _count(sections: xr.Dataset, state: str, grades: Mapping[int, np.ndarray], counts, at) -> np.ndarray:
+    """Count the sections of a state into ``counts`` at this rung, and return their grades (method, drive, window); ``grades``: those of the rungs
+    before, of which the calibrated one is the reference, or else the first."""
     measured = sections["grade"].sel(source="measured").transpose("method", "drive", "window").values
     grade = sections["grade"].sel(source=state).transpose("method", "drive", "window").values
     there = measured != critical.NOT_DRIVEN
@@ -216,8 +217,9 @@ def _count(sections: xr.Dataset, state: str, before, counts, at) -> np.ndarray:
     counts["critical_simulated"][at] = total(grade > 0)
     counts["critical_measured"][at] = total(measured > 0)
     counts["agreeing"][at] = total(grade == measured)
-    if before is not None:
-        counts["changed"][at] = total(grade != before)
+    if grades:
+        counts["changed"][at] = total(grade != grades[max(grades)])
+        counts["changed_in_all"][at] = total(grade != grades.get(1, grades[0])) if len(grades) > 1 else np.nan
     return grade
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -56,14 +56,14 @@ class OffFile:
         return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds: at the values of the file {left} more is left"
 
 
-def off_file(selection: Selection) -> OffFile | None:
-    """What calibration holds beside the drives in the last model of a selection; None where the intervals hold the values of the file, or
-    hardly more is left with these.
+def off_file(selection: Selection, told: Collection[str] = ()) -> OffFile | None:
+    """What calibration holds beside the drives in the last model of a selection, but what is ``told`` otherwise; None where the intervals hold the
+    values of the file, or hardly more is left with these.
 
     All else that was fitted makes good what it can of values that are held otherwise, as a calibration would.
     """
     final, frame, fit = selection.final, selection.frame, selection.states[-1].fit
-    off = [size for size in frame.experiment.free if size.held and _is_off(size, selection)]
+    off = [size for size in frame.experiment.free if size.held and size.key not in told and _is_off(size, selection)]
     if not off:
         return None
     normal = evidence.product(fit.columns, fit.columns)
@@ -77,8 +77,8 @@ def off_file(selection: Selection) -> OffFile | None:
     left = (with_file - with_own).mean(axis=0) / floor.squares(frame.experiment, measured).mean(axis=0)
     if not np.max(left) >= LEAST_LEFT:
         return None
-    told = (Held(size.key, size.unit, size.neutral, final.values[size.key], selection.intervals[size.key]) for size in held)
-    return OffFile(tuple(told), dict(zip(frame.experiment.channels, left.tolist())))
+    those = (Held(size.key, size.unit, size.neutral, final.values[size.key], selection.intervals[size.key]) for size in held)
+    return OffFile(tuple(those), dict(zip(frame.experiment.channels, left.tolist())))
 
 
 def _is_off(size: Size, selection: Selection) -> bool:

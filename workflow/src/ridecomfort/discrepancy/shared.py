@@ -57,9 +57,11 @@ class Band:
     places: tuple[tuple[str, float, float], ...] = ()
 
     def __str__(self) -> str:
-        one_site = len({site for site, _, _ in self.places}) == 1
-        told = [f"{'' if one_site else f'{site} '}{start / 1000:.2f}-{end / 1000:.2f}" for site, start, end in self.places]
-        where = f", half of it at {', '.join(told)} km" if told else ""
+        stretches: dict[str, list[str]] = {}
+        for site, start, end in self.places:
+            stretches.setdefault(site, []).append(f"{start / 1000:.2f}-{end / 1000:.2f}")
+        told = " and ".join(f"{', '.join(own)} km of {site}" for site, own in stretches.items())
+        where = f", half of it at {told}" if told else ""
         return f"{self.signal}, {self.lower:.0f}-{self.upper:.0f} Hz (z = {self.z:.1f}){where}"
 
 

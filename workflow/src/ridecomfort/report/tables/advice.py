@@ -52,8 +52,11 @@ ROAD_FIRST = (
 )
 """What comes before anything else where the road may be another between its points."""
 
-FILE_FIRST = "First put the vehicle's file right, as the row above says. Then: "
+FILE_FIRST = "First, or in the same go, put the vehicle's file right, as the row above says. Then: "
 """What comes before where calibration holds parameters beside the drives."""
+
+WITH_VEHICLE = "This was found with the vehicle put right as above, so that both may be done in one go. "
+"""What comes before where parameters of the vehicle beyond their bounds came before any effect."""
 
 STAND_IN = " The model holds a form of its own, which may not be exact: take out again what does not lower the error ladder on drives held out."
 """What is added to names beside a proposed form, for the rest of which they may stand in."""
@@ -81,6 +84,7 @@ def next_step(found: Diagnosis) -> str:
     if said["verdict"] == "suspect":
         wrong = [effect["name"] for effect in said["effects"] if effect.get("is_of_measurement")]
         return NEXT["suspect"] + (SAME_ERROR.format(keys=", ".join([*own, *wrong])) if wrong else "")
+    before += WITH_VEHICLE if (said.get("beyond_bounds") or {}).get("is_first") else ""
     before += _may_end(said, said)
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
     return before + NEXT[said["verdict"]].format(keys=named) + caution

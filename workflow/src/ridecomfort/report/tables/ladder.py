@@ -33,7 +33,7 @@ def error_ladder(study: Difference) -> Table:
         columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
     of_all_signals = len(columns)
     columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".0f"))
-    columns.append(Column("all_fall_pct", ("All signals", "fall [%]"), ".1f"))
+    columns.append(Column("all_fall_pct", ("All signals", "fall [% points]"), ".1f"))
     columns.append(Column("all_falling_pct", ("All signals", "stretches falling [%]"), ".0f"))
     columns.append(Column("all_helps", ("All signals", "helps")))
     rows, breaks, bold = [], [], set()
@@ -95,6 +95,7 @@ def error_ladder_sections(study: Difference) -> Table:
             Column(f"{key}_measured", (title, "measured"), ".0f"),
             Column(f"{key}_agreeing_pct", (title, "alike [%]"), ".1f"),
             Column(f"{key}_changed", (title, "changed"), ".0f"),
+            Column(f"{key}_changed_in_all", (title, "in all"), ".0f"),
         ]
     columns.append(Column("sections", ("", "Sections"), ".0f"))
     rows, breaks = [], []
@@ -108,21 +109,21 @@ def error_ladder_sections(study: Difference) -> Table:
             for method in METHODS:
                 own = one.sel({"method": method})
                 alike = 100 * float(own["agreeing"]) / max(float(own["compared"]), 1.0)
-                cells += [float(own["critical_simulated"]), float(own["critical_measured"]), alike, float(own["changed"])]
+                cells += [float(own["critical_simulated"]), float(own["critical_measured"]), alike, float(own["changed"]), float(own["changed_in_all"])]
             compared = float(one["compared"].isel({"method": 0}))
             rows.append((catalogue.label(site), group, rung_title(str(rung)), *cells, compared))
-        repeats = [[None, None, 100 * float(chosen["repeats_agreeing"].sel({"method": method})), None] for method in METHODS]
+        repeats = [[None, None, 100 * float(chosen["repeats_agreeing"].sel({"method": method})), None, None] for method in METHODS]
         if np.isfinite(chosen["repeats_agreeing"]).any():
             rows.append((catalogue.label(site), group, "repeats among themselves", *sum(repeats, []), None))
     sources = (
         Source("simulated, measured", study.ladder_file, "critical_simulated, critical_measured", "sum over the drives"),
-        Source("alike, changed", study.ladder_file, "agreeing, compared, changed, repeats_agreeing", "share of the sections in percent"),
+        Source("alike, changed", study.ladder_file, "agreeing, compared, changed, changed_in_all, repeats_agreeing", "share of the sections in percent"),
     )
     notes = (
         "Sections of the measured drives and of the model on the same path at the same speed, at the place of the sensor. Critical: "
         "by thresholds, some acceleration leaves the band of at least the mildest driving style in the whole section; by ISO 2631, "
         "the total value lies above the lower edge of the second band in the whole section. Alike: same style or band as measured. "
-        "Changed: other style or band than on the rung before. Repeats differ among themselves in speed and path, which a replay follows: "
+        "Changed: other style or band than on the rung before; in all: than with the calibrated base model. Repeats differ among themselves in speed and path, which a replay follows: "
         "a good model may agree better with a drive than its repeats do.",
     )
     return _table(study, "error_ladder_sections", columns, rows, sources, notes, breaks[1:])
