@@ -97,7 +97,7 @@ def test_what_acts_at_a_dozen_places_counts_where_a_force_of_any_form_is_looked_
         parts=lambda rows: [rows.reshape(*rows.shape[:-1], CHANNELS, SAMPLES)],
     )  # fmt: skip
     asked = lambda few: event.p_values(frame, residual.ravel(), columns.reshape(2, -1), np.arange(2), np.zeros(2), few)
-    assert not asked(event.FEW)[1].any()
+    assert not asked(event.FEW_BLOCKS)[1].any()
     p_value, rare = asked(event.SEVERAL)
     assert rare.tolist() == [True, False] and p_value[0] < 0.005 and p_value[1] == 1.0
 

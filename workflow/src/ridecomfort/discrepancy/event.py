@@ -14,7 +14,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from .experiment import Frame
 
-FEW = 8.0
+FEW_BLOCKS = 8.0
 """Blocks below which the power of a column counts as that of events (participation number)."""
 
 SEVERAL = 20.0
@@ -41,7 +41,7 @@ def participation(columns: np.ndarray, numbers: np.ndarray) -> np.ndarray:
 
 
 def p_values(
-    frame: Frame, residual: np.ndarray, columns: np.ndarray, group: np.ndarray, sign: np.ndarray, few: float = FEW
+    frame: Frame, residual: np.ndarray, columns: np.ndarray, group: np.ndarray, sign: np.ndarray, few: float = FEW_BLOCKS
 ) -> tuple[np.ndarray, np.ndarray]:
     """By group: p-value over all groups whose columns act at less than ``few`` places (1 for the others), and whether it is one of them.
 

@@ -24,7 +24,7 @@ MOST = 0.8
 TOLD, LEAST_TOLD = 3, 0.001
 """Signals of which it is told what is left, and share of their power below which it is not."""
 
-DRIVEN = "something that is missing may drive it there"
+MAY_DRIVE = "something that is missing may drive it there"
 """What is said of parameters of the vehicle that end at their bounds..."""
 
 BEYOND = "; if the car may lie beyond, have it calibrated in wider bounds (calibration: parameters, bounds)"
@@ -134,7 +134,7 @@ def with_bounds(verdict: Verdict, found: Sequence[AtBound]) -> Verdict:
     known = beyond.names() if beyond else []
     kept = tuple(one for one in found if one.parameter not in known)
     told = kept if verdict.verdict != "suspect" else ()
-    what = DRIVEN if all(one.is_last for one in told) else DRIVEN + BEYOND
+    what = MAY_DRIVE if all(one.is_last for one in told) else MAY_DRIVE + BEYOND
     reasons = (f"{'; '.join(one.words() for one in told)}: {what}",) if told else ()
     return replace(verdict, reasons=(*verdict.reasons, *reasons), at_bounds=kept)
 

@@ -52,10 +52,11 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     that is known from any rung (mean over drives of the square, as root), and ``left``, the mean square above the floor
     over that of the reference rung (attribute ``reference``), nan where the signal had nothing above the floor;
     ``left_overall`` weighs each of these signals by what was explainable of its own error; against the rung before, it falls in a share
-    ``falling`` of the stretches of the drives, and ``fall_p_value`` is how likely chance alone makes it fall so (Wilcoxon's signed ranks of the
-    stretches: of rough ones, which hold most of the error, there are few; of less than FEWEST both are nan). Over ``method`` in place of signal: numbers
-    of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
-    ``changed`` (other grade than on the rung before) and ``changed_in_all`` (than on the reference rung); ``repeats_agreeing``, the share of sections that repeats grade alike.
+    ``falling`` of the stretches of road, and ``fall_p_value`` is how likely chance alone makes it fall so (Wilcoxon's signed ranks of the
+    stretches: of rough ones, which hold most of the error, there are few; of less than FEWEST both are nan). Over ``method`` in place of
+    signal: numbers of sections ``compared``, ``critical_simulated``, ``critical_measured``, ``agreeing`` (same grade as measured),
+    ``changed`` (other grade than on the rung before) and ``changed_in_all`` (than on the reference rung); ``repeats_agreeing``, the share of
+    sections that repeats grade alike.
     Nan where there is no such drive, rung or repeat. ``starts`` (rung, site): what calibration says of its starts, where a site's own
     drives were fitted.
     """

@@ -68,7 +68,7 @@ class Proposal:
 
 def propose(
     frame: Frame, residuals: Mapping[int, np.ndarray], free: np.ndarray, columns: Mapping[Job, Raw],
-    candidates: Mapping[str, Candidate], seed: Sequence[int], few: float = event.FEW, known: Mapping[str, float] = {},
+    candidates: Mapping[str, Candidate], seed: Sequence[int], few: float = event.FEW_BLOCKS, known: Mapping[str, float] = {},
 ) -> Proposal:  # fmt: skip
     """Test ``columns`` on the white residuals of the fitted records; ``free``: white directions that are fitted anyway; ``few``: blocks
     below which a column acts at few places. ``known``: p-values by name of what another test has found, of all candidates like these.

@@ -23,7 +23,7 @@ HALF, WORTH = 0.5, 0.025
 """Share of what the library leaves, where that is little, which a force of any form may leave at most to do so, and share of the
 explainable error by which it must be better then."""
 
-SURELY, MOST_LEFT = 3.0, 0.75
+SURE_Z, MOST_LEFT = 3.0, 0.75
 """z above which one of two models fits drives better beyond chance, and share of what the other leaves of the explainable error, on fitted
 and held-out drives together, that it may leave at most to be another explanation. In twenty blind trials whose names were right and
 removed less than DOUBTFUL, the z of a force were at most 2.2 on fitted and 1.8 on held-out drives."""
@@ -53,7 +53,7 @@ def surely_fits_better(proposal: Discovery, selection: Selection) -> bool:
     force, theirs = proposal.selection, selection.states[-1].fit.residuals
     pairs = [(force.frame, force.states[-1].fit.residuals, theirs)]
     pairs += [(force.check_frame, force.check, selection.check)] if force.check_frame is not None else []
-    return all(refit.advantage(frame, with_force, without)[1] > SURELY for frame, with_force, without in pairs)
+    return all(refit.advantage(frame, with_force, without)[1] > SURE_Z for frame, with_force, without in pairs)
 
 
 def reconsidered(

@@ -291,7 +291,7 @@ def advantage(frame: Frame, one: Mapping[int, np.ndarray], other: Mapping[int, n
     sums = sums[sums != 0]
     fall = float(sums.sum())
     change = (better - worse)[None]
-    if fall > 0 and event.participation(change, frame.blocks())[0] < event.FEW:
+    if fall > 0 and event.participation(change, frame.blocks())[0] < event.FEW_BLOCKS:
         return fall, float(norm.isf(event.p_values(frame, worse, change, np.zeros(1, int), np.ones(1))[0][0]))
     spread = np.sqrt(np.sum((sums - sums.mean()) ** 2)) if sums.size > 1 else np.inf
     return fall, float(fall / spread) if spread > 0 else 0.0

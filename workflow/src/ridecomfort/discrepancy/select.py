@@ -66,7 +66,7 @@ def search(
     each: Callable = map,
     together: Callable[[Sequence[str], str], bool] = lambda accepted, other: True,
     say: Callable[[str], None] = lambda words: None,
-    few: float = event.FEW,
+    few: float = event.FEW_BLOCKS,
     simpler: Collection[str] = (),
     probed: Mapping[Job, Raw] = {},
     known: Mapping[str, float] = {},
@@ -88,7 +88,7 @@ class _Search:
     each: Callable
     together: Callable
     say: Callable
-    few: float = event.FEW
+    few: float = event.FEW_BLOCKS
     simpler: Collection[str] = ()
     probed: Mapping[Job, Raw] = field(default_factory=dict)
     known: Mapping[str, float] = field(default_factory=dict)

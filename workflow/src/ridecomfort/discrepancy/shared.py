@@ -18,7 +18,7 @@ FINER = 10.0
 WIDTH = 2.0
 """Hz; a shaft or a mode shakes within such a band, and is lost among all others where only the whole is asked."""
 
-DRIVEN = 3.0
+SLOW = 3.0
 """Hz below which a band begins in which foot and hands of a driver show, which a driver model moves otherwise: on roads and drives
 without any other error that is up to 2.5 % of the power of a_x in the band, 3 % of pitch rate, 0.7 % of yaw rate, 0.4 % of a_y, 0.1 % of
 roll rate, and less than 0.1 % of any signal above."""
@@ -27,17 +27,17 @@ OF_DRIVEN, OF_BAND = {"a_x": 0.06, "pitch_rate": 0.06, "yaw_rate": 0.02, "a_y": 
 """Shares of the measured power within a band below that, by signal, and in all other bands, up to which an error is not worth explaining."""
 
 OF_SLOW = 0.005
-"""The same of other signals below DRIVEN."""
+"""The same of other signals below SLOW."""
 
 FOOT = 0.01
-"""m/s2 (rms) of a_x below DRIVEN up to which an error is a foot's, however little else the signal holds there: on two cars and roads whose models
+"""m/s2 (rms) of a_x below SLOW up to which an error is a foot's, however little else the signal holds there: on two cars and roads whose models
 were right 0.006 were left, 2 % of the power of one, whose instrument stood on the roof, and 29 % of the other."""
 
 LIKELY = 4.0
 """z of what repeats share in a band from which on it may be worth explaining: of some hundred and fifty bands one has 3 by chance in every fifth
 trial, and of a signal that hardly is there, yaw rate at 20 Hz, such a one was 2e-5 rad/s."""
 
-STRETCH, FEW, PLACED = 20.0, 0.1, 5.0
+PATCH, FEW_PATCHES, PLACED = 20.0, 0.1, 5.0
 """m of road whose errors are taken together, share of the road that may hold half of an error for its places to be told, and z from which on
 they are: a vehicle that is modelled wrongly errs all along a road, one that is blown at, or wades, at places."""
 
@@ -48,7 +48,7 @@ FADING = 0.2
 @dataclass(frozen=True)
 class Band:
     """A band (Hz) of a signal, and how surely repeats share an error in it, as a z; ``places``: the stretches (site, start and end in m) that
-    hold half of that, where they are FEW."""
+    hold half of that, where they are FEW_PATCHES."""
 
     signal: str
     lower: float
@@ -127,7 +127,7 @@ def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Map
     edges, agreement, variance = _bands(frame.experiment.channels, pairs)
     power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
     slow = np.array([OF_DRIVEN.get(channel, OF_SLOW) for channel in frame.experiment.channels])
-    is_slow = edges[:-1] < DRIVEN
+    is_slow = edges[:-1] < SLOW
     least = np.where(is_slow, slow[:, None], OF_BAND) * power
     foot = np.array([FOOT if channel == "a_x" else 0.0 for channel in frame.experiment.channels])
     least = np.maximum(least, np.where(is_slow, foot[:, None] ** 2 * _of_one(pairs), 0.0))
@@ -154,20 +154,21 @@ def _surest(channels, pairs) -> Band:
 
 
 def _places(pairs, channel: int, edges: tuple[float, float]) -> tuple[tuple[str, float, float], ...]:
-    """The fewest stretches that hold half of what repeats share of a channel between ``edges`` (Hz), in order; none where they are not FEW."""
+    """The fewest stretches that hold half of what repeats share of a channel between ``edges`` (Hz), in order; none where they are more than
+    FEW_PATCHES."""
     held: dict[tuple[str, int], float] = {}
     for record, *both in pairs:
         one, other = (band(series[channel], record.rate, edges) for series in both)
-        numbers, where = np.unique(np.floor(record.place / STRETCH).astype(int), return_inverse=True)
+        numbers, where = np.unique(np.floor(record.place / PATCH).astype(int), return_inverse=True)
         for number, product in zip(numbers.tolist(), np.bincount(where, one * other).tolist()):
             held[record.site, number] = held.get((record.site, number), 0.0) + product
     largest = sorted(held, key=lambda key: -held[key])
     count = int(np.searchsorted(np.cumsum([held[key] for key in largest]), 0.5 * sum(held.values()))) + 1
-    if count > FEW * len(held):
+    if count > FEW_PATCHES * len(held):
         return ()
     found: list[tuple[str, float, float]] = []
     for site, number in sorted(largest[:count]):
-        start, end = STRETCH * number, STRETCH * (number + 1)
+        start, end = PATCH * number, PATCH * (number + 1)
         if found and found[-1][0] == site and found[-1][2] == start:
             found[-1] = (site, found[-1][1], end)
         else:

@@ -21,7 +21,7 @@ MEMORY = 2.0
 """s that a white series rings on beyond the one it was made from; what is later is less than a hundredth."""
 
 
-STRETCH = 256
+CHUNK = 256
 """Samples of the stretches that white rows are kept by."""
 
 
@@ -67,10 +67,10 @@ def taken_apart(rows: np.ndarray) -> Rows:
 
 
 def by_stretch(pieces: Sequence[Piece], total: int) -> list[Piece]:
-    """The same, all rows that are there within one stretch of STRETCH samples side by side."""
+    """The same, all rows that are there within one stretch of CHUNK samples side by side."""
     found = []
-    for start in range(0, total, STRETCH):
-        stop = min(start + STRETCH, total)
+    for start in range(0, total, CHUNK):
+        stop = min(start + CHUNK, total)
         there = [piece for piece in pieces if piece.start < stop and piece.place.stop > start]
         if not there:
             continue

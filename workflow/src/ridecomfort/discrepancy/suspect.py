@@ -39,12 +39,12 @@ road is linear, 1.5 to 2.2 with noise of 0.1 mm in its file, 1.3 to 2.3 with tyr
 GAIN = 0.02
 """Difference of a recorded gain from one that is more than a calibrated instrument has."""
 
-SURELY = 2.0
+STANDARD_ERRORS = 2.0
 """Standard errors by which a gain must lie beyond that."""
 
 APART, INDEPENDENT = 0.5, 10.0
-"""Share of a gain's difference from one by which, and by SURELY standard errors beyond it, a signal of an instrument, gravity or the bends of the
-road must disagree for that to have no gain: a vehicle that rolls less makes the rate of roll smaller and no other. Independent values of a
+"""Share of a gain's difference from one by which, and by STANDARD_ERRORS beyond it, a signal of an instrument, gravity or the bends of the road
+must disagree for that to have no gain: a vehicle that rolls less makes the rate of roll smaller and no other. Independent values of a
 signal in a second."""
 
 WANDERING = 0.006
@@ -110,7 +110,7 @@ def of_drives(experiment: Car) -> list[str]:
         if np.isfinite(gain) and abs(gain - 1.0) > GAIN:
             reasons.append(f"{record.name}: the accelerometer's gain is {gain:.3f} against gravity")
         gain, error = turning.gyroscope_gain(again.drive, again.road.road)
-        if abs(gain - 1.0) > GAIN + SURELY * error:
+        if abs(gain - 1.0) > GAIN + STANDARD_ERRORS * error:
             reasons.append(f"{record.name}: the gyroscope's gain is {gain:.3f} against the bends of the road")
     return reasons
 
@@ -148,7 +148,7 @@ def _own_gains(experiment: Car, index: int, residual: np.ndarray) -> tuple[np.nd
 
 def _are_of_one(gain: float, own: Sequence[float], errors: Sequence[float]) -> bool:
     """Whether the gains of an instrument, by its signals and by what it was held against before (nan where it was not), may all be this one."""
-    apart = np.abs(np.array(own) - gain) - SURELY * np.array(errors)
+    apart = np.abs(np.array(own) - gain) - STANDARD_ERRORS * np.array(errors)
     return not np.any(apart > APART * abs(gain - 1.0))
 
 

@@ -63,7 +63,8 @@ class Term:
     on the body acts ``ahead`` of the centre of gravity and ``above`` it (m, expressions) where that is given. ``beside``: what it may be linear in, too;
     ``turn``: the angle that the parts of TURNING, WAVES or WHIRL are cosine and sine of; ``after``: the unit of the ``period``, m of way or s
     of time, after which it comes back, where it is looked for only once such a period was heard; ``often``: how often it comes in a
-    turn of a wheel, of what turns with one; ``in_rebound``: it is nil in compression."""
+    turn of a wheel, of what turns with one;
+    ``in_rebound``: it is nil in compression."""
 
     expression: str
     unit: str

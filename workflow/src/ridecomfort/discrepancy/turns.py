@@ -26,10 +26,10 @@ AROUND = 101
 """Bins of the spectrum whose median a line is held against."""
 
 
-LOBE, FEW = 3, 12
+LOBE, BINS = 3, 12
 """Bins to either side of a line that its own power reaches to, and bins over which spectra of drives at two speeds are held together."""
 
-SURELY = 3.0
+STANDARD_ERRORS = 3.0
 """Standard errors that are added to the share of an error that repeats have in common."""
 
 
@@ -131,7 +131,7 @@ def _coherence(
             every, bins = _spectra(pair, white, unit)
             near = np.abs(np.arange(every.size) - np.searchsorted(every, often))
             kept = [own[0, (near > LOBE) & (near <= AROUND // 2)] for own in bins]
-            one, other = (own[: own.size // FEW * FEW].reshape(-1, FEW) for own in kept)
+            one, other = (own[: own.size // BINS * BINS].reshape(-1, BINS) for own in kept)
             powers = [np.sum(np.abs(own) ** 2, axis=1) for own in (one, other)]
             shared = np.abs(np.sum(one * other.conj(), axis=1)) / np.maximum(np.sqrt(np.prod(powers, axis=0)), np.finfo(float).tiny)
             found.append(float(np.mean(shared) ** 2) if shared.size else 1.0)
@@ -195,7 +195,7 @@ def _common(bins: Sequence[np.ndarray], power: np.ndarray) -> np.ndarray:
         return np.ones_like(power)
     around = lambda values: uniform_filter1d(values, AROUND, axis=1, mode="nearest")
     shared = around(np.mean(pairs, axis=0)) / np.maximum(around(power), np.finfo(float).tiny)
-    return np.clip(shared + SURELY / np.sqrt(2.0 * AROUND * len(pairs)), 0.0, 1.0)
+    return np.clip(shared + STANDARD_ERRORS / np.sqrt(2.0 * AROUND * len(pairs)), 0.0, 1.0)
 
 
 def _strength(records: Sequence[Record], white: Sequence[np.ndarray], unit: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
