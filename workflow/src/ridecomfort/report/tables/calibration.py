@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ... import identifiability
+from ...discrepancy import judged
 from ...vocabulary import SIGNALS
 from .. import catalogue, published
 from ..notation import symbol, unit, words
@@ -188,7 +189,8 @@ def calibrated(found: Difference) -> Table:
     notes.append(
         "At a bound the data ask for more than the bounds allow, or the model lacks something that the parameter stands in for. Not identified: "
         "the drives do not tell it, and another value would do. Intervals hold where the model lacks nothing and what is not calibrated is as in "
-        "the vehicle's file."
+        f"the vehicle's file. A verdict counts errors from {judged.IN_WORDS} and fits more that is uncertain: where it tells a value of one of these "
+        "parameters that differs by more than the intervals, prefer that."
     )
     if any("." in name for calibration in found.calibrations.values() for name in calibration["parameter"].values.tolist()):
         notes.append(OF_EFFECTS)
