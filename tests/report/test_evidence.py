@@ -90,7 +90,7 @@ def test_the_figure_shows_every_round_and_nothing_is_cut_off_or_lies_over_anothe
     for line in zip(*[(axes.title, axes.xaxis.label) for axes in each.axes]):
         shown = [text.get_window_extent() for text in line if text.get_text()]
         assert not any(one.overlaps(other) for k, one in enumerate(shown) for other in shown[:k])
-    assert winner in said and "round 1" in said and "round 2: nothing accepted" in said
+    assert winner in said and "round 1" in said and "round 2: none of 2 accepted" in said
     assert any("Stand-in data" in text for text in said)
     assert any("Diagnosed: the model base" in text for text in said)
 
@@ -127,7 +127,7 @@ def test_a_round_with_nothing_left_to_test_is_drawn_and_told():
     with style.styled():
         each = diagnosed.figures(last)["evidence"]()
         FigureCanvasAgg(each).draw()
-    assert "round 2: nothing accepted" in [text.get_text() for text in each.findobj(Text)]
+    assert "round 2: nothing left to test" in [text.get_text() for text in each.findobj(Text)]
     assert {row["round"] for row in rows(diagnosed.tables(last)["evidence"])} == {1}
 
 

@@ -70,6 +70,10 @@ def test_what_a_step_notes_is_shown_and_the_rest_of_its_log_is_not(watched, tmp_
     log(watched, "job_finished", job_id=1)
     done, found = watched.said()[1:]
     assert "diagnosis base done" in done and found.strip() == "Missing: suspension_friction."
+    # A run of many jobs scrolls that away: it is said again at the end.
+    log(watched, "job_info", jobid=2, rule_name="diagnose", wildcards={}, benchmark=None)
+    log(watched, "job_finished", job_id=2)
+    assert watched.said()[-1] == "said above: Missing: suspension_friction."
 
 
 def test_a_run_ends_with_100_percent_and_the_page(watched, clock):

@@ -7,6 +7,8 @@ from ridecomfort.discrepancy import compare, findings, locate
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
+NOT_CALIBRATED = "{site}: compared with the vehicle of its file, calibrated on no drives (no drive of role: fit, or calibrated_on: none)"
+
 ALL_FITTED = "{site}: no drive is held out here (role: check), so that only other sites could tell whether what is fitted holds"
 
 
@@ -42,6 +44,8 @@ def main(road, measured, vehicle, calibration, elsewhere, config, output, worker
     )
     for doubt in doubts:
         note(doubt)
+    if calibration is None:
+        note(NOT_CALIBRATED.format(site=config["site"]))
     is_fitted = calibration is not None and calibration.attrs["calibrated_on"] == config["site"]
     if is_fitted and "check" not in result["role"].values:
         note(ALL_FITTED.format(site=config["site"]))

@@ -78,6 +78,7 @@ class Progress(logging.Handler):
         self.seconds: dict[str, list[float]] = defaultdict(list)
         self.running: dict[int, Job] = {}
         self.announced: set[tuple[str, str]] = set()
+        self.noted: list[str] = []
         self.together = 1
         self.done = 0
         self.percent = 0
@@ -167,6 +168,8 @@ class Progress(logging.Handler):
         if not +self.todo:
             page = f"; the page: {PAGE}" if self.counts["report"] else ""
             self._print(f"all done in {_duration(time.monotonic() - self.begun)}{page}")
+            for words in dict.fromkeys(self.noted):
+                self._write(f"said above: {words}")
             for rule, files in TO_LOOK_AT.items():
                 if self.counts[rule] and not page:
                     self._write(f"look at {files}")
@@ -179,7 +182,8 @@ class Progress(logging.Handler):
         self._print(f"{_joined(job.rule, job.where)} done in {_duration(took)}{of}{self._left()}")
         for line in _lines(job.logs):
             if line.startswith(NOTE):
-                self._write(f"        {line.removeprefix(NOTE)}")
+                self.noted.append(line.removeprefix(NOTE))
+                self._write(f"        {self.noted[-1]}")
 
     def _left(self) -> str:
         steps = sum((+self.todo).values())

@@ -78,7 +78,8 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         _scores(left, one.sel(effect=names), names, winner)
         tested = np.isfinite(gain).sum()
         drawn_of = f", best {len(names)} of {tested}" if len(names) < tested else ""
-        left.set_title(f"round {turn}{drawn_of}" + ("" if winner else ": nothing accepted"))
+        came = f": none of {tested} accepted" if tested else ": nothing left to test"
+        left.set_title(f"round {turn}{drawn_of if winner else came}")
         _refits(right, one, names)
         crowded = left.get_xlim()[1] > FOUR_DIGITS
         for axes, count in ((left, 3 if crowded else 4), (right, 5)):

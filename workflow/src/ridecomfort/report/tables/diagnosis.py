@@ -37,6 +37,9 @@ HELD = {True: "typical: the drives ask for no other", False: "held, the best of 
 OF_SIDE = "side is +1 on the left, −1 on the right"
 """What is said of that in a form."""
 
+RIGHTED = "These are the rounds of the search that began with the vehicle put right, as the verdict's row says."
+"""What is said of the evidence where parameters of the vehicle beyond their bounds came before any effect."""
+
 STRONGEST = 12
 """Candidates of a round that are drawn, and forms of a force that are told."""
 
@@ -219,6 +222,7 @@ def evidence(found: Diagnosis) -> Table:
         "best are refitted together with the calibrated parameters, and what that removes "
         "is told above the floor as known in the round: for what an accepted effect removes, and its size, in the end see the missing effects. "
         "Accepted is what the next round searches beside; whether it has a name in the end says the verdict.",
+        *([RIGHTED] if (found.verdict.get("beyond_bounds") or {}).get("is_first") else []),
     )
     return _table(found, "evidence", columns, rows, _evidence_sources(found), notes, breaks[1:])
 
