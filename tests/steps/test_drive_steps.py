@@ -105,6 +105,13 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     friction = model | {"effects": {"suspension_friction": {}}}
     compare.main(**common, calibration=None, config=friction, output=files / "comparison.nc", workers="1")
     assert list(store.read(files / "comparison.nc")["state"].values) == ["reference", "with_effects"]
+    assert capsys.readouterr().err.count(NOTE) == 1, "that nothing was calibrated"
+
+    # On another site, of drives that were not repeated, the floor is nil where those of the first were not repeated either.
+    other = model | {"site": "there"}
+    (files / "first.nc").write_bytes((files / "comparison.nc").read_bytes())
+    compare.main(**common, calibration=files / "calibration.nc", elsewhere=files / "first.nc", config=other, output=files / "comparison.nc", workers="1")
+    assert "nil" in store.read(files / "comparison.nc").attrs["floor"]
 
     # A wrong sign is for the person who waits, too, and that nothing is held out.
     assert NOTE not in capsys.readouterr().err

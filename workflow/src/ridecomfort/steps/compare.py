@@ -16,7 +16,7 @@ FLOOR = ("floor_rmse",)
 """What is read of the comparison of the site that the vehicle is calibrated on."""
 
 
-def main(road, measured, vehicle, calibration, elsewhere, config, output, workers):
+def main(road, measured, vehicle, calibration, config, output, workers, elsewhere=None):
     car = parameters.read(vehicle)
     states = {"reference": (car, {})}
     if calibration is not None:
