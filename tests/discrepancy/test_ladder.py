@@ -96,6 +96,7 @@ def test_sections_are_compared_with_the_measured_and_with_the_rung_before(found)
     assert chosen["critical_simulated"].values.tolist() == [0, 1, 1, 2]
     assert chosen["agreeing"].values.tolist() == [2, 1, 3, 4]
     assert np.isnan(chosen["changed"].values[0]) and chosen["changed"].values[1:].tolist() == [1, 2, 1]
+    assert np.isnan(chosen["changed_in_all"].values[:2]).all() and chosen["changed_in_all"].values[2:].tolist() == [2, 3]
 
 
 def test_the_floor_is_the_least_that_any_rung_shows():

@@ -154,7 +154,8 @@ def risen(found: xr.Dataset) -> list[tuple[str, str]]:
 
 
 def worsened(found: xr.Dataset) -> list[tuple[str, str]]:
-    """Site and words for every model of a ladder with which all signals fall but some rise by more than WORSE, on drives held out where there are any."""
+    """Site and words for every model of a ladder with which all signals together fall but some rise by more than WORSE, on drives held out where
+    there are any."""
     said = []
     for site in found["site"].values:
         groups = [group for group in (HELD_OUT, FITTED) if found["rmse"].sel(site=site, group=group).notnull().any()]
@@ -220,7 +221,7 @@ def _count(sections: xr.Dataset, state: str, grades: Mapping[int, np.ndarray], c
     counts["agreeing"][at] = total(grade == measured)
     if grades:
         counts["changed"][at] = total(grade != grades[max(grades)])
-        counts["changed_in_all"][at] = total(grade != grades.get(1, grades[0])) if len(grades) > 1 else np.nan
+        counts["changed_in_all"][at] = total(grade != grades.get(1, grades[0])) if at[0] > 1 else np.nan
     return grade
 
 
