@@ -267,9 +267,9 @@ def _beyond(
 
 def _told(those: Sequence[Beyond]) -> str:
     """Their values with 90 % intervals beside those that the vehicle was given with, in words."""
-    interval = lambda one: " ({:.4g} to {:.4g})".format(*one.interval)
-    words = lambda one: f"{one.parameter} {one.value:.4g} {one.unit}".removesuffix(" 1") + f"{interval(one)} for {one.given:.4g}"
-    return ", ".join(map(words, those))
+    digits = lambda *numbers: [f"{float(f'{number:.4g}'):g}" for number in numbers]
+    words = lambda one, value, lower, upper, given: f"{one.parameter} {value} {one.unit}".removesuffix(" 1") + f" ({lower} to {upper}) for {given}"
+    return ", ".join(words(one, *digits(one.value, *one.interval, one.given)) for one in those)
 
 
 def _is_enough(shares: Sequence[float]) -> bool:
