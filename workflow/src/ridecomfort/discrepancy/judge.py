@@ -84,7 +84,7 @@ def judge(
         reasons.append(f"{names} would help, but removes too little to be what is missing: {_percent(balance.share)} of the explainable error")
         effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
     elif not is_vain:
-        reasons += _removed(balance) if found else _unfound(selection, len(candidates))
+        reasons += _removed(balance) if found else _unfound(selection)
     if is_little or balance.is_left and not effects:
         kind = "outside"
         reasons.append(_unexplained(selection, balance, is_little))
@@ -169,12 +169,14 @@ def _vain(found: Sequence[Named]) -> str:
     return f"{names} helped when added, but nothing of the explainable error is removed once the vehicle's parameters are fitted anew beside it"
 
 
-def _unfound(selection: Selection, count: int) -> list[str]:
-    """Why none of ``count`` candidates was accepted, in words."""
+def _unfound(selection: Selection) -> list[str]:
+    """Why no candidate was accepted, in words."""
     first = selection.rounds[0] if selection.rounds else None
-    best = float(np.min(first.p_value)) if first is not None and first.p_value.size else 1.0
+    if first is None or not first.names:
+        return ["no candidate changes what these drives tell"]
+    best = float(np.min(first.p_value))
     if best > LEVEL:
-        return [f"the best of {count} candidates has p = {best:.2g} over the whole library"]
+        return [f"the best of the {len(first.names)} candidates that were tested has p = {best:.2g} over the whole library"]
     return [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
 
 
