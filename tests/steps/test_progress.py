@@ -70,10 +70,18 @@ def test_what_a_step_notes_is_shown_and_the_rest_of_its_log_is_not(watched, tmp_
     log(watched, "job_finished", job_id=1)
     done, found = watched.said()[1:]
     assert "diagnosis base done" in done and found.strip() == "Missing: suspension_friction."
-    # A run of many jobs scrolls that away: it is said again at the end.
-    log(watched, "job_info", jobid=2, rule_name="diagnose", wildcards={}, benchmark=None)
-    log(watched, "job_finished", job_id=2)
-    assert watched.said()[-1] == "said above: Missing: suspension_friction."
+
+
+def test_what_a_step_notes_stands_at_the_end_again_but_for_a_verdict(watched, tmp_path, capsys):
+    """A run of many jobs scrolls it away."""
+    path = tmp_path / "here.log"
+    log(watched, "run_info", stats={"comparison": 1, "diagnosis": 1, "total": 2})
+    for number, (rule, words) in enumerate((("comparison", "a_y runs against the model"), ("diagnosis", "Missing: suspension_friction."))):
+        command.note(words)
+        path.write_text(capsys.readouterr().err)
+        start(watched, number, rule, [path])
+        log(watched, "job_finished", job_id=number)
+    assert watched.said()[-1] == "said above: a_y runs against the model" and "all done" in watched.said()[-2]
 
 
 def test_a_run_ends_with_100_percent_and_the_page(watched, clock):

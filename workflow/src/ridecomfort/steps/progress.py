@@ -182,8 +182,10 @@ class Progress(logging.Handler):
         self._print(f"{_joined(job.rule, job.where)} done in {_duration(took)}{of}{self._left()}")
         for line in _lines(job.logs):
             if line.startswith(NOTE):
-                self.noted.append(line.removeprefix(NOTE))
-                self._write(f"        {self.noted[-1]}")
+                words = line.removeprefix(NOTE)
+                self._write(f"        {words}")
+                if job.rule not in TOLD:  # a verdict is long, and stands where a person is sent to look
+                    self.noted.append(words)
 
     def _left(self) -> str:
         steps = sum((+self.todo).values())
