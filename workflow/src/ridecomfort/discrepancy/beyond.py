@@ -17,6 +17,7 @@ from ..vehicle.parameters import PARAMETERS
 from . import refit
 from .car import Car
 from .experiment import Size
+from .off_file import beside_given
 from .propose import HELD_OUT_Z
 from .refit import Fit
 from .rung import Rung, climb
@@ -267,9 +268,7 @@ def _beyond(
 
 def _told(those: Sequence[Beyond]) -> str:
     """Their values with 90 % intervals beside those that the vehicle was given with, in words."""
-    digits = lambda *numbers: [f"{float(f'{number:.4g}'):g}" for number in numbers]
-    words = lambda one, value, lower, upper, given: f"{one.parameter} {value} {one.unit}".removesuffix(" 1") + f" ({lower} to {upper}) for {given}"
-    return ", ".join(words(one, *digits(one.value, *one.interval, one.given)) for one in those)
+    return ", ".join(beside_given(one.parameter, one.unit, one.value, one.interval, one.given) for one in those)
 
 
 def _is_enough(shares: Sequence[float]) -> bool:

@@ -36,9 +36,8 @@ class Held:
     interval: tuple[float, float]
 
     def words(self) -> str:
-        """Such as "roll_inertia 595 kg m2 (588 to 603) for 572"."""
-        value, lower, upper, given = (f"{float(f'{number:.4g}'):g}" for number in (self.value, *self.interval, self.given))
-        return f"{self.parameter} {value} {self.unit}".removesuffix(" 1") + f" ({lower} to {upper}) for {given}"
+        """As of ``beside_given``."""
+        return beside_given(self.parameter, self.unit, self.value, self.interval, self.given)
 
 
 @dataclass(frozen=True)
@@ -54,6 +53,12 @@ class OffFile:
         most = sorted((name for name in self.left if self.left[name] >= LEAST_LEFT), key=lambda name: -self.left[name])[:TOLD]
         left = " and ".join(f"{100 * self.left[name]:.1f} % of the power of {name}" for name in most)
         return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds: at the values of the file {left} more is left"
+
+
+def beside_given(parameter: str, unit: str, value: float, interval: tuple[float, float], given: float) -> str:
+    """A value with its interval beside the one that the vehicle was given with, such as "roll_inertia 595 kg m2 (588 to 603) for 572"."""
+    own, lower, upper, first = (f"{float(f'{number:.4g}'):g}" for number in (value, *interval, given))
+    return f"{parameter} {own} {unit}".removesuffix(" 1") + f" ({lower} to {upper}) for {first}"
 
 
 def off_file(selection: Selection, told: Collection[str] = ()) -> OffFile | None:

@@ -190,16 +190,24 @@ def _renewed(experiment, frame, values, residuals, size: Size, before: np.ndarra
 def covariance(
     fit: Fit, frame: Frame, keys: Sequence[str], groups: np.ndarray, lost: int, known: np.ndarray | float = 0.0
 ) -> tuple[np.ndarray, int]:
-    """Covariance of the fitted sizes ``keys`` in probes, the others held, and the number of groups it rests on.
-
-    Sandwich estimator: errors of one group (element,) may depend on one another in any way (Cameron and Miller 2015, eq. 11).
-    ``lost``: groups that the fit has used up. ``known``: precision (key,) of what is known of the sizes beforehand.
-    """
+    """Covariance of the fitted sizes ``keys`` in probes, the others held, and the number of groups it rests on, as of ``clustered``."""
     columns = fit.columns[[fit.keys.index(key) for key in keys]]
-    residual, numbers = frame.flat(fit.residuals), np.unique(groups, return_inverse=True)[1]
     known = np.diag(np.broadcast_to(known, len(keys)))
     bread = np.linalg.pinv(evidence.product(columns, columns) + known, rcond=1e-10, hermitian=True)
-    sums = np.stack([np.bincount(numbers, row * residual) for row in columns])
+    return clustered(bread, columns, frame.flat(fit.residuals), groups, lost, known)
+
+
+def clustered(
+    bread: np.ndarray, rows: np.ndarray, residual: np.ndarray, groups: np.ndarray, lost: int, known: np.ndarray
+) -> tuple[np.ndarray, int]:
+    """Covariance (size, size) of sizes whose columns are ``rows`` (size, element), and the number of groups it rests on.
+
+    Sandwich estimator: errors of one group (element,) may depend on one another in any way (Cameron and Miller 2015, eq. 11).
+    ``bread``: inverse of the products of the rows and what is ``known`` (size, size), the precision of what is known of the sizes
+    beforehand. ``lost``: groups that the fit has used up.
+    """
+    numbers = np.unique(groups, return_inverse=True)[1]
+    sums = np.stack([np.bincount(numbers, row * residual) for row in rows])
     used = int(np.sum(np.any(sums != 0, axis=0)))
     factor = used / max(used - lost, 1)
     return bread @ (factor * sums @ sums.T + known) @ bread, used

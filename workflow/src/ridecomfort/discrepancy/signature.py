@@ -18,7 +18,7 @@ import numpy as np
 import xarray as xr
 from scipy.linalg import block_diag
 
-from . import curves, event, evidence, probe
+from . import curves, event, evidence, probe, refit
 from .curves import LINE, Seen
 from .experiment import Frame
 from .made import beside
@@ -94,11 +94,9 @@ class _Estimate:
         held = np.linalg.inv(rows @ rows.T + known)
         found = -self.to_explain @ rows.T @ held
         left = residual + found[0] @ rows
-        sums = np.stack([np.bincount(blocks, row * left) for row in rows])
-        used = int(np.sum(np.any(sums != 0, axis=0)))
-        factor = used / max(used - len(rows), 1)  # as in ``refit.covariance``
         values, spread, is_met = np.zeros((2, count)), np.zeros((count, count)), np.isin(np.arange(count), where)
-        values[: len(found), where], spread[np.ix_(where, where)] = found, held @ (factor * sums @ sums.T + known) @ held
+        values[: len(found), where] = found
+        spread[np.ix_(where, where)] = refit.clustered(held, rows, left, blocks, len(rows), known)[0]
         shown = _as_known(seen, spread, is_met)
         missing, named = np.where(is_met, values @ shown.T, np.nan)
         error = np.where(is_met, np.sqrt(np.diag(shown @ spread @ shown.T)), np.nan)

@@ -60,11 +60,10 @@ class State:
 class Term:
     """A part of a force: its ``expression`` in what the place sees, its own ``states`` and ``settings``, the ``unit`` of its factor, the
     ``result`` it adds to, and the ``parts`` of a car that have a factor of their own (one axle's, a wheel's, or the whole car's). A force
-    on the body acts ``ahead`` of the centre of gravity and ``above`` it (m, expressions) where that is given. ``beside``: what it may be linear in, too;
-    ``turn``: the angle that the parts of TURNING, WAVES or WHIRL are cosine and sine of; ``after``: the unit of the ``period``, m of way or s
-    of time, after which it comes back, where it is looked for only once such a period was heard; ``often``: how often it comes in a
-    turn of a wheel, of what turns with one;
-    ``in_rebound``: it is nil in compression."""
+    on the body acts ``ahead`` of the centre of gravity and ``above`` it (m, expressions) where that is given. ``beside``: what it may be
+    linear in, too; ``turn``: the angle that the parts of TURNING, WAVES or WHIRL are cosine and sine of; ``after``: the unit of the
+    ``period``, m of way or s of time, after which it comes back, where it is looked for only once such a period was heard; ``often``: how
+    often it comes in a turn of a wheel, of what turns with one; ``in_rebound``: whether it is nil in compression."""
 
     expression: str
     unit: str

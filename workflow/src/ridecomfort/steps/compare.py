@@ -46,8 +46,7 @@ def main(road, measured, vehicle, calibration, config, output, workers, elsewher
         note(doubt)
     if calibration is None:
         note(NOT_CALIBRATED.format(site=config["site"]))
-    is_fitted = calibration is not None and calibration.attrs["calibrated_on"] == config["site"]
-    if is_fitted and "check" not in result["role"].values:
+    elif calibration.attrs["calibrated_on"] == config["site"] and "check" not in result["role"].values:
         note(ALL_FITTED.format(site=config["site"]))
     print(*words[len(doubts) :], sep="\n", file=sys.stderr)
 

@@ -84,18 +84,23 @@ def next_step(found: Diagnosis) -> str:
     if said["verdict"] == "suspect":
         wrong = [effect["name"] for effect in said["effects"] if effect.get("is_of_measurement")]
         return NEXT["suspect"] + (SAME_ERROR.format(keys=", ".join([*own, *wrong])) if wrong else "")
-    before += WITH_VEHICLE if (said.get("beyond_bounds") or {}).get("is_first") else ""
+    before += WITH_VEHICLE if is_vehicle_first(said) else ""
     before += _may_end(said, said)
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
     return before + NEXT[said["verdict"]].format(keys=named) + caution
 
 
+def is_vehicle_first(verdict: Mapping) -> bool:
+    """Whether the search began with parameters of the vehicle put right that lie beyond their bounds."""
+    return bool((verdict.get("beyond_bounds") or {}).get("is_first"))
+
+
 def is_file_alone(verdict: Mapping) -> bool:
     """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form, and
     no error that repeats share and that is worth explaining."""
-    proposal, beyond = verdict.get("proposal") or {}, verdict.get("beyond_bounds") or {}
+    proposal = verdict.get("proposal") or {}
     is_all = not (verdict["effects"] or proposal.get("form") or verdict.get("is_left"))
-    return bool(beyond.get("is_first")) and verdict["verdict"] == "outside" and is_all
+    return is_vehicle_first(verdict) and verdict["verdict"] == "outside" and is_all
 
 
 def library_helps(verdict: Mapping) -> bool:

@@ -222,7 +222,7 @@ def evidence(found: Diagnosis) -> Table:
         "best are refitted together with the calibrated parameters, and what that removes "
         "is told above the floor as known in the round: for what an accepted effect removes, and its size, in the end see the missing effects. "
         "Accepted is what the next round searches beside; whether it has a name in the end says the verdict.",
-        *([RIGHTED] if (found.verdict.get("beyond_bounds") or {}).get("is_first") else []),
+        *([RIGHTED] if advice.is_vehicle_first(found.verdict) else []),
     )
     return _table(found, "evidence", columns, rows, _evidence_sources(found), notes, breaks[1:])
 
