@@ -25,7 +25,7 @@ def test_kernel_equals_reference(car, interpolation, friction, speed):
         [speed + np.sin(course.u / 5), 0.3 * np.sin(course.u / 7), course.curvature], axis=1
     )
     start, end, step, every, sensor = 4.0, 40.0, 0.001, 10, (-0.1, 0.2, 0.9)
-    record, sensed = np.empty((2000, 11)), np.empty((6, 20000))
+    record, sensed = np.empty((11, 2000)).T, np.empty((6, 20000))  # in memory as a simulation has them
     records, steps = compose.compose([]).drive(
         constants(car), wheel_table(car), course.surface, course.elevation, targets, friction,
         start, end, step, every, sensor, np.zeros(0), 0, record, sensed,
