@@ -32,6 +32,10 @@ part of the error that one side holds, and of the signal that the other does; an
 CLEARLY = 1.2
 """How many times the ratio that suspension velocities have those of tyres must have to be named: the two go together on a rough road."""
 
+GATHERED, OFTEN = 0.15, 5.0
+"""Share of the error above the floor, the median of the signals, from which on one stretch of road that holds it is told, and how many times its
+share of the road that must be."""
+
 STRAIGHT = 3000.0
 """m of radius above which a road is called straight."""
 
@@ -118,6 +122,25 @@ def are_small(found: Sequence[Finding]) -> bool:
     return all(finding.power_share < NAMED for finding in found)
 
 
+def gathered(located: xr.Dataset) -> str:
+    """The stretch in which most signals have much of their error, in words; empty if there is none. A single hole or crest does not come first in
+    any band, and yet may be what the model does otherwise than the car."""
+    above = np.maximum(located["power_share"].values, 0.0).sum(axis=2)
+    whole = above.sum(axis=1)
+    counts = whole >= LEAST_NAMED
+    if 2 * counts.sum() < len(whole):
+        return ""
+    share = np.median(above[counts] / whole[counts, None], axis=0)
+    place = int(share.argmax())
+    if share[place] < max(GATHERED, OFTEN / len(share)):
+        return ""
+    start, end = (float(located[f"stretch_{edge}"][place]) / 1000 for edge in ("start", "end"))
+    return (
+        f"{100 * share[place]:.0f} % of the error above the floor, the median of the signals, lies between {start:.2f} and {end:.2f} km, "
+        f"{100 / len(share):.0f} % of the road"
+    )
+
+
 def doubts(located: xr.Dataset) -> list[str]:
     """Signals whose column, sign or unit is in doubt, in words: what else is found of them means nothing then."""
     found = zip(*(located[name].values.tolist() for name in ("signal", "goes_with", "against", "correlation", "ratio")))
@@ -125,8 +148,8 @@ def doubts(located: xr.Dataset) -> list[str]:
 
 
 def words(located: xr.Dataset, count: int = 5) -> list[str]:
-    """Doubts and, behind them, findings as sentences."""
-    return [*doubts(located), *(finding.words() for finding in findings(located, count))]
+    """Doubts and, behind them, findings as sentences, and the place where errors gather."""
+    return [*doubts(located), *(finding.words() for finding in findings(located, count)), *filter(None, [gathered(located)])]
 
 
 def _stretch(located: xr.Dataset, share: np.ndarray) -> tuple[float, float] | None:
