@@ -8,7 +8,9 @@ import numpy as np
 import xarray as xr
 from numba import njit
 
+from .drive import sampling
 from .errors import InputError
+from .vocabulary import SIGNALS
 
 
 def places(start: float, end: float, *, spacing: float, run_in: float, run_out: float, file=None) -> np.ndarray:
@@ -30,11 +32,13 @@ def places(start: float, end: float, *, spacing: float, run_in: float, run_out: 
 
 
 def along(drives: xr.Dataset, s: np.ndarray, variables: Sequence[str]) -> xr.Dataset:
-    """The variables of drives over ``time``, interpolated linearly to the distances ``s`` [m].
+    """The variables of drives over ``time`` at the distances ``s`` [m].
 
-    ``drives`` has dims run and time, padded with NaN at the end of shorter runs, and holds
+    ``drives`` has dims run and time (uniform, s), padded with NaN at the end of shorter runs, and holds
     the distance ``s``. Each record stands where the body was at that moment. Distances
-    must not fall; records at which the body stands still count once, the first of them.
+    must not fall; a place at which the body stands is that of the first record there.
+    Signals of an inertial instrument hold all frequencies up to half the rate and are read between records by a windowed sinc: straight
+    lines would lower their peaks, at 20 Hz by up to 19 %. What else there is (speed, running means) is interpolated linearly.
 
     Returns float32 variables with dims run and s. Raises InputError, naming the run, where
     a drive does not cover ``s``, runs backwards or holds a gap.
@@ -44,13 +48,25 @@ def along(drives: xr.Dataset, s: np.ndarray, variables: Sequence[str]) -> xr.Dat
     lengths = _lengths(distance)
     for run, row, length in zip(drives["run"].values, distance, lengths):
         _check(run, row[:length], s)
+    index = _indices(distance, lengths, s)
+    interval = 1.0 / sampling.rate_of(drives["time"].values)
     result = xr.Dataset(coords={"run": drives["run"].values, "s": s})
     for name in variables:
         values = drives[name].transpose("run", "time").values
         _check_values(drives["run"].values, values, lengths, name)
-        result[name] = (("run", "s"), _interpolate(distance, values, lengths, s))
+        read = _waves if name in SIGNALS else _lines
+        rows = [read(row[:length].astype(np.float64), at, interval) for row, length, at in zip(values, lengths, index)]
+        result[name] = (("run", "s"), np.array(rows, dtype=np.float32))
     result.attrs = {"evaluated": f"{s[0]:g} to {s[-1]:g} m in steps of {s[1] - s[0]:g} m"}
     return result
+
+
+def _waves(values: np.ndarray, index: np.ndarray, interval: float) -> np.ndarray:
+    return sampling.resampled(values[None], interval, index, 0.5 / interval)[0]
+
+
+def _lines(values: np.ndarray, index: np.ndarray, interval: float) -> np.ndarray:
+    return np.interp(index, np.arange(len(values)), values)
 
 
 def _lengths(distance: np.ndarray) -> np.ndarray:
@@ -84,8 +100,9 @@ def _check(run, distance: np.ndarray, s: np.ndarray) -> None:
 
 
 @njit(cache=True)
-def _interpolate(distance, values, lengths, s):
-    result = np.empty((len(distance), len(s)), dtype=np.float32)
+def _indices(distance, lengths, s):
+    """Fractional index of the record at every place, (run, place)."""
+    result = np.empty((len(distance), len(s)))
     for run in range(len(distance)):
         right = 1
         for place in range(len(s)):
@@ -94,5 +111,5 @@ def _interpolate(distance, values, lengths, s):
             before = float(distance[run, right - 1])
             step = float(distance[run, right]) - before
             share = (s[place] - before) / step if step > 0.0 else 1.0
-            result[run, place] = (1.0 - share) * values[run, right - 1] + share * values[run, right]
+            result[run, place] = right - 1 + share
     return result

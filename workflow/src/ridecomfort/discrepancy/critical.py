@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..comfort import bands, iso2631, sections, thresholds
 from ..comfort.seat import Seat
-from ..drive.sampling import rate_of
+from ..drive.sampling import rate_of, resampled
 from . import explain
 
 METHODS = ("thresholds", "iso2631")
@@ -85,15 +85,15 @@ def _settled(row: xr.Dataset, settings: Mapping) -> float:
 
 def _graded(signals, time, own, places, along, table, edges, settings) -> np.ndarray:
     """Grades (method, window) of one drive's accelerations over time, ``own`` its places in m."""
-    rising = np.maximum.accumulate(own)
-    over_s = {name: np.interp(places, rising, values) for name, values in signals.items()}
+    index = np.interp(places, np.maximum.accumulate(own), np.arange(len(own)))
+    rate = rate_of(time)
+    over_s = dict(zip(signals, resampled(np.stack(list(signals.values())), 1.0 / rate, index, 0.5 * rate)))
     styles = thresholds.STYLES
     passed = np.zeros((len(styles), len(along)), bool)
     for name in ACCELERATIONS:
         for k, style in enumerate(styles):
             band = table[name][style]
             passed[k] |= along.whole((over_s[name] < band.lower) | (over_s[name] > band.upper))
-    rate = rate_of(time)
     options = {key: settings[key] for key in ("time_constant", "weightings", "factors") if key in settings}
     if "averaging" in settings:
         options["method"] = settings["averaging"]
@@ -101,6 +101,6 @@ def _graded(signals, time, own, places, along, table, edges, settings) -> np.nda
     total = iso2631.running_total_value(
         *(signals[name] for name in ACCELERATIONS), rate, before="mirror", seat=seat, **options
     )
-    total = np.interp(places, rising, total)
+    total = np.interp(index, np.arange(len(total)), total)
     reached = np.array([along.whole(total >= edge) for edge in edges])
     return np.stack([np.logical_and.accumulate(each, axis=0).sum(axis=0) for each in (passed, reached)])
