@@ -263,7 +263,7 @@ def test_a_new_process_compiles_nothing_again(without):
         "from tests.vehicle.roads import road\n"
         "from ridecomfort.vehicle import parameters\n"
         "drive(road(40.0), parameters.read('config/vehicles/midsize.yaml'), speed=10.0)\n"
-        "stats = compose.compose(sorted(ENTRIES.values(), key=lambda entry: entry.effect.name)).drive.stats\n"
+        "stats = compose.compose(sorted(ENTRIES.values(), key=lambda entry: entry.effect.rank)).drive.stats\n"
         "print(sum(stats.cache_hits.values()), sum(stats.cache_misses.values()))\n"
     )
     answer = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -63,6 +63,20 @@ def test_steady_speed_at_a_shift_does_not_shift_to_and_fro():
     assert np.abs(np.diff(np.round(gears))).sum() <= 1.0
 
 
+@pytest.mark.parametrize("asked", [0.3, 0.8])
+def test_a_climb_during_which_the_clutch_opens_does_not_hold_the_car_at_the_speed_of_the_shift(asked):
+    """On a grade the car slows while the clutch is open; the shift that has begun goes on."""
+    mass, grade, step, speed, gear, interrupted = 1500.0, 0.05, 0.001, 10.2, 2.0, 0
+    demand = mass * (asked + 9.81 * grade)
+    for _ in range(20000):
+        force, slope = act("gear_shift")(demand, speed, gear, 0.8, 0.4, 5.0, 1.45)
+        gear += step * slope
+        speed += step * (force / mass - 9.81 * grade)
+        interrupted += force < 0.6 * demand
+    assert speed > 10.2 + 0.25 * asked * 20.0
+    assert gear > 2.9 and interrupted * step < 2.0
+
+
 def test_brakes_are_not_shifted():
     assert act("gear_shift")(-1000.0, 20.0, 0.0, 0.8, 0.4, 5.0, 1.45)[0] == -1000.0
 

@@ -118,7 +118,8 @@ def test_mount_shakes_the_instrument_as_a_base_shakes_an_oscillator(name, signal
     time, asked, share, ratio = np.arange(0.0, 12.0, 0.001), np.array([2.0, 7.0, 15.0, 30.0]), 0.4, 0.15
     turns, natural = 2 * np.pi * asked, 2 * np.pi * frequency
     transmitted = (natural**2 + 2j * ratio * natural * turns) / (natural**2 - turns**2 + 2j * ratio * natural * turns)
-    shaken = xr.Dataset({signal: ("time", np.sin(np.outer(time, turns)).sum(axis=1))}, coords={"time": time})
+    level = {other: ("time", np.zeros(time.size)) for other in ("a_x", "a_y", "a_z", "roll", "pitch")}
+    shaken = xr.Dataset(level | {signal: ("time", np.sin(np.outer(time, turns)).sum(axis=1))}, coords={"time": time})
     felt = act(name)(shaken, share, frequency, ratio)
     expected = (np.exp(1j * np.outer(time, turns)) @ (1.0 + share * (transmitted - 1.0))).imag
     assert felt[signal].values[8000:] == pytest.approx(expected[8000:], abs=0.02)
@@ -131,6 +132,18 @@ def test_mount_leaves_a_constant_alone_and_other_signals(record, name, signal):
     swung = act(name)(record, 0.5, 12.0, 0.1)
     xr.testing.assert_identical(swung.drop_vars(signal), record.drop_vars(signal))
     assert not np.allclose(swung[signal], record[signal])
+
+
+@pytest.mark.parametrize("name, sizes", [("sensor_sway", (1.0, 12.0, 0.15)), ("sensor_bandwidth", (0.01,))])
+def test_what_follows_weakly_follows_gravity_weakly_as_well(record, name, sizes):
+    """A body that rolls to and fro at rest: all that the instrument feels aside is gravity."""
+    rolling = xr.zeros_like(record)
+    rolling["roll"] = 0.1 * np.sin(2 * np.pi * 8.0 * record.time)
+    felt = rolling.copy()
+    felt["a_y"] = G * rolling["roll"]
+    shown = act(name)(rolling, *sizes).a_y + G * rolling["roll"]
+    expected = act(name)(felt.assign(roll=0.0 * felt["roll"]), *sizes).a_y
+    np.testing.assert_allclose(shown[200:-20], expected[200:-20], atol=0.002)
 
 
 def test_gain_shows_gravity_too_large_as_well(record):

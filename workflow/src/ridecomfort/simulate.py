@@ -30,6 +30,9 @@ RATE = 100.0
 FARTHEST = 1e7
 """m or m/s beyond which a simulated drive has lost all measure."""
 
+FASTEST_CHANGE = 1e4
+"""m/s2 of the sensor beyond which it has, too."""
+
 OVERHANG = 2.0
 """m of road kept free beyond the axles at either end."""
 
@@ -260,7 +263,8 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
         raise compose.refusal(entries, problem) from None
     record = record[:records]
     is_short = record[-1, 0] < end - 2.0 * targets[:, 0].max() * every * step
-    is_lost = is_short and record[-1, 2] > driver.SLOWEST  # what is no number is behind the end, too
+    # What is no number is behind the end, too, and a car that blew up may have come to a stand by it.
+    is_lost = is_short and (record[-1, 2] > driver.SLOWEST or np.abs(sensed[:3, :steps]).max() > FASTEST_CHANGE)
     if is_lost or not (np.abs(record[:, :3]) < FARTHEST).all() or not np.isfinite(sensed[:, :steps]).all():
         raise InputError(
             "the simulated drive did not stay finite; is a parameter or an effect out of reason?",

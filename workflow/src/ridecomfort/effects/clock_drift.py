@@ -12,6 +12,7 @@ effect = Effect(
     parameters=(
         Parameter("drift", "1", 0.0, 2e-4, (-2e-3, 2e-3), "time that inertial signals fall behind per time driven"),
     ),
+    order=2,
 )
 
 

@@ -12,6 +12,7 @@ effect = Effect(
     parameters=(
         Parameter("offset", "s", 0.0, 0.01, (-0.5, 0.5), "by how much inertial signals are stamped too late"),
     ),
+    order=2,
 )
 
 

@@ -57,14 +57,15 @@ def compose(entries: Sequence[Entry]) -> Kernel:
 
 
 def in_company(chosen: Sequence[tuple[Entry, Mapping[str, float]]]) -> list[tuple[Entry, Mapping[str, float]]]:
-    """The same and, where any of it is of the library, the rest of the library at neutral values, by name.
+    """The same and, where any of it is of the library, the rest of the library at neutral values, in the order in which they act.
 
     One kernel serves for all sets of the library's effects then: a neutral one costs half a percent of a drive, a kernel of
     its own fifteen seconds.
     """
     if not any(entry.path.parent == FOLDER and entry.effect.port in COMPILED for entry, _ in chosen):
         return list(chosen)
-    return [own for _, own in sorted((_neutral() | {entry.effect.name: (entry, values) for entry, values in chosen}).items())]
+    company = _neutral() | {entry.effect.name: (entry, values) for entry, values in chosen}
+    return sorted(company.values(), key=lambda one: one[0].effect.rank)
 
 
 @lru_cache

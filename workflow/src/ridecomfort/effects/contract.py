@@ -6,7 +6,7 @@ parameters in the order declared, and returns what the port returns, followed by
 derivatives of its states. It must be a function that numba can compile, except at the
 ports of ``IN_PYTHON``, which work on whole vehicles, paths and drives. What a port returns
 under a name that it also sees is handed from effect to effect, each changing what the one
-before returned; what it does not see is added up over the effects.
+before returned, in their ``order`` and within that by name; what it does not see is added up over the effects.
 """
 
 from __future__ import annotations
@@ -149,6 +149,13 @@ class Effect:
     """Whether it can only take energy out of the car."""
     symmetric: bool = True
     """Whether left and right are alike to it, so that a mirrored road gives a mirrored drive."""
+    order: int = 0
+    """Place among the effects of its port where values are handed on: a greater one comes later, as a lag behind what it delays."""
+
+    @property
+    def rank(self) -> tuple[int, str]:
+        """What effects are sorted by: order, then name."""
+        return self.order, self.name
 
     def values(self, sizes: Mapping[str, float] | None = None) -> dict[str, float]:
         """A value for every parameter: those given, and the typical one for the rest."""

@@ -1,11 +1,14 @@
 """Shifts of gear that interrupt the drive."""
 
-from math import floor, log
+from math import ceil, floor, log
 
 from ridecomfort.effects.contract import Effect, Parameter
 
 HYSTERESIS = 0.3
 """Gears; how far the speed falls below that of shifting up before the driver shifts down."""
+
+BEGUN = 0.02
+"""Gears from which on a shift up has begun: the car, slowed by it, does not take it back."""
 
 GEARS = 6.0
 
@@ -29,7 +32,7 @@ effect = Effect(
 
 def act(force, speed, gear, depth, duration, first, ratio):
     place = min(log(max(speed, 1.0) / first) / log(ratio) + 1.0, GEARS)
-    wanted = floor(gear + 0.5)
+    wanted = ceil(gear - BEGUN)
     if place >= wanted + 1.0 or place < wanted - HYSTERESIS:
         wanted = max(floor(place), 0.0)
     # The clutch is open until half a gear is left, then closes; a shift of one gear is over after its duration.

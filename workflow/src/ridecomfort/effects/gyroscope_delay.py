@@ -12,6 +12,7 @@ effect = Effect(
     parameters=(
         Parameter("time", "s", 0.0, 0.004, (-0.05, 0.05), "by how much rates are stamped later than accelerations"),
     ),
+    order=2,
 )
 
 

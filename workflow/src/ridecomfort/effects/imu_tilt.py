@@ -20,6 +20,7 @@ effect = Effect(
         Parameter("yaw", "rad", 0.0, 0.02, (-0.1, 0.1), "how much the instrument is turned to the left"),
     ),
     symmetric=False,
+    order=1,
 )
 
 

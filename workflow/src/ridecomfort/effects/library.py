@@ -48,7 +48,7 @@ def find(folder=None) -> dict[str, Entry]:
 
 
 def choose(effects: Iterable[str] | Mapping[str, Mapping[str, float]], folder=None):
-    """The named effects with the sizes to use: list of (Entry, {parameter: value}), by name.
+    """The named effects with the sizes to use: list of (Entry, {parameter: value}), in the order in which they act.
 
     ``effects``: names (typical sizes) or a mapping of name to sizes. Raises InputError for a
     name or a parameter that does not exist, saying which there are.
@@ -70,7 +70,7 @@ def choose(effects: Iterable[str] | Mapping[str, Mapping[str, float]], folder=No
             if parameter not in known:
                 raise InputError(f"effect {name!r} has no parameter {parameter!r}; it has {', '.join(known)}")
         chosen.append((entries[name], effect.values(sizes[name])))
-    return chosen
+    return sorted(chosen, key=lambda one: one[0].effect.rank)
 
 
 def check_plausible(chosen) -> None:

@@ -14,7 +14,7 @@ effect = Effect(
     port="body",
     parameters=(
         Parameter("mass", "kg", 0.0, 180.0, (0.0, 350.0), "mass of engine and gearbox"),
-        Parameter("ahead", "m", 1.1, 1.1, (-2.0, 2.0), "its place ahead of the centre of gravity"),
+        Parameter("ahead", "m", 1.1, 1.1, (-1.6, 1.6), "its place ahead of the centre of gravity"),
         Parameter("frequency", "Hz", 10.0, 10.0, (5.0, 20.0), "natural frequency on a body that stands"),
         Parameter("damping_ratio", "1", 0.15, 0.15, (0.02, 0.5), "damping ratio on a body that stands"),
     ),

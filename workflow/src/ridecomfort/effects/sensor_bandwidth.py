@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ridecomfort.drive.record import acceleration, specific_force
 from ridecomfort.effects.contract import Effect, Parameter
 from ridecomfort.vocabulary import SIGNALS
 
@@ -16,6 +17,7 @@ effect = Effect(
     parameters=(
         Parameter("time", "s", 0.0, 0.004, (0.0, 0.05), "time constant, 1 / (2 pi bandwidth); 4 ms is 40 Hz"),
     ),
+    order=2,
 )
 
 
@@ -32,10 +34,12 @@ def act(drive, time):
     # The exact answer to a signal that is straight between its samples.
     now, before = 1.0 - mean, mean - kept
     in_time = np.minimum(clock + time, clock[-1])
-    weak = {}
-    for name in SIGNALS:
-        values = drive[name].values
+    tilt = drive["roll"].values, drive["pitch"].values
+    shown = np.stack([drive[name].values for name in SIGNALS])
+    shown[:3] = specific_force(shown[:3], *tilt)
+    for values in shown:
         state = [(before + kept) * values[0]]
         late = lfilter([now, before], [1.0, -kept], values, zi=state)[0]
-        weak[name] = drive[name].copy(data=CubicSpline(clock, late)(in_time))
-    return drive.assign(weak)
+        values[:] = CubicSpline(clock, late)(in_time)
+    shown[:3] = acceleration(shown[:3], *tilt)
+    return drive.assign({name: drive[name].copy(data=row) for name, row in zip(SIGNALS, shown, strict=True)})

@@ -15,6 +15,7 @@ effect = Effect(
         Parameter("accelerometer", "1", 0.0, 0.02, (-0.1, 0.1), "share by which accelerations are too large"),
         Parameter("gyroscope", "1", 0.0, 0.02, (-0.1, 0.1), "share by which rates are too large"),
     ),
+    order=2,
 )
 
 

@@ -11,6 +11,7 @@ effect = Effect(
     source="Kiencke and Nielsen (2005), Automotive Control Systems: speed from wheel rotation",
     port="sensor",
     parameters=(Parameter("scale", "1", 0.0, 0.005, (-0.05, 0.05), "share by which speed and distance are too large"),),
+    order=2,
 )
 
 

@@ -14,6 +14,7 @@ effect = Effect(
         Parameter("compliance", "rad/N", 0.0, 1e-6, (0.0, 4e-6), "angle of the front wheels per side force of the axle"),
     ),
     states=("angle",),
+    order=1,
 )
 
 

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from ridecomfort.drive.record import specific_force
+
+ACCELERATIONS = ("a_x", "a_y", "a_z")
+
 
 def swung(drive, signal: str, participation: float, frequency: float, damping_ratio: float):
-    """The ``drive`` whose ``signal`` an instrument records that takes part in the swing of what holds it."""
+    """The ``drive`` whose ``signal``, an acceleration, an instrument records that takes part in the swing of what holds it."""
     if participation == 0.0:
         return drive
     body = drive[signal].values
-    change = swing(body, float(drive["time"][1] - drive["time"][0]), frequency, damping_ratio)
+    felt = specific_force([drive[name].values for name in ACCELERATIONS], drive["roll"].values, drive["pitch"].values)
+    change = swing(felt[ACCELERATIONS.index(signal)], float(drive["time"][1] - drive["time"][0]), frequency, damping_ratio)
     return drive.assign({signal: drive[signal].copy(data=body + participation * change)})
 
 

@@ -133,7 +133,10 @@ def _drive(
         car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
         pose, pose_rate, speeds, wheel_z, wheel_v, spin, rotation, ground,
     )  # fmt: skip
-    rise = height(surface, elevation, start + GRADE_LENGTH, pose[E]) - height(surface, elevation, start, pose[E])
+    rise = 0.0
+    for end_of_rise, side in ((start, -1.0), (start + GRADE_LENGTH, 1.0)):
+        level = height(surface, elevation, end_of_rise, pose[E])
+        rise += side * (level + road_port(0, end_of_rise, pose[E], level, 0.0, surface, elevation, parameters, states, slopes))
     integral = STANDARD_GRAVITY * rise / (GRADE_LENGTH * SPEED_INTEGRAL_GAIN)
 
     records, steps = 0, 0
@@ -164,12 +167,12 @@ def _drive(
             recession, toe, scrub,
         )  # fmt: skip
         _planar(
-            car, wheels, now, travel_rate, recession, toe, scrub, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
+            car, wheels, now, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
             friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
         )  # fmt: skip
         flex_x, flex_y, flex_z = _accelerate(
-            car, wheels, pose, now, slope_y, change, wheel_change, recession, scrub, force_x, force_y, torque, suspension,
-            fore_push, sensor, parameters, states, slopes,
+            car, wheels, pose, now, slope_x, slope_y, change, wheel_change, recession, scrub, load, force_x, force_y, torque,
+            suspension, fore_push, side_push, sensor, parameters, states, slopes,
         )  # fmt: skip
 
         sensor_acceleration(felt, sensor, pose, now, change)
@@ -344,12 +347,12 @@ def _vertical(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _planar(
-    car, wheels, now, travel_rate, recession, toe, scrub, ground, slope_x, slope_y, load, spin, spin_change, rotation, angle, demand,
+    car, wheels, now, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
     friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
 ):  # fmt: skip
-    """Driving torque and force in level axes of every wheel; their spin is advanced.
+    """Driving torque of every wheel and force of its tyre along the road; their spin is advanced.
 
-    ``side_push``: the side force carried on to the next step, where the links press with it.
+    ``side_push``: the side force carried on to the next step.
     """
     sine, cosine = sin_cos(angle)
     half = 0.5 * step
@@ -391,60 +394,69 @@ def _planar(
         tyre_x += grip * spin_change[i] + pull[i]
         spin[i] += step * spin_change[i]
         rotation[i] += step * spin[i]
-        # The road pushes along its normal: on a slope the load has a level part.
-        force_x[i] = tyre_x * c[i] - tyre_y * d[i] - load[i] * slope_x
-        side = tyre_x * d[i] + tyre_y * c[i] - load[i] * slope_y
+        force_x[i] = tyre_x * c[i] - tyre_y * d[i]
+        side = tyre_x * d[i] + tyre_y * c[i]
         side_push[i] = 2.0 * side - force_y[i]
         force_y[i] = side
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _accelerate(
-    car, wheels, pose, now, slope_y, change, wheel_change, recession, scrub, force_x, force_y, torque, suspension,
-    fore_push, sensor, parameters, states, slopes,
+    car, wheels, pose, now, slope_x, slope_y, change, wheel_change, recession, scrub, load, force_x, force_y, torque,
+    suspension, fore_push, side_push, sensor, parameters, states, slopes,
 ):  # fmt: skip
     """Time derivatives of the speeds from the forces and moments on the body, through the mass matrix.
 
-    ``fore_push``: with what the links push forward, for the next step, where it lifts the body over wheels that recede.
+    ``fore_push``, ``side_push``: with what the links push, for the next step, where it lifts the body over wheels that recede or move aside.
     Returns how the body's flexing accelerates the sensor (m/s2).
     """
-    motion = BodyMotion(
-        pose[S], now[V_X], now[V_Y], now[V_Z], pose[ROLL], pose[PITCH],
-        now[ROLL_RATE], now[PITCH_RATE], now[YAW_RATE],
-        change[V_Z], change[ROLL_RATE], change[PITCH_RATE],
-        suspension[0] + suspension[1], suspension[2] + suspension[3],
-        car.sprung_mass, wheels[X, 0], wheels[X, 2],
-    )  # fmt: skip
-    x, y, z, roll, pitch, yaw = body_port(motion, parameters, states, slopes)
+    x = y = z = roll = pitch = yaw = 0.0
     for i in range(4):
         # A wheel that moves back as it rises pushes the body forward by its inertia.
         rising = wheel_change[i] - change[V_Z] + wheels[X, i] * change[PITCH_RATE] - wheels[Y, i] * change[ROLL_RATE]
         push = force_x[i] + recession[i] * wheels[MASS, i] * rising
-        fore_push[i] = push - wheels[MASS, i] * (change[V_X] - car.pitch_arm * change[PITCH_RATE])
+        # On a slope the tyre bears the wheel's weight, too, and the links do not. Its inertia aside is in the mass matrix.
+        fore_push[i] = push - wheels[MASS, i] * (change[V_X] - car.pitch_arm * change[PITCH_RATE] + STANDARD_GRAVITY * slope_x)
+        side_push[i] -= wheels[MASS, i] * STANDARD_GRAVITY * slope_y
+        # The road pushes along its normal: on a slope the load has a level part.
+        push -= load[i] * slope_x
+        side = force_y[i] - load[i] * slope_y
         x += push
-        y += force_y[i]
+        y += side
         z += suspension[i]
         # Where the load passes the centre of gravity: tilted with the body down to the link, with the road below.
         aside = wheels[Y, i] + wheels[ROLL_ARM, i] * pose[ROLL] + wheels[ROLL_CENTRE, i] * slope_y
         aside += scrub[i] * wheels[Y, i] * (slope_y - pose[ROLL])
         ahead = wheels[X, i] - car.pitch_arm * pose[PITCH]
-        roll += car.cg_height * force_y[i] + aside * suspension[i]
+        roll += car.cg_height * side + aside * suspension[i]
         pitch -= car.pitch_arm * push + torque[i] + ahead * suspension[i]
-        yaw += wheels[X, i] * force_y[i] - wheels[Y, i] * push
+        yaw += wheels[X, i] * side - wheels[Y, i] * push
     v_x, v_y, r = now[V_X], now[V_Y], now[YAW_RATE]
     momentum_x = car.total_mass * v_x - car.unsprung_mass * car.pitch_arm * now[PITCH_RATE]
     momentum_y = car.total_mass * v_y + car.unsprung_x * r + car.unsprung_roll * now[ROLL_RATE]
-    forward = x + r * momentum_y
-    side = y - r * momentum_x
+    x += r * momentum_y
+    y -= r * momentum_x
     yaw += v_y * momentum_x - v_x * momentum_y
     roll -= car.unsprung_roll * r * v_x
     pitch -= car.unsprung_mass * car.pitch_arm * r * v_y
-    change[V_X] = car.inverse_xx * forward + car.inverse_xq * pitch
-    change[PITCH_RATE] = car.inverse_xq * forward + car.inverse_qq * pitch
-    change[V_Y] = car.inverse_yy * side + car.inverse_yr * yaw + car.inverse_yp * roll
-    change[YAW_RATE] = car.inverse_yr * side + car.inverse_rr * yaw + car.inverse_rp * roll
-    change[ROLL_RATE] = car.inverse_yp * side + car.inverse_rp * yaw + car.inverse_pp * roll
-    change[V_Z] = z / car.sprung_mass - STANDARD_GRAVITY
+    # What is shaken by the body (an engine on its mounts) answers to the acceleration of this step: a second round finds it.
+    for _ in range(2):
+        motion = BodyMotion(
+            pose[S], now[V_X], now[V_Y], now[V_Z], pose[ROLL], pose[PITCH],
+            now[ROLL_RATE], now[PITCH_RATE], now[YAW_RATE],
+            change[V_Z], change[ROLL_RATE], change[PITCH_RATE],
+            suspension[0] + suspension[1], suspension[2] + suspension[3],
+            car.sprung_mass, wheels[X, 0], wheels[X, 2],
+        )  # fmt: skip
+        extra_x, extra_y, extra_z, extra_roll, extra_pitch, extra_yaw = body_port(motion, parameters, states, slopes)
+        forward, side, turning = x + extra_x, y + extra_y, yaw + extra_yaw
+        rolling, nodding = roll + extra_roll, pitch + extra_pitch
+        change[V_X] = car.inverse_xx * forward + car.inverse_xq * nodding
+        change[PITCH_RATE] = car.inverse_xq * forward + car.inverse_qq * nodding
+        change[V_Y] = car.inverse_yy * side + car.inverse_yr * turning + car.inverse_yp * rolling
+        change[YAW_RATE] = car.inverse_yr * side + car.inverse_rr * turning + car.inverse_rp * rolling
+        change[ROLL_RATE] = car.inverse_yp * side + car.inverse_rp * turning + car.inverse_pp * rolling
+        change[V_Z] = (z + extra_z) / car.sprung_mass - STANDARD_GRAVITY
     return flexing_port(motion, sensor[0], sensor[1], sensor[2], parameters, states, slopes)
 
 

@@ -142,7 +142,7 @@ def drive(
     spin = np.full(4, speed / car.radius)
     rise = height(surface, elevation, s + GRADE_LENGTH, e) - height(surface, elevation, s, e)
     integral = STANDARD_GRAVITY * rise / GRADE_LENGTH / driver.SPEED_INTEGRAL_GAIN
-    acceleration, wheel_acceleration, force_y = np.zeros(6), np.zeros(4), np.zeros(4)
+    acceleration, wheel_acceleration, side = np.zeros(6), np.zeros(4), np.zeros(4)
     side_push = np.zeros(4)
     rates = np.array([speed, 0.0, 0.0])
     records, sensed = [], []
@@ -203,8 +203,10 @@ def drive(
         spin_change = (torque - car.radius * tyre_x) / (car.spin_inertia + car.radius * stiffness)
         tyre_x = tyre_x + stiffness * spin_change
         force_x = tyre_x * np.cos(steer) - tyre_y * np.sin(steer) - load * slope_x
-        side = tyre_x * np.sin(steer) + tyre_y * np.cos(steer) - load * slope_y
-        side_push, force_y = 2 * side - force_y, side
+        along_road = tyre_x * np.sin(steer) + tyre_y * np.cos(steer)
+        side_push = 2 * along_road - side - weight * slope_y
+        side = along_road
+        force_y = side - load * slope_y
 
         aside = car.arm * roll + car.roll_centre * slope_y
         ahead_of = -car.wheel_height * pitch
