@@ -61,7 +61,7 @@ def from_arrays(
     ``SIGNALS`` and at least one of ``v_x`` and ``s`` are needed. The stretch that all
     of them cover is brought to ``rate`` (Hz): inertial signals through an anti-alias
     filter, all through the same, speed and place linearly. ``s`` that is missing is integrated from ``v_x``
-    beginning at ``distance_start`` (m), ``v_x`` that is missing is the derivative of ``s``.
+    beginning at ``distance_start`` (m), which is the way driven until ``align`` makes a place on the road of it, ``v_x`` that is missing is the derivative of ``s``.
     ``sensor`` is the place of the accelerometer in m from the centre of gravity.
 
     Returns a Dataset over ``time`` (s, from 0); attributes name, role, gravity,
