@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.signal import welch
 
 from ridecomfort.drive import record, sampling
 from ridecomfort.errors import InputError
@@ -130,6 +131,22 @@ def test_down_sampling_keeps_what_lies_below_the_new_rate_and_drops_what_would_f
     np.testing.assert_allclose(drive["a_y"].values[inside], np.sin(2 * np.pi * 12 * drive["time"].values)[inside], atol=0.01)
     assert np.abs(drive["a_x"].values[inside]).max() < 0.01
     assert "400 Hz" in drive.attrs["treatment"]
+
+
+def test_a_signal_on_the_study_clock_passes_the_filter_of_slower_ones_as_a_simulation_does():
+    rng = np.random.default_rng(0)
+    white = STANDARD_GRAVITY + rng.standard_normal(TIME.size)
+    given = quantities(a_z=(TIME, white)) | {name: (TIME[::2], 0.1 * np.sin(8 * TIME[::2])) for name in ("roll_rate", "pitch_rate", "yaw_rate")}
+    drive = record.from_arrays(given)
+    cut_off, count = drive.attrs["cut_off"], drive.sizes["time"]
+    assert cut_off == pytest.approx(22.5)
+    inside = slice(50, -50)
+    expected = sampling.low_pass(white[:, None], 0.01, cut_off)[:count, 0]
+    np.testing.assert_allclose(drive["a_z"].values[inside], expected[inside], rtol=0, atol=1e-3)
+    frequency, density = welch(drive["a_z"].values, 100.0, nperseg=400)
+    assert density[frequency > 1.4 * cut_off].max() < 1e-3 * np.median(density[(frequency > 1) & (frequency < 0.7 * cut_off)])
+    for name in SIGNALS:
+        assert name in drive.attrs["treatment"] and drive.attrs["treatment"].count("22.5 Hz") == len(SIGNALS)
 
 
 def test_quantities_with_clocks_of_their_own_meet_on_one():

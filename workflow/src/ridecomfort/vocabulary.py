@@ -90,7 +90,7 @@ VARIABLES = _table(
     ("sensor_y", "m", "place of the sensor to the left of the centre of gravity of the sprung mass"),
     ("sensor_z", "m", "place of the sensor above the centre of gravity of the sprung mass"),
     ("place_measured", "1", "1 where s was measured, 0 where it is an integral of the speed"),
-    ("cut_off", "Hz", "cut-off of the low-pass that the record went through"),
+    ("cut_off", "Hz", "cut-off of the low-pass that all inertial signals of the record went through"),
     ("start_time", "s", "first instant of the drive on the clock of its record"),
     ("clock_offset", "s", "how much later the inertial signals stand in the record than place and speed"),
     ("clock_offset_error", "s", "standard error of the clock offset"),

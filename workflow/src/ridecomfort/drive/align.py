@@ -44,8 +44,8 @@ def align(
 
     ``drive`` is a record (``drive.record``), ``road`` a road or a prepared one (``simulate.prepare``),
     ``vehicle`` the nominal one (it need not fit); ``simulate`` has the signature of ``simulate.run``
-    and ``search`` (s) bounds the clock offset. Place and speed are moved onto the clock of the
-    inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
+    and ``search`` (s) bounds the clock offset. A place that was integrated from speed is that on the road after so much way,
+    but for a scale and an offset. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
     gain, mounting and bias; ``e`` becomes the path that was found.
 
     New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
@@ -58,16 +58,22 @@ def align(
     """
     options = options or {}
     work = mounting.level(drive)
-    if drive.attrs["place_measured"]:
+    measured, start = bool(drive.attrs["place_measured"]), float(drive["s"][0])
+    way = place.way(work, road, start)
+    if measured:
         scale, offset = place.speed_scale(work, road), 0.0
         work = place.moved(work, scale=scale)
     else:
-        scale, offset = place.odometer(work, road, vehicle, simulate, options)
-        work = place.moved(work, scale=scale, offset=offset)
+        scale, offset = place.odometer(work, way, road, vehicle, simulate, options)
+        work = place.driven(work, drive, way, scale, offset)
     error, fitted = np.nan, mounting.Mounting()
     work, clock, lateral = _found(work, road, vehicle, simulate, search, options)
     work = _on_path(work, lateral)
     expected = path.EXPECTED_ASIDE_MEASURED if path.has_offset(drive) else path.EXPECTED_ASIDE
+    if not measured:  # along another path the way is another
+        way = place.way(work, road, start)
+        scale, offset = map(float, np.polyfit(drive["s"].values, way(work["s"].values), 1))
+        work = place.driven(work, drive, way, scale, offset)
     moved_along, moved_aside = np.zeros(work.sizes["time"]), np.zeros(work.sizes["time"])
     for _ in range(PASSES):
         again = replay(work, road, simulate, options=options).tuned(vehicle)
@@ -77,13 +83,14 @@ def align(
             work, fitted = mounting.corrected(work, step), fitted.then(step)
             again = replace(again, drive=work)
         step, error, better = place.clock(again, simulated, vehicle)
-        if drive.attrs["place_measured"]:
+        if measured:
             clock += step
             work = place.moved(work, clock=step)
         else:
-            step_scale, step_offset = place.refine(again, simulated)
+            step_scale, step_offset = place.refine(again, simulated, way)
             scale, offset = scale * step_scale, offset * step_scale + step_offset
-            work = place.moved(work, scale=step_scale, offset=step_offset)
+            work = place.driven(work, drive, way, scale, offset)
+            work = work.assign(s=work["s"] + moved_along)
         again = replay(work, road, simulate, options=options).tuned(vehicle)
         vehicle = _better(vehicle, better, again)
         along, aside = path.wander(again, again(vehicle), vehicle, expected)
@@ -95,7 +102,7 @@ def align(
         clock_offset=float(clock),
         clock_offset_error=float(error),
         speed_scale=float(scale),
-        distance_offset=float(offset),
+        distance_offset=0.0 if measured else float(way.place(offset)),
         lateral_correction=float(lateral),
         distance_wander=float(moved_along.std()),
         lateral_wander=float(moved_aside.std()),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
@@ -36,15 +37,64 @@ FARTHEST = 20.0
 ODOMETER_WINDOW = 8.0
 """s of record that are looked for on the road at a time, where place was not measured."""
 
+BASE = 3.0
+"""m of road that a slope is taken over: about a wheelbase, so that a body follows it."""
+
 ODOMETER_REACH = 15.0
 """m around the expected place."""
 
 
-def moved(drive: xr.Dataset, *, clock: float = 0.0, scale: float = 1.0, offset: float = 0.0) -> xr.Dataset:
-    """The drive with place and speed moved back by ``clock`` (s), onto the clock of its inertial signals.
+@dataclass(frozen=True)
+class Way:
+    """How far a body has driven, ``driven`` (m), where it is at ``u`` (m) of the reference line; both rise, and go on alike beyond their ends."""
 
-    Where place is an integral of speed it is scaled and offset (m) with it, else speed alone is scaled.
+    u: np.ndarray
+    driven: np.ndarray
+
+    def __call__(self, s) -> np.ndarray:
+        """Way in m to places along the reference line."""
+        return s + np.interp(s, self.u, self.driven - self.u)
+
+    def place(self, driven) -> np.ndarray:
+        """Distance along the reference line in m after so many m of way."""
+        return driven - np.interp(driven, self.driven, self.driven - self.u)
+
+
+def way(drive: xr.Dataset, road, start: float = 0.0) -> Way:
+    """The way of a drive's path on the road, equal to the distance along the reference line at ``start`` (m).
+
+    The two differ in curves, where the way is shorter inside by 1 - curvature e, and on slopes, since ``s`` lies in the
+    horizontal plane. The slope is that of the heights that the path meets, over BASE: some roads have them without a slope.
     """
+    road = getattr(road, "road", road)
+    u = road["u"].values
+    known = np.isfinite(drive["e"].values)
+    aside = np.full(len(u), np.nan_to_num(float(drive.attrs["lateral_position"])))
+    if known.any():
+        aside = np.interp(u, drive["s"].values[known], drive["e"].values[known])
+    stretch = np.sqrt(1 + _slope(road, aside) ** 2)
+    if "curvature" in road:
+        stretch *= 1 - road["curvature"].values * aside
+    driven = np.concatenate([[0.0], np.cumsum(0.5 * (stretch[1:] + stretch[:-1]) * np.diff(u))])
+    return Way(u, driven - np.interp(start, u, driven - u))
+
+
+def _slope(road: xr.Dataset, aside: np.ndarray) -> np.ndarray:
+    """Slope over u of the heights ``aside`` (u, in m) of the reference line, over BASE; 0 where none is known."""
+    u, v, heights = road["u"].values, road["v"].values, road["elevation"].values
+    across = np.clip((aside - v[0]) / (v[1] - v[0]), 0, len(v) - 1)
+    right = np.minimum(across.astype(int), len(v) - 2)
+    row = np.arange(len(u))
+    met = heights[row, right] + (across - right) * (heights[row, right + 1] - heights[row, right])
+    known = np.isfinite(met)
+    if not known.any():
+        return np.zeros(len(u))
+    ahead, behind = (np.interp(np.clip(u + step, u[0], u[-1]), u[known], met[known]) for step in (0.5 * BASE, -0.5 * BASE))
+    return (ahead - behind) / (np.minimum(u + 0.5 * BASE, u[-1]) - np.maximum(u - 0.5 * BASE, u[0]))
+
+
+def moved(drive: xr.Dataset, *, clock: float = 0.0, scale: float = 1.0) -> xr.Dataset:
+    """The drive with place and speed moved back by ``clock`` (s), onto the clock of its inertial signals, and its speed scaled."""
     time = drive["time"].values
 
     def earlier(name: str) -> np.ndarray:
@@ -55,28 +105,20 @@ def moved(drive: xr.Dataset, *, clock: float = 0.0, scale: float = 1.0, offset: 
                 shifted[outside] = np.polyval(np.polyfit(time[end], values[end], 1), time[outside] - clock)
         return shifted
 
-    integrated = not drive.attrs["place_measured"]
-    placed = earlier("s") if not integrated else offset + scale * drive["s"].values
-    series = {"s": placed, "v_x": scale * earlier("v_x"), "e": np.interp(time - clock, time, drive["e"].values)}
+    series = {"s": earlier("s"), "v_x": scale * earlier("v_x"), "e": np.interp(time - clock, time, drive["e"].values)}
     return drive.assign({name: drive[name].copy(data=values) for name, values in series.items()})
 
 
-def speed_scale(drive: xr.Dataset, road) -> float:
-    """True over recorded v_x: the way driven over the integral of the recorded speed.
+def driven(work: xr.Dataset, recorded: xr.Dataset, along: Way, scale: float, offset: float) -> xr.Dataset:
+    """The drive where its way was integrated from speed, with the ``recorded`` speed and way scaled, and the way offset (m)."""
+    place = along.place(offset + scale * recorded["s"].values)
+    return work.assign(s=work["s"].copy(data=place), v_x=work["v_x"].copy(data=scale * recorded["v_x"].values))
 
-    The way of the body differs from the distance along the reference line in curves, where it is
-    shorter inside by 1 - curvature e, and on slopes, since ``s`` lies in the horizontal plane.
-    """
-    time, s = drive["time"].values, drive["s"].values
-    offset = np.where(np.isfinite(drive["e"].values), drive["e"].values, np.nan_to_num(drive.attrs["lateral_position"]))
-    stretch = np.ones(len(s))
-    road = getattr(road, "road", road)
-    if "curvature" in road:
-        stretch -= np.interp(s, road["u"], road["curvature"]) * offset
-    if "slope" in road:
-        stretch *= np.sqrt(1 + np.interp(s, road["u"], road["slope"]) ** 2)
-    way = np.sum(0.5 * (stretch[1:] + stretch[:-1]) * np.diff(s))
-    return float(way / np.trapezoid(drive["v_x"].values, time))
+
+def speed_scale(drive: xr.Dataset, road) -> float:
+    """True over recorded v_x: the way driven over the integral of the recorded speed."""
+    first, last = way(drive, road)(drive["s"].values[[0, -1]])
+    return float((last - first) / np.trapezoid(drive["v_x"].values, drive["time"].values))
 
 
 def coarse_clock(again: Replay, simulated: Simulated, search: float) -> float:
@@ -186,9 +228,9 @@ def misfit(again: Replay, simulated: Simulated) -> float:
 
 
 def odometer(
-    drive: xr.Dataset, road, vehicle, simulate: Callable[..., xr.Dataset], options: Mapping
+    drive: xr.Dataset, along: Way, road, vehicle, simulate: Callable[..., xr.Dataset], options: Mapping
 ) -> tuple[float, float]:
-    """Scale and offset (m) of a place that was integrated from speed, found by what the road feels like.
+    """Scale and offset (m) of a way that was integrated from speed, found by what the road feels like.
 
     Windows of the record are looked for on the simulated road, each around the place that the ones
     before it predict; a line through what they say (Theil-Sen, robust against false finds).
@@ -196,23 +238,23 @@ def odometer(
     high = butter(2, 0.5, "highpass", fs=1 / float(drive["time"][1] - drive["time"][0]), output="sos")
     scale, offset = 1.0, 0.0
     for _ in range(2):
-        again = replay(moved(drive, scale=scale, offset=offset), road, simulate, margin=ODOMETER_REACH, options=options)
+        again = replay(driven(drive, drive, along, scale, offset), road, simulate, margin=ODOMETER_REACH, options=options)
         simulated = again(vehicle)
         measured = sosfiltfilt(high, again.measured(), axis=1)
         model = sosfiltfilt(high, simulated.signals, axis=1)
-        step_scale, step_offset = _track(again, measured, model)
+        step_scale, step_offset = _track(again, along, measured, model)
         scale, offset = scale * step_scale, offset * step_scale + step_offset
     return scale, offset
 
 
-def _track(again: Replay, measured: np.ndarray, model: np.ndarray) -> tuple[float, float]:
-    interval = again.time[1] - again.time[0]
+def _track(again: Replay, along: Way, measured: np.ndarray, model: np.ndarray) -> tuple[float, float]:
+    ways, interval = along(again.place), again.time[1] - again.time[0]
     window = int(ODOMETER_WINDOW / interval)
     places, errors = [], []
     for first in range(0, measured.shape[1] - window + 1, window // 2):
         part = slice(first, first + window)
-        middle = again.place[first + window // 2]
-        speed = (again.place[part.stop - 1] - again.place[first]) / (window * interval)
+        middle = ways[first + window // 2]
+        speed = (ways[part.stop - 1] - ways[first]) / (window * interval)
         reach = min(int(ODOMETER_REACH / speed / interval), window // 2)
         expected = np.polyval(np.polyfit(places, errors, 1), middle) if len(places) > 3 else (errors or [0.0])[-1]
         shift = int(round(expected / speed / interval))
@@ -227,14 +269,14 @@ def _track(again: Replay, measured: np.ndarray, model: np.ndarray) -> tuple[floa
     return 1.0 + slope, intercept
 
 
-def refine(again: Replay, simulated: Simulated) -> tuple[float, float]:
-    """Scale and offset (m) of the place that are left, by one Gauss-Newton step."""
+def refine(again: Replay, simulated: Simulated, along: Way) -> tuple[float, float]:
+    """Scale and offset (m) of the way that are left, by one Gauss-Newton step."""
     kept = again.compared
     residual = _centred(again.residual(simulated)[:, kept])
-    speed = np.gradient(again.place, again.time)[kept]
-    along = simulated.slopes[:, kept] / speed
+    ways = along(again.place)
+    farther = simulated.slopes[:, kept] / np.gradient(ways, again.time)[kept]
     root = np.sqrt(_weights(residual))
-    columns = np.stack([(_centred(along * again.place[kept]) * root).ravel(), (_centred(along) * root).ravel()], axis=1)
+    columns = np.stack([(_centred(farther * ways[kept]) * root).ravel(), (_centred(farther) * root).ravel()], axis=1)
     size = np.linalg.norm(columns, axis=0)
     scale, offset = -np.linalg.lstsq(columns / size, (residual * root).ravel(), rcond=1e-9)[0] / size
     return 1.0 + float(scale), float(offset)

@@ -60,8 +60,8 @@ def from_arrays(
     ``quantities`` maps a name of ``vocabulary.DRIVE`` to (time in s, values); all six
     ``SIGNALS`` and at least one of ``v_x`` and ``s`` are needed. The stretch that all
     of them cover is brought to ``rate`` (Hz): inertial signals through an anti-alias
-    filter, speed and place linearly. ``s`` that is missing is integrated from ``v_x``
-    beginning at ``distance_start`` (m), ``v_x`` that is missing is the derivative of ``s``.
+    filter, all through the same, speed and place linearly. ``s`` that is missing is integrated from ``v_x``
+    beginning at ``distance_start`` (m), which is the way driven until ``align`` makes a place on the road of it, ``v_x`` that is missing is the derivative of ``s``.
     ``sensor`` is the place of the accelerometer in m from the centre of gravity.
 
     Returns a Dataset over ``time`` (s, from 0); attributes name, role, gravity,
@@ -96,18 +96,9 @@ def from_arrays(
     if count < 2:
         raise InputError(f"the clocks of its quantities overlap by {max(last - first, 0):.3g} s", file=file, place=name)
     time = first + np.arange(count) / rate
-    columns, treatment, cut_offs = {}, [], []
+    columns, treatment, cut_off = _inertial({name: arrays[name] for name in SIGNALS}, time, rate, file=file)
     for quantity, (clock, values) in arrays.items():
-        if quantity in SIGNALS:
-            columns[quantity], jitter, cut_off = sampling.resample_inertial(
-                clock, values, time, rate, file=file, place=f"time of {quantity}"
-            )
-            cut_offs.append(cut_off)
-            own_rate = (len(clock) - 1) / (clock[-1] - clock[0])
-            if cut_off < 0.5 * rate:
-                how = f"jitter {jitter:.2g} intervals, low-pass {cut_off:.3g} Hz"
-                treatment.append(f"{quantity} brought from {own_rate:.4g} Hz ({how})")
-        else:
+        if quantity not in SIGNALS:
             columns[quantity] = sampling.resample_slow(clock, values, time, file=file, place=f"time of {quantity}")
     place_measured = "s" in columns
     if not place_measured:
@@ -130,11 +121,31 @@ def from_arrays(
         lateral_position=np.nan if lateral_position is None else float(lateral_position),
         road_friction=float(road_friction),
         place_measured=int(place_measured),
-        cut_off=float(np.min(cut_offs)),
+        cut_off=float(cut_off),
         start_time=float(first),
         treatment="; ".join(treatment) or "none",
     )
     return check(describe(drive), file=file)
+
+
+def _inertial(signals: Mapping[str, tuple[np.ndarray, np.ndarray]], time: np.ndarray, rate: float, *, file) -> tuple[dict, list[str], float]:
+    """Inertial signals on one clock (uniform, ``rate`` Hz), what was done to them, and the cut-off in Hz of all of them."""
+
+    def brought(name: str, at_most: float = np.inf) -> tuple[np.ndarray, float, float]:
+        return sampling.resample_inertial(*signals[name], time, rate, at_most=at_most, file=file, place=f"time of {name}")
+
+    own = {name: brought(name) for name in signals}
+    least = min(cut_off for _, _, cut_off in own.values())
+    columns, treatment = {}, []
+    for name, (clock, _) in signals.items():
+        # A simulation passes one filter whatever the signal, so a faster one passes that of the slowest.
+        columns[name], jitter, cut_off = own[name] if own[name][2] <= least else brought(name, least)
+        if own[name][2] < 0.5 * rate:
+            own_rate = (len(clock) - 1) / (clock[-1] - clock[0])
+            treatment.append(f"{name} brought from {own_rate:.4g} Hz (jitter {jitter:.2g} intervals, low-pass {cut_off:.3g} Hz)")
+        elif cut_off < 0.5 * rate:
+            treatment.append(f"{name} low-passed at {cut_off:.3g} Hz, as the slowest")
+    return columns, treatment, least
 
 
 def check(drive: xr.Dataset, *, file=None) -> xr.Dataset:

@@ -204,19 +204,22 @@ def _weighted(values, places, table):
     return sums, total
 
 
-def resample_inertial(time, values, new_time, rate: float, *, file=None, place=None) -> tuple[np.ndarray, float, float]:
+def resample_inertial(
+    time, values, new_time, rate: float, *, at_most: float = np.inf, file=None, place=None
+) -> tuple[np.ndarray, float, float]:
     """Inertial signal on ``new_time`` (uniform, ``rate`` Hz), the jitter of its own clock in intervals,
-    and the cut-off in Hz that it was low-passed at.
+    and the cut-off in Hz that it was low-passed at, ``at_most`` the one given.
 
-    Values that already stand on the new clock pass unchanged; half their rate is then
+    Values that already stand on the new clock pass unchanged where they may; half their rate is then
     taken for the cut-off of the instrument.
     """
     start, interval, jitter = require_uniform(time, file=file, place=place)
     first = int(round((new_time[0] - start) / interval))
     taken = slice(first, first + len(new_time))
-    if len(time[taken]) == len(new_time) and np.abs(time[taken] - new_time).max() < LARGEST_SHIFT * interval:
+    stands = len(time[taken]) == len(new_time) and np.abs(time[taken] - new_time).max() < LARGEST_SHIFT * interval
+    if stands and at_most >= 0.5 * rate:
         return values[taken].copy(), jitter, 0.5 * rate
-    cut_off = 0.45 * min(rate, 1 / interval)
+    cut_off = min(0.45 * min(rate, 1 / interval), at_most)
     return band_limited(start, interval, values, new_time, cut_off), jitter, cut_off
 
 
