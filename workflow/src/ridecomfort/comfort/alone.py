@@ -84,7 +84,7 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
     for name in ("time", *AXES):
         if name in columns:
             asked = settings.get("unit") if name in AXES else None
-            unit = asked or columns[name].get("unit") or units.of_header(columns[name]["column"])
+            unit = asked or columns[name].get("unit") or units.in_brackets(columns[name]["column"])
             columns[name] = {**columns[name], "unit": unit or VARIABLES[name].unit}
             units.of_column(name, columns[name], file=file, place="--unit" if asked else f"column {columns[name]['column']!r}")
     found, _ = csv.read(file, columns)
@@ -316,7 +316,7 @@ def roughness(
     if "s" not in columns or not names:
         found = ", ".join(map(str, table.columns))
         raise InputError(f"expected columns s and any of {', '.join(HEIGHTS)} (found {found})", file=file)
-    profiles = {name: _metres(table, columns[name], file) for name in ("s", *names)}
+    profiles = {name: _metres(table, "s" if name == "s" else "elevation", columns[name], file) for name in ("s", *names)}
     s = profiles.pop("s")
     _check_ascending(s, columns["s"]["column"], file)
     resolved = max(MOVING_AVERAGE, float(np.diff(s).max(initial=0.0)))
@@ -355,14 +355,14 @@ def roughness(
     return Result("iri", f"IRI at 80 km/h, segments of {segment:g} m", rows, remarks, describe(signals), "m/km")
 
 
-def _metres(table: pd.DataFrame, entry: Mapping, file) -> np.ndarray:
-    """A column of a profile in m. Raises InputError where there is none, or where it holds something else."""
+def _metres(table: pd.DataFrame, quantity: str, entry: Mapping, file) -> np.ndarray:
+    """A column of a profile, that of ``quantity``, in m. Raises InputError where there is none, or where it holds something else."""
     column = entry["column"]
     if column not in table:
         raise InputError(f"no column {column!r} (found {', '.join(map(str, table.columns))})", file=file)
     if table[column].dtype.kind not in "fiu":
         raise InputError(f"column {column!r} holds something else than numbers", file=file)
-    scale = units.of_column("elevation", {"unit": units.of_header(column) or "m", **entry}, file=file, place=f"column {column!r}")
+    scale = units.of_column(quantity, {"unit": units.in_brackets(column) or "m", **entry}, file=file, place=f"column {column!r}")
     return scale * table[column].to_numpy(float)
 
 
