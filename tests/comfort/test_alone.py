@@ -323,6 +323,17 @@ def test_help_says_which_columns_are_needed(capsys):
     assert "a column s, the distance" in said and "elevation [mm]" in said
 
 
+@pytest.mark.parametrize("rate", [100.009, 99.991])
+def test_a_long_record_of_nearly_100_hz_is_kept_to_its_end_and_no_further(tmp_path, rate):
+    """25 min: at 100 Hz it lasts as long, which are 13 samples fewer or more."""
+    time = np.arange(150_000) / rate
+    found = alone.recording(write(tmp_path / "my.csv", time=time, a_z=np.sin(2 * np.pi * time)))
+    assert found.attrs["rate"] == 100.0
+    assert 0.0 <= time[-1] - float(found["time"][-1]) < 0.01
+    inside = slice(50, -50)
+    np.testing.assert_allclose(found["a_z"][inside], np.sin(2 * np.pi * found["time"])[inside], atol=1e-3)
+
+
 def test_a_recording_without_time_is_refused(tmp_path):
     pd.DataFrame({"t": [0.0, 0.01], "a_z": [0.0, 1.0]}).to_csv(tmp_path / "my.csv", index=False)
     with pytest.raises(InputError, match="no column time .found t, a_z.; name it with --column"):

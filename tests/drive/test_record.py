@@ -218,6 +218,13 @@ def test_a_record_and_a_denser_simulation_pass_the_same_filter(cut_off, frequenc
     assert recorded.std() == pytest.approx(simulated.std(), rel=3e-3)
 
 
+def test_a_filtered_record_is_held_beyond_its_ends_however_far():
+    values = np.cumsum(np.random.default_rng(3).standard_normal(400))
+    time = np.array([-50.0, -1.0, 5.0, 60.0])
+    expected = [values[0], values[0], values[-1], values[-1]]
+    np.testing.assert_allclose(sampling.band_limited(0.0, 0.01, values, time, 20.0), expected, rtol=1e-12)
+
+
 def test_samples_at_any_place_are_those_of_the_filter_and_their_slopes_its_derivative():
     rng = np.random.default_rng(0)
     interval, time = 0.001, np.linspace(0.5, 1.5, 300)

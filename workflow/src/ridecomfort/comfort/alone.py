@@ -104,7 +104,9 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
         )
     # A clock written with few digits: 99.9998 Hz is 100 Hz.
     rate = round(rate) if abs(rate / round(rate) - 1.0) < 1e-4 else rate
-    time = start + np.arange(len(clock)) / rate
+    # On the rounded clock the record holds as many samples as its duration does, which over a long ride are not those it came with.
+    count = int(np.floor((len(clock) - 1) * interval * rate + sampling.LARGEST_SHIFT)) + 1
+    time = start + np.arange(count) / rate
     signals = {
         name: ("time", sampling.resample_inertial(clock, values, time, rate, file=file)[0])
         for name, (_, values) in found.items()

@@ -99,15 +99,14 @@ def band_limited(start: float, interval: float, values: np.ndarray, time: np.nda
     filter in the same step. At the ends the record is continued by its first and last value.
     """
     half = _half_width(interval, cut_off)
-    padded = np.pad(values, half, mode="edge")
     taps = np.arange(-half + 1, half + 1)
     result = np.empty(len(time))
     for first in range(0, len(time), 8192):  # bounds the memory of the tap matrix
         part = slice(first, first + 8192)
         place = (time[part] - start) / interval
-        whole = np.clip(np.floor(place).astype(int), 0, len(values) - 1)
+        whole = np.floor(place).astype(int)
         kernel = _kernel((place - whole)[:, None] - taps, interval, cut_off)
-        result[part] = np.einsum("ij,ij->i", kernel, padded[whole[:, None] + taps + half])
+        result[part] = np.einsum("ij,ij->i", kernel, values[np.clip(whole[:, None] + taps, 0, len(values) - 1)])
     return result
 
 
