@@ -168,8 +168,7 @@ def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.
     names = [name for name in AXES if name in recording]
     running = xr.Dataset(coords={"time": recording["time"]})
     if chair is not None and "a_z" in names:
-        level = recording["a_z"].mean()
-        recording = recording.assign(a_z=seat.on_seat(recording["a_z"] - level, rate, chair) + level)
+        recording = recording.assign(a_z=seat.on_seat(recording["a_z"], rate, chair))
         remarks.append(f"a_z through a seat of {chair.natural_frequency:g} Hz, damping ratio {chair.damping_ratio:g}")
     for name in names:
         axis = name[-1]
