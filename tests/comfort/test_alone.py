@@ -204,6 +204,28 @@ def test_accelerations_in_another_unit_are_refused(tmp_path, columns, arguments,
     assert message in str(end.value)
 
 
+@pytest.mark.parametrize(
+    ("column", "said"),
+    [
+        ("acc_z [G]", "unit 'G' does not fit a_z (expected one of m/s2, mm/s2, g)"),
+        ("acc z (raw) [counts]", "unit 'counts' does not fit a_z (expected one of m/s2, mm/s2, g)"),
+    ],
+)
+def test_an_unknown_unit_behind_the_name_of_a_named_column_is_refused_unless_its_unit_is_given(tmp_path, column, said):
+    file = write(tmp_path / "my.csv", time=TIME, **{column: np.sin(2 * np.pi * 4 * TIME)})
+    with pytest.raises(InputError) as refusal:
+        alone.recording(file, {"columns": {"a_z": {"column": column}}})
+    assert str(refusal.value) == f"{file}: column {column!r}: {said}"
+    assert alone.recording(file, {"columns": {"a_z": {"column": column}}, "unit": "g"})["a_z"].max() > 9.7
+
+
+def test_a_known_unit_counts_among_other_brackets_and_empty_ones_are_none(tmp_path):
+    wave = np.sin(2 * np.pi * 4 * TIME)
+    file = write(tmp_path / "my.csv", **{"time []": TIME, "acc [g] (raw)": wave})
+    found = alone.recording(file, {"columns": {"time": {"column": "time []"}, "a_z": {"column": "acc [g] (raw)"}}})
+    np.testing.assert_allclose(found["a_z"], 9.80665 * wave)
+
+
 def test_columns_that_are_not_read_are_named(tmp_path, capsys):
     file = write(tmp_path / "my.csv", time=TIME, a_x=np.sin(TIME), az=np.cos(TIME), speed=0 * TIME)
     main(["comfort", "--iso2631", str(file)])
@@ -242,6 +264,21 @@ def test_profiles_that_cannot_be_meant_are_refused(tmp_path, columns, message):
     with pytest.raises(SystemExit) as end:
         main(["comfort", "--iri", str(file)])
     assert message in str(end.value) and str(file) in str(end.value)
+
+
+@pytest.mark.parametrize(
+    ("columns", "named", "said"),
+    [
+        ({"dist [ft]": S, "elevation": PROFILE}, {"s": "dist [ft]"}, "column 'dist [ft]': unit 'ft' does not fit s (expected one of m, km, cm, mm)"),
+        ({"s [ft]": S, "elevation": PROFILE}, {}, "column 's [ft]': unit 'ft' does not fit s"),
+        ({"s": S, "h [in]": PROFILE}, {"left": "h [in]"}, "column 'h [in]': unit 'in' does not fit elevation"),
+    ],
+)
+def test_a_profile_in_an_unknown_unit_is_refused_by_the_quantity_it_is_in(tmp_path, columns, named, said):
+    file = write(tmp_path / "my.csv", **columns)
+    with pytest.raises(InputError) as refusal:
+        alone.roughness(file, 100.0, columns={name: {"column": column} for name, column in named.items()})
+    assert str(refusal.value).startswith(f"{file}: {said}")
 
 
 @pytest.mark.parametrize(
@@ -284,6 +321,17 @@ def test_help_says_which_columns_are_needed(capsys):
         main(["comfort", "--help"])
     said = " ".join(capsys.readouterr().out.split())
     assert "a column s, the distance" in said and "elevation [mm]" in said
+
+
+@pytest.mark.parametrize("rate", [100.009, 99.991])
+def test_a_long_record_of_nearly_100_hz_is_kept_to_its_end_and_no_further(tmp_path, rate):
+    """25 min: at 100 Hz it lasts as long, which are 13 samples fewer or more."""
+    time = np.arange(150_000) / rate
+    found = alone.recording(write(tmp_path / "my.csv", time=time, a_z=np.sin(2 * np.pi * time)))
+    assert found.attrs["rate"] == 100.0
+    assert 0.0 <= time[-1] - float(found["time"][-1]) < 0.01
+    inside = slice(50, -50)
+    np.testing.assert_allclose(found["a_z"][inside], np.sin(2 * np.pi * found["time"])[inside], atol=1e-3)
 
 
 def test_a_recording_without_time_is_refused(tmp_path):

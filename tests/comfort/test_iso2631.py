@@ -143,6 +143,14 @@ def test_seat_value_of_a_sine_is_the_transmissibility():
     assert seat.seat_value(floor, floor, RATE, dose=True) == pytest.approx(100.0)
 
 
+def test_a_seat_passes_gravity_unchanged_and_vibration_on_it_as_without_it():
+    runs = np.full((2, len(TIME)), 9.81)
+    runs[1, -100:] = np.nan
+    np.testing.assert_allclose(seat.on_seat(runs, RATE), runs, rtol=1e-12)
+    floor = np.random.default_rng(4).standard_normal(len(TIME))
+    np.testing.assert_allclose(seat.on_seat(floor + 9.81, RATE) - 9.81, seat.on_seat(floor, RATE), atol=1e-9)
+
+
 def test_total_value_behind_a_seat_is_that_of_the_signal_on_the_seat():
     floor = np.sin(2 * np.pi * 6 * TIME) * np.hanning(len(TIME))
     chair, still = seat.Seat(3.0, 0.4), np.zeros_like(TIME)

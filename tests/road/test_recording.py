@@ -42,7 +42,7 @@ def test_columns_may_carry_their_unit_and_azimuth_stand_for_heading(tmp_path):
     [
         (table().drop(columns="pitch"), "has no column 'pitch'"),
         (table(z=["high"] + [2.0] * 49), "line 2, column 'z': 'high', expected a number"),
-        (table(**{"pitch [gon]": 0.0}), "column 'pitch \\[gon\\]': unit 'gon', expected one of s, m, rad, deg"),
+        (table(**{"pitch [gon]": 0.0}), "column 'pitch \\[gon\\]': unit 'gon', expected one of rad, deg"),
     ],
 )
 def test_a_trajectory_that_cannot_be_used_is_refused_in_one_line(tmp_path, data, said):
@@ -50,6 +50,57 @@ def test_a_trajectory_that_cannot_be_used_is_refused_in_one_line(tmp_path, data,
     with pytest.raises(InputError, match=said) as refusal:
         recording.trajectory(tmp_path / "t.csv")
     assert "\n" not in str(refusal.value) and "t.csv" in str(refusal.value)
+
+
+def netcdf(path, time=("s", TIME), **variables):
+    """A trajectory of (unit, values); None: without a unit."""
+    pose = {name: ("m" if name in "xyz" else None, values) for name, values in POSE.items()} | variables
+    described = {name: ("time", values, {"units": unit} if unit else {}) for name, (unit, values) in {"time": time, **pose}.items()}
+    xr.Dataset({name: described[name] for name in POSE}, {"time": described["time"]}).to_netcdf(path)
+    return path
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"roll": ("degree", np.degrees(POSE["roll"]))},
+        {"heading": ("degrees", np.degrees(POSE["heading"])), "x": ("cm", 100 * POSE["x"])},
+        {"time": ("ms", 1000 * TIME)},
+        {"time": ("milliseconds", 1000 * TIME)},
+    ],
+)
+def test_variables_of_a_netcdf_trajectory_are_read_in_their_units(tmp_path, given):
+    found = recording.trajectory(netcdf(tmp_path / "t.nc", **given))
+    np.testing.assert_allclose(found["time"], TIME, atol=1e-9)
+    for name, expected in POSE.items():
+        np.testing.assert_allclose(found[name], expected, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"roll": ("gon", POSE["roll"])}, "variable 'roll': unit 'gon', expected one of rad, deg"),
+        ({"x": ("deg", POSE["x"])}, "variable 'x': unit 'deg', expected one of m, km, cm, mm"),
+        ({"time": ("ticks", TIME)}, "variable 'time': unit 'ticks', expected one of s, ms, us, ns"),
+        ({"time": ("seconds since 2020-01-01", TIME)}, "variable 'time': holds dates, expected numbers in s"),
+    ],
+)
+def test_a_netcdf_trajectory_in_units_that_do_not_fit_is_refused_in_one_line(tmp_path, given, said):
+    path = netcdf(tmp_path / "t.nc", **given)
+    with pytest.raises(InputError) as refusal:
+        recording.trajectory(path)
+    assert str(refusal.value) == f"{path}: {said}"
+
+
+def test_profiles_are_read_in_their_units(tmp_path):
+    height = np.arange(12.0).reshape(3, 4)
+    recorded = {"height": (("profile", "point"), height, {"units": "mm"}), "across": ("point", np.arange(4.0), {"units": "cm"})}
+    xr.Dataset({**recorded, "time": ("profile", np.arange(3.0), {"units": "milliseconds"})}).to_netcdf(tmp_path / "p.nc")
+    with recording.profiles(tmp_path / "p.nc") as blocks:
+        (found,) = blocks
+    np.testing.assert_allclose(found.height, 1e-3 * height)
+    np.testing.assert_allclose(found.across, 1e-2 * np.arange(4.0))
+    np.testing.assert_allclose(found.time, 1e-3 * np.arange(3.0))
 
 
 def test_a_trajectory_without_time_is_refused(tmp_path):

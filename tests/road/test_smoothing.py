@@ -19,6 +19,27 @@ def test_the_cut_off_halves_waves_of_its_length_and_leaves_long_ones():
         assert (found @ wave / (wave @ wave))[()] == pytest.approx(gain, abs=0.03)
 
 
+@pytest.mark.parametrize("spacings", [2, 3, 4, 6, 10, 100])
+def test_a_wave_of_the_cut_off_keeps_half_its_height_however_few_points_make_it_up(spacings):
+    wave = np.cos(2 * np.pi * np.arange(6000) / spacings)
+    found = smoothing.smooth(wave[:, None], 0.1, 0.1 * spacings)[:, 0]
+    inside = slice(1200, -1200)
+    assert found[inside] @ wave[inside] / (wave[inside] @ wave[inside]) == pytest.approx(0.5, abs=1e-6)
+
+
+def test_a_cut_off_below_two_spacings_is_one_of_two():
+    heights = np.random.default_rng(6).standard_normal((100, 1))
+    np.testing.assert_allclose(smoothing.smooth(heights, 0.1, 0.05), smoothing.smooth(heights, 0.1, 0.2))
+
+
+def test_the_penalty_of_a_choice_is_that_of_its_smoothing():
+    """That of waves much longer than the spacing: (wavelength / 2 pi)^4."""
+    noisy = np.random.default_rng(7).standard_normal((400, 1))
+    choice = smoothing.cross_validate(noisy, 0.1, [0.3, 10.0])
+    assert choice.penalty == smoothing.penalty(choice.wavelength, 0.1)
+    assert smoothing.penalty(10.0, 0.1) == pytest.approx((10 / (2 * np.pi)) ** 4, rel=1e-3)
+
+
 def test_straight_lines_pass_unchanged():
     line = 3.0 + 0.07 * U[:, None]
     np.testing.assert_allclose(smoothing.smooth(line, 0.1, 5.0), line, atol=1e-6)
@@ -28,7 +49,7 @@ def test_it_is_the_cubic_smoothing_spline():
     """Against scipy's spline through the same points with the same penalty (per point: lambda / spacing)."""
     rng = np.random.default_rng(1)
     noisy = np.sin(U / 5) + rng.normal(0, 0.1, U.size)
-    spline = make_smoothing_spline(U, noisy, lam=smoothing.penalty(3.0) / 0.1)(U)
+    spline = make_smoothing_spline(U, noisy, lam=smoothing.penalty(3.0, 0.1) / 0.1)(U)
     found = smoothing.smooth(noisy[:, None], 0.1, 3.0)[:, 0]
     assert np.sqrt(np.mean((found - spline)[50:-50] ** 2)) < 1e-3
 

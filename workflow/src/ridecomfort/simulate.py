@@ -285,7 +285,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
 
 @lru_cache
 def _taps(every: int) -> np.ndarray:
-    """A low pass at the rate of the steps that is flat to 0.40 and closed from 0.60 of the records' rate."""
+    """A low pass at the rate of the steps: -0.4 dB at 0.40 of the records' rate, -6 dB at half, -26 dB at 0.60, closed (-45 dB) from 0.65."""
     half = HALF_WIDTH * every
     taps = np.sinc(np.arange(-half, half + 1) / every) * np.kaiser(2 * half + 1, KAISER)
     return taps / taps.sum()

@@ -84,7 +84,7 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
     for name in ("time", *AXES):
         if name in columns:
             asked = settings.get("unit") if name in AXES else None
-            unit = asked or columns[name].get("unit") or units.of_header(columns[name]["column"])
+            unit = asked or columns[name].get("unit") or units.in_brackets(columns[name]["column"])
             columns[name] = {**columns[name], "unit": unit or VARIABLES[name].unit}
             units.of_column(name, columns[name], file=file, place="--unit" if asked else f"column {columns[name]['column']!r}")
     found, _ = csv.read(file, columns)
@@ -104,7 +104,9 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
         )
     # A clock written with few digits: 99.9998 Hz is 100 Hz.
     rate = round(rate) if abs(rate / round(rate) - 1.0) < 1e-4 else rate
-    time = start + np.arange(len(clock)) / rate
+    # On the rounded clock the record holds as many samples as its duration does, which over a long ride are not those it came with.
+    count = int(np.floor((len(clock) - 1) * interval * rate + sampling.LARGEST_SHIFT)) + 1
+    time = start + np.arange(count) / rate
     signals = {
         name: ("time", sampling.resample_inertial(clock, values, time, rate, file=file)[0])
         for name, (_, values) in found.items()
@@ -166,8 +168,7 @@ def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.
     names = [name for name in AXES if name in recording]
     running = xr.Dataset(coords={"time": recording["time"]})
     if chair is not None and "a_z" in names:
-        level = recording["a_z"].mean()
-        recording = recording.assign(a_z=seat.on_seat(recording["a_z"] - level, rate, chair) + level)
+        recording = recording.assign(a_z=seat.on_seat(recording["a_z"], rate, chair))
         remarks.append(f"a_z through a seat of {chair.natural_frequency:g} Hz, damping ratio {chair.damping_ratio:g}")
     for name in names:
         axis = name[-1]
@@ -316,7 +317,7 @@ def roughness(
     if "s" not in columns or not names:
         found = ", ".join(map(str, table.columns))
         raise InputError(f"expected columns s and any of {', '.join(HEIGHTS)} (found {found})", file=file)
-    profiles = {name: _metres(table, columns[name], file) for name in ("s", *names)}
+    profiles = {name: _metres(table, "s" if name == "s" else "elevation", columns[name], file) for name in ("s", *names)}
     s = profiles.pop("s")
     _check_ascending(s, columns["s"]["column"], file)
     resolved = max(MOVING_AVERAGE, float(np.diff(s).max(initial=0.0)))
@@ -355,14 +356,14 @@ def roughness(
     return Result("iri", f"IRI at 80 km/h, segments of {segment:g} m", rows, remarks, describe(signals), "m/km")
 
 
-def _metres(table: pd.DataFrame, entry: Mapping, file) -> np.ndarray:
-    """A column of a profile in m. Raises InputError where there is none, or where it holds something else."""
+def _metres(table: pd.DataFrame, quantity: str, entry: Mapping, file) -> np.ndarray:
+    """A column of a profile, that of ``quantity``, in m. Raises InputError where there is none, or where it holds something else."""
     column = entry["column"]
     if column not in table:
         raise InputError(f"no column {column!r} (found {', '.join(map(str, table.columns))})", file=file)
     if table[column].dtype.kind not in "fiu":
         raise InputError(f"column {column!r} holds something else than numbers", file=file)
-    scale = units.of_column("elevation", {"unit": units.of_header(column) or "m", **entry}, file=file, place=f"column {column!r}")
+    scale = units.of_column(quantity, {"unit": units.in_brackets(column) or "m", **entry}, file=file, place=f"column {column!r}")
     return scale * table[column].to_numpy(float)
 
 

@@ -57,9 +57,12 @@ class Behind:
 
 
 def on_seat(floor, rate: float, seat: Seat | None = None):
-    """Vertical acceleration on the seat in m/s2 from that of the floor, of its shape; as ``weighting.weight``."""
+    """Vertical acceleration on the seat in m/s2 from that of the floor, of its shape; as ``weighting.weight``.
+
+    A seat passes a constant, such as gravity, unchanged: it is thought to have borne it long before the record begins.
+    """
     rate = signals.check_rate(rate)
-    return weighting.filtered(floor, rate, seat or Seat(), before="rest")
+    return weighting.filtered(floor, rate, seat or Seat(), before="mirror")
 
 
 def seat_value(seat, floor, rate: float, name: str = "Wk", *, dose: bool = False):

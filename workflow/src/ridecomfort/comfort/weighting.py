@@ -173,15 +173,19 @@ def spectral(table: np.ndarray, lengths: np.ndarray, rate: float, filter_, befor
             samples = int(lengths[rows].max())
             data = table[rows, :samples]
             if before == "mirror":
-                # No weighting passes a constant: taking the mean away changes no steady state.
-                data -= _means(data, lengths[rows])[:, None]
+                # No weighting passes a constant, a seat passes all of it: the mean goes, and what is passed of it comes back without a transient.
+                levels = _means(data, lengths[rows])[:, None]
+                data -= levels
             if lengths[rows].min() < samples:
                 data[np.arange(samples) >= lengths[rows, None]] = 0
             if lead:
                 data = np.concatenate([data[:, lead:0:-1], data], axis=1)
             spectrum = fft.rfft(data, length, axis=-1)
             spectrum *= gain.astype(spectrum.dtype)
-            yield rows, fft.irfft(spectrum, length, axis=-1, overwrite_x=True)[:, lead : lead + samples]
+            answer = fft.irfft(spectrum, length, axis=-1, overwrite_x=True)[:, lead : lead + samples]
+            if before == "mirror" and gain[0]:
+                answer += gain[0].real * levels
+            yield rows, answer
 
 
 def sampled_response(filter_, length: int, rate: float) -> np.ndarray:

@@ -73,6 +73,15 @@ def of_header(column: str) -> str | None:
     return None
 
 
+def in_brackets(column: str) -> str | None:
+    """What a header states in brackets: its unit as by ``of_header``, else what stands in the last of them as it is, for ``factor`` to refuse.
+
+    None where it has no brackets, or none that hold anything.
+    """
+    held = [(match[1] or match[2] or "").strip() for match in _BRACKETS.finditer(str(column))]
+    return of_header(column) or next((text for text in reversed(held) if text), None)
+
+
 def of_column(quantity: str, entry: Mapping, *, file=None, place: str | None = None) -> float:
     """``factor`` of a column by the ``unit`` of its entry, 1 without one; the sign of its axis is left to the caller.
 

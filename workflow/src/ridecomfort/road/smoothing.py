@@ -21,34 +21,41 @@ class Choice:
     """A cut-off wavelength found by cross-validation.
 
     ``errors`` are the rms errors against held-out points for each of
-    ``wavelengths``; ``wavelength`` is that of the smallest error.
+    ``wavelengths``; ``wavelength`` is that of the smallest error. ``spacing``
+    is that of the points, all in one unit.
     """
 
     wavelength: float
+    spacing: float
     wavelengths: np.ndarray
     errors: np.ndarray
 
     @property
     def penalty(self) -> float:
         """The paper's lambda, in the fourth power of the unit of the wavelength."""
-        return penalty(self.wavelength)
+        return penalty(self.wavelength, self.spacing)
 
 
-def penalty(wavelength: float) -> float:
-    """Weight lambda of the squared second derivative that halves waves of that length."""
-    return (wavelength / (2 * np.pi)) ** 4
+def penalty(wavelength: float, spacing: float) -> float:
+    """Weight lambda of the squared second derivative that halves waves of that length, in the fourth power of its unit.
+
+    Of points ``spacing`` apart the second difference stands for the derivative: of a wave h it is 4 sin(pi spacing / wavelength)^2 h
+    / spacing^2, which falls short of (2 pi / wavelength)^2 h where few points make up a wave. Waves shorter than two spacings, which
+    the points do not hold, count as two.
+    """
+    return (spacing / (2 * np.sin(np.pi * min(spacing / wavelength, 0.5)))) ** 4
 
 
 def smooth(values: np.ndarray, spacing: float, wavelength: float) -> np.ndarray:
     """Equidistant values (n, columns) smoothed along their first axis; waves of ``wavelength`` keep half their height.
 
     Minimises ``sum((f - y)^2) + lambda sum(f''^2)``: the cubic smoothing spline on
-    a grid (Eilers 2003, Anal. Chem. 75, 3631). NaN counts for nothing: the spline
+    a grid, f'' by second differences (Eilers 2003, Anal. Chem. 75, 3631). NaN counts for nothing: the spline
     is carried on over gaps and `FOLDS` values beyond the ends, further out NaN stays.
     A single value is its own spline.
     """
     known = np.isfinite(values)
-    weight = penalty(wavelength) / spacing**4
+    weight = penalty(wavelength, spacing) / spacing**4
     fitted = np.full(values.shape, np.nan)
     for columns in _alike(known):
         places = np.flatnonzero(known[:, columns[0]])
@@ -82,7 +89,7 @@ def cross_validate(values: np.ndarray, spacing: float, wavelengths: Sequence[flo
             miss = (fitted - values)[held_out]
             squares, number = squares + np.nansum(miss**2), number + np.isfinite(miss).sum()
         errors[k] = np.sqrt(squares / number)
-    return Choice(float(wavelengths[errors.argmin()]), wavelengths, errors)
+    return Choice(float(wavelengths[errors.argmin()]), spacing, wavelengths, errors)
 
 
 def smooth_surface(

@@ -4,14 +4,14 @@ import numpy as np
 import xarray as xr
 
 from ridecomfort import store
-from ridecomfort.drive import readers
+from ridecomfort.drive import readers, record
 from ridecomfort.steps.command import Command
 from ridecomfort.vocabulary import DRIVE, describe
 
 
 def main(files, runs, config, output):
     first, last = (int(number) for number in runs.split("-"))
-    drives = [readers.read(path, rate=config["rate"], gravity=False, measured=False)[list(DRIVE)] for path in files[first : last + 1]]
+    drives = [_at_centre_of_gravity(path, config["rate"]) for path in files[first : last + 1]]
     numbered = xr.concat(drives, xr.DataArray(np.arange(first, last + 1), dims="run", name="run"), join="outer")
     store.write(
         describe(numbered.astype(np.float32)),
@@ -20,6 +20,14 @@ def main(files, runs, config, output):
         configuration=config,
         compress=False,
     )
+
+
+def _at_centre_of_gravity(path, rate):
+    """The quantities of a drive at ``rate`` (Hz), its accelerations (m/s2) those of the centre of gravity wherever the file has them from."""
+    drive = readers.read(path, rate=rate, gravity=False, measured=False)
+    if any(drive.attrs[f"sensor_{axis}"] for axis in "xyz"):
+        drive = record.transfer(drive, (0.0, 0.0, 0.0))
+    return drive[list(DRIVE)]
 
 
 if __name__ == "__main__":
