@@ -1,6 +1,6 @@
 """What a configured study has: sites, runs, models, and which drives are calibrated on and diagnosed."""
 
-from ridecomfort import config
+from ridecomfort import config, modules
 from tests.projects import DRIVE, HEADER, read, write
 
 
@@ -36,7 +36,23 @@ def test_effects_name_the_model_in_whatever_order(project, own_effects):
     assert study.model == "headwind+pull"
     assert study.effects("headwind+pull") == {"headwind": {}, "pull": {"size": 2.0}}
     assert study.effects("base") == {}
-    assert study.effect_files("headwind+pull") == ["mine/headwind.py", "mine/pull.py"]
+    assert {"mine/headwind.py", "mine/pull.py"} <= set(study.effect_files("headwind+pull"))
+    assert "mine/pull.py" not in study.effect_files("headwind")
+
+
+def test_files_of_effects_come_with_those_of_the_package_that_they_import(project, own_effects):
+    """Those that lie below a helper, too, else a change of it would leave the results as they were."""
+    package = modules.PACKAGE.resolve()
+    with (project / "mine" / "headwind.py").open("a") as file:
+        file.write("\n\nfrom ridecomfort.effects import library\n")
+    study = config.load({**own_effects, "effects": ["headwind", "steering_lag"]}, project)
+    for files, helpers in (
+        (study.effect_files("headwind+steering_lag"), ("effects/lag.py", "effects/contract.py", "effects/library.py", "errors.py")),
+        (study.effect_files("steering_lag"), ("effects/steering_lag.py", "effects/lag.py", "effects/contract.py")),
+        (study.library_files(), ("effects/lag.py", "effects/wave.py", "effects/swing.py", "errors.py")),
+    ):
+        assert {package / name for name in helpers} <= {(project / file).resolve() for file in files}
+    assert not any(file.endswith(("wave.py", "errors.py")) for file in study.effect_files("steering_lag"))
 
 
 def test_without_calibration_the_drives_of_one_vehicle_are_diagnosed_together(project):
