@@ -1,6 +1,10 @@
 """What a configured study has: sites, runs, models, and which drives are calibrated on and diagnosed."""
 
-from ridecomfort import config, modules
+from pathlib import Path
+
+import yaml
+
+from ridecomfort import config, modules, schema
 from tests.projects import DRIVE, HEADER, read, write
 
 
@@ -53,6 +57,16 @@ def test_files_of_effects_come_with_those_of_the_package_that_they_import(projec
     ):
         assert {package / name for name in helpers} <= {(project / file).resolve() for file in files}
     assert not any(file.endswith(("wave.py", "errors.py")) for file in study.effect_files("steering_lag"))
+
+
+def test_stand_in_drives_rest_on_every_effect_that_they_may_hide_and_on_no_other(project):
+    """On all candidates of a draw: which it takes is a secret. A name that there is no effect of is passed over in the draw, too."""
+    standin = schema.read_yaml(project / config.STANDIN)
+    standin["measurement"]["effects"] = [{"among": ["payload", "tyre_runout", "magic"], "size": [1, 1]}, {"among": ["imu_tilt"], "size": [1, 1]}]
+    (project / config.STANDIN).write_text(yaml.safe_dump(standin))
+    files = config.load({"sites": ["ts1"]}, project).standin_files()
+    effects = {Path(file).stem for file in files if Path(file).parent.name == "effects"}
+    assert effects == {"payload", "tyre_runout", "imu_tilt", "wave", "contract", "__init__"}
 
 
 def test_without_calibration_the_drives_of_one_vehicle_are_diagnosed_together(project):

@@ -169,6 +169,12 @@ class Study:
         """The file of every effect that may be missing, and those of the package that they import."""
         return self._with_imports(effect_files(self.effects_folder).values())
 
+    def standin_files(self) -> list[str]:
+        """Files of the effects that the stand-in drives may hide, and those of the package that they import."""
+        known = effect_files()
+        named = {name for entry in self.standin["measurement"]["effects"] for name in entry["among"]}
+        return self._with_imports(known[name] for name in named if name in known)
+
     @property
     def made(self) -> list[str]:
         """The sites whose road and drives are made from seeds."""
