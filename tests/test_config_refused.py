@@ -172,6 +172,22 @@ def test_mistake_in_a_site(project, content, said):
     assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
 
 
+def calibrated(project, **on):
+    (project / "drive.csv").write_text(HEADER)
+    for site, other in on.items():
+        write(project, site, {"road": {"file": "road.crg"}, "drives": [DRIVE], "calibrated_on": other})
+
+
+def test_sites_that_are_calibrated_on_each_other_are_refused(project):
+    said = "calibrated_on: a on b on a is a circle, expected a site that is calibrated on its own drives"
+    calibrated(project, a="b", b="a")
+    assert_said(project, {"sites": ["a"]}, said, config.SITES / "a.yaml")
+    calibrated(project, a="b", b="c", c="b")
+    assert_said(project, {"sites": ["a", "b", "c"]}, "calibrated_on: b on c on b is a circle", config.SITES / "a.yaml")
+    calibrated(project, a="b", b="c", c="c")
+    config.load({"sites": ["a", "b", "c"]}, project)
+
+
 def wide(project, width):
     """A road's header, as wide as that."""
     sections = f"LONG_SECTION_V_RIGHT = {-width / 2}\nLONG_SECTION_V_LEFT = {width / 2}\nLONG_SECTION_V_INCREMENT = 0.1"

@@ -315,3 +315,14 @@ def _check_calibrations(study: Study) -> None:
             raise InputError(f"site {other!r} has no measured drives to fit", file=file, place=place)
         if study.vehicle(other) != study.vehicle(name):
             raise InputError(f"site {other!r} has another vehicle", file=file, place=place)
+        _check_circle(study, name, file, place)
+
+
+def _check_circle(study: Study, name: str, file, place: str) -> None:
+    """A site is compared with what was found on the one it is calibrated on, which must not wait for it in turn."""
+    passed = [name]
+    while (other := study.calibrated_elsewhere(passed[-1])) is not None:
+        if other in passed:
+            circle = " on ".join([*passed[passed.index(other):], other])
+            raise InputError(f"{circle} is a circle, expected a site that is calibrated on its own drives", file=file, place=place)
+        passed.append(other)
