@@ -1,11 +1,14 @@
 """Each mistake in the configuration is answered by name in one line, before anything runs."""
 
+import re
+
 import pytest
 import xarray as xr
 import yaml
 
 from ridecomfort import config, schema
 from ridecomfort.errors import InputError
+from ridecomfort.report.tables import agreement, comfort
 from tests.projects import DRIVE, HEADER, assert_said, columns, write
 
 
@@ -274,6 +277,14 @@ def test_a_drive_of_a_format_that_nothing_reads_is_missed_before_anything_runs(p
 def test_a_site_may_not_be_named_like_a_target(project):
     write(project, "tables", {"road": {"file": "road.crg"}})
     assert_said(project, {"sites": ["tables"]}, "'tables' is the name of something else", config.STUDY)
+
+
+def test_every_name_of_a_rule_or_beside_sites_in_tables_is_taken(repository):
+    files = [repository / "Snakefile", *(repository / "workflow" / "rules").glob("*.smk")]
+    rules = {name for file in files for name in re.findall(r"^ *(?:rule|checkpoint) (\w+):", file.read_text(), re.MULTILINE)}
+    assert {"all", "calibrate", "diagnosis", "standin_score"} < rules
+    folders = {name for file in files for name in re.findall(r"results/(\w+)/", file.read_text())}
+    assert (rules | folders | {agreement.POOLED, comfort.PAPER}) - config.TAKEN == set()
 
 
 def test_a_stand_in_lies_in_its_folder(project):

@@ -26,9 +26,9 @@ STANDIN = Path("config/standin.yaml")
 TAKEN = frozenset(
     "all compare diagnose report blind survey road inspect measured calibrate sample simulate handed_in space thresholds "
     "iso2631 iri comparison agreement maps comfort tables figures diagnosis critical ladder compared diagnosed score logs "
-    "benchmarks bench none".split()
+    "benchmarks bench none located standin_score paper pooled".split()
 )
-"""Names of targets and of folders in results/, which no site may have."""
+"""Names of targets, of rules, of folders in results/ and of what stands beside sites in tables, which no site may have."""
 
 
 def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ()) -> Study:
