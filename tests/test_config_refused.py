@@ -36,6 +36,22 @@ def test_a_key_that_stands_twice_is_refused(project):
     assert_said(project, {"sites": ["own"]}, "line 4: is not valid YAML (key 'title' stands in line 3 already)", project / config.SITES / "own.yaml")
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("sites: {[mine]}\n", "line 1: is not valid YAML (a key is a list or mapping, expected a name)"),
+        ("runs: 3\n{a: b}: c\n", "line 2: is not valid YAML (a key is a list or mapping, expected a name)"),
+        ("runs: 3\nsites: [2026-02-30]\n", "line 2: is not valid YAML ('2026-02-30': day is out of range for month)"),
+        ("runs: 3\nseed: !!int many\n", "line 2: is not valid YAML ('many': invalid literal for int() with base 10: 'many')"),
+    ],
+)
+def test_yaml_that_cannot_be_made_into_settings_is_answered_with_its_line(tmp_path, text, said):
+    (tmp_path / "study.yaml").write_text(text)
+    with pytest.raises(InputError) as refused:
+        schema.read_yaml(tmp_path / "study.yaml")
+    assert str(refused.value) == f"{tmp_path / 'study.yaml'}: {said}"
+
+
 SPEEDS = [120, 100, 80, 70, 60, 50, 40, 30, 20, 10]
 
 
@@ -72,7 +88,7 @@ STUDY_MISTAKES = [
     ({"calibration": {"bounds": {"tyre_friction": [1, 1]}}}, "tyre_friction: 1 to 1, expected an interval within 0.1 to 2"),
     ({"comfort": {"sections": "gliding"}}, "comfort: sections: 'gliding', expected one of sequential, sliding"),
     ({"comfort": {"jerk": {"seated": [2.9, -2.9]}}}, "jerk: seated: [2.9, -2.9], expected the lower value first"),
-    ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2"),
+    ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2 entries"),
     ({"comfort": {"thresholds": {"a_x": {"PT": [-1, 1, 2], "ND": [-2, 2], "AG": [-5, 3]}}}}, "2, expected text"),
     ({"comfort": {"iri": {"wheel_tracks": [0.75, -0.75]}}}, "wheel_tracks: [0.75, -0.75], expected the lower value first"),
     ({"comfort": {"iri": {"wheel_tracks": []}}}, "wheel_tracks: [], expected at least 1"),
@@ -83,7 +99,7 @@ STUDY_MISTAKES = [
     ({"comfort": {"iso2631": {"bands": {"LU": [0.4, 0.63]}}}}, "nothing between NU and LU"),
     ({"comfort": {"exposure": {"trip": 0}}}, "trip: 0, expected at least 1"),
     ({"comfort": {"maps": {"probability": 1.5}}}, "probability: 1.5, expected at most 1"),
-    ({"sites": []}, "sites: [], expected at least 1"),
+    ({"sites": []}, "sites: [], expected at least 1 entry (Names"),
     ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: "),
     ({"vehicle": "tank"}, "vehicle: unknown vehicle 'tank'; known vehicles: "),
     ({"effects": ["magic"]}, "effects: unknown effect 'magic'"),
