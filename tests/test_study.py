@@ -12,9 +12,11 @@ def test_drives_handed_in_are_in_the_order_of_their_numbers(project):
     (project / "elsewhere").mkdir()
     for number in (10, 9, 1, 2, 11):
         (project / "elsewhere" / f"run{number}.csv").touch()
+    (project / "elsewhere" / "run12.CSV").touch()
+    (project / "elsewhere" / "._run12.CSV").touch()  # as some systems leave beside a copy
     write(project, "own", {"road": {"file": "road.crg"}, "simulated": "elsewhere"})
-    study = config.load({**read(project), "sites": ["own"], "runs": 5}, project)
-    assert study.handed_in("own") == [f"elsewhere/run{number}.csv" for number in (1, 2, 9, 10, 11)]
+    study = config.load({**read(project), "sites": ["own"], "runs": 6}, project)
+    assert study.handed_in("own") == [*(f"elsewhere/run{number}.csv" for number in (1, 2, 9, 10, 11)), "elsewhere/run12.CSV"]
 
 
 def test_shards_name_every_run_once(project):

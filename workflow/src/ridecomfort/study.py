@@ -139,7 +139,8 @@ class Study:
         if folder is None:
             return []
         suffixes = readers.suffixes()
-        return [f"{folder}/{path.name}" for path in sorted((self.folder / folder).iterdir(), key=_in_order) if path.suffix in suffixes]
+        files = (path for path in (self.folder / folder).iterdir() if path.suffix.lower() in suffixes and not path.name.startswith("."))
+        return [f"{folder}/{path.name}" for path in sorted(files, key=_in_order)]
 
     @property
     def measured(self) -> list[str]:
