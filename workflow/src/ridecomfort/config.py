@@ -8,7 +8,7 @@ from statistics import NormalDist
 
 import yaml
 
-from .comfort import bands
+from .comfort import bands, limits
 from .comfort.iriedges import Edges
 from .drive import readers, units
 from .effects import library
@@ -99,9 +99,12 @@ def _study(settings: Mapping, given: list[str]) -> dict:
             file=_source("simulation", given),
             place="simulation: rate",
         )
-    iri = settings["comfort"]["iri"]
+    comfort = settings["comfort"]
+    iri = comfort["iri"]
     try:
-        bands.edges(settings["comfort"]["iso2631"]["bands"])
+        limits.bands(comfort["thresholds"])
+        limits.jerk_bands(comfort["jerk"])
+        bands.edges(comfort["iso2631"]["bands"])
         Edges(iri["speed_km_h"], iri["thresholds"])
     except InputError as problem:
         raise InputError(str(problem), file=_source("comfort", given), place="comfort") from None
