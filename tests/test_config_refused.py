@@ -18,6 +18,8 @@ from tests.projects import DRIVE, HEADER, assert_said, columns, write
         (["magic"], "unknown effect 'magic'"),
         (["suspension friction"], "unknown effect 'suspension friction'; did you mean 'suspension_friction'?"),
         ([{"pull": {"sise": 1.0}}], "effect 'pull' has no parameter 'sise'"),
+        ([{"pull": {"size": 3.0}}, "pull"], "'pull' stands twice, expected each effect once"),
+        (["pull", "headwind", "pull"], "'pull' stands twice, expected each effect once"),
         ([{"pull": {"size": -3.0}}], "pull: size: -3 N, expected 0 to 10 N (how much)"),
     ],
 )

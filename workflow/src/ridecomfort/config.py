@@ -174,6 +174,9 @@ def _check_effects(study: Study, given: list[str]) -> None:
         raise InputError(f"no such folder {str(folder)!r}", file=_source("effects_folder", given), place="effects_folder")
     if folder is not None:
         library.find(folder)  # a file there that is no effect would end the diagnosis only
+    named = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
+    for twice in {name for name in named if named.count(name) > 1}:
+        raise InputError(f"{twice!r} stands twice, expected each effect once", file=_source("effects", given), place="effects")
     if study.effects():
         try:
             library.check_plausible(library.choose(study.effects(), folder))
