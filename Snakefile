@@ -10,11 +10,11 @@ PROJECT = Path(workflow.basedir)
 sys.path.insert(0, str(PROJECT / "workflow" / "src"))
 
 from ridecomfort import config as configuration
-from ridecomfort import stepsettings
+from ridecomfort import modules, stepsettings
 from ridecomfort.errors import InputError
 from ridecomfort.report import catalogue
 from ridecomfort.schema import read_yaml
-from ridecomfort.steps import models, modules, progress
+from ridecomfort.steps import models, progress
 
 os.environ.update(
     PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),

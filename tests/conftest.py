@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from ridecomfort.steps import modules
+from ridecomfort import modules
 from tests.projects import EFFECT, write
 
 REPOSITORY = Path(__file__).resolve().parent.parent

@@ -1,11 +1,14 @@
 """Each mistake in the configuration is answered by name in one line, before anything runs."""
 
+import re
+
 import pytest
 import xarray as xr
 import yaml
 
 from ridecomfort import config, schema
 from ridecomfort.errors import InputError
+from ridecomfort.report.tables import agreement, comfort
 from tests.projects import DRIVE, HEADER, assert_said, columns, write
 
 
@@ -15,6 +18,8 @@ from tests.projects import DRIVE, HEADER, assert_said, columns, write
         (["magic"], "unknown effect 'magic'"),
         (["suspension friction"], "unknown effect 'suspension friction'; did you mean 'suspension_friction'?"),
         ([{"pull": {"sise": 1.0}}], "effect 'pull' has no parameter 'sise'"),
+        ([{"pull": {"size": 3.0}}, "pull"], "'pull' stands twice, expected each effect once"),
+        (["pull", "headwind", "pull"], "'pull' stands twice, expected each effect once"),
         ([{"pull": {"size": -3.0}}], "pull: size: -3 N, expected 0 to 10 N (how much)"),
     ],
 )
@@ -31,6 +36,22 @@ def test_a_file_that_is_no_effect_is_missed_before_anything_runs(project, own_ef
 def test_a_key_that_stands_twice_is_refused(project):
     (project / config.SITES / "own.yaml").write_text("road:\n  file: road.crg\ntitle: one\ntitle: two\n")
     assert_said(project, {"sites": ["own"]}, "line 4: is not valid YAML (key 'title' stands in line 3 already)", project / config.SITES / "own.yaml")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("sites: {[mine]}\n", "line 1: is not valid YAML (a key is a list or mapping, expected a name)"),
+        ("runs: 3\n{a: b}: c\n", "line 2: is not valid YAML (a key is a list or mapping, expected a name)"),
+        ("runs: 3\nsites: [2026-02-30]\n", "line 2: is not valid YAML ('2026-02-30': day is out of range for month)"),
+        ("runs: 3\nseed: !!int many\n", "line 2: is not valid YAML ('many': invalid literal for int() with base 10: 'many')"),
+    ],
+)
+def test_yaml_that_cannot_be_made_into_settings_is_answered_with_its_line(tmp_path, text, said):
+    (tmp_path / "study.yaml").write_text(text)
+    with pytest.raises(InputError) as refused:
+        schema.read_yaml(tmp_path / "study.yaml")
+    assert str(refused.value) == f"{tmp_path / 'study.yaml'}: {said}"
 
 
 SPEEDS = [120, 100, 80, 70, 60, 50, 40, 30, 20, 10]
@@ -69,7 +90,12 @@ STUDY_MISTAKES = [
     ({"calibration": {"bounds": {"tyre_friction": [1, 1]}}}, "tyre_friction: 1 to 1, expected an interval within 0.1 to 2"),
     ({"comfort": {"sections": "gliding"}}, "comfort: sections: 'gliding', expected one of sequential, sliding"),
     ({"comfort": {"jerk": {"seated": [2.9, -2.9]}}}, "jerk: seated: [2.9, -2.9], expected the lower value first"),
-    ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2"),
+    ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2 entries"),
+    ({"comfort": {"jerk": {"seated": [2.9, 2.9]}}}, "comfort: jerk: seated: [2.9, 2.9], expected a lower value and one above it"),
+    (
+        {"comfort": {"thresholds": {"a_z": {"PT": [0.1, 0.1], "ND": [-0.1, 0.1], "AG": [-0.3, 0.3]}}}},
+        "comfort: thresholds: a_z: PT: [0.1, 0.1], expected a lower value and one above it",
+    ),
     ({"comfort": {"thresholds": {"a_x": {"PT": [-1, 1, 2], "ND": [-2, 2], "AG": [-5, 3]}}}}, "2, expected text"),
     ({"comfort": {"iri": {"wheel_tracks": [0.75, -0.75]}}}, "wheel_tracks: [0.75, -0.75], expected the lower value first"),
     ({"comfort": {"iri": {"wheel_tracks": []}}}, "wheel_tracks: [], expected at least 1"),
@@ -80,7 +106,7 @@ STUDY_MISTAKES = [
     ({"comfort": {"iso2631": {"bands": {"LU": [0.4, 0.63]}}}}, "nothing between NU and LU"),
     ({"comfort": {"exposure": {"trip": 0}}}, "trip: 0, expected at least 1"),
     ({"comfort": {"maps": {"probability": 1.5}}}, "probability: 1.5, expected at most 1"),
-    ({"sites": []}, "sites: [], expected at least 1"),
+    ({"sites": []}, "sites: [], expected at least 1 entry (Names"),
     ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: "),
     ({"vehicle": "tank"}, "vehicle: unknown vehicle 'tank'; known vehicles: "),
     ({"effects": ["magic"]}, "effects: unknown effect 'magic'"),
@@ -172,6 +198,22 @@ def test_mistake_in_a_site(project, content, said):
     assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
 
 
+def calibrated(project, **on):
+    (project / "drive.csv").write_text(HEADER)
+    for site, other in on.items():
+        write(project, site, {"road": {"file": "road.crg"}, "drives": [DRIVE], "calibrated_on": other})
+
+
+def test_sites_that_are_calibrated_on_each_other_are_refused(project):
+    said = "calibrated_on: a on b on a is a circle, expected a site that is calibrated on its own drives"
+    calibrated(project, a="b", b="a")
+    assert_said(project, {"sites": ["a"]}, said, config.SITES / "a.yaml")
+    calibrated(project, a="b", b="c", c="b")
+    assert_said(project, {"sites": ["a", "b", "c"]}, "calibrated_on: b on c on b is a circle", config.SITES / "a.yaml")
+    calibrated(project, a="b", b="c", c="c")
+    config.load({"sites": ["a", "b", "c"]}, project)
+
+
 def wide(project, width):
     """A road's header, as wide as that."""
     sections = f"LONG_SECTION_V_RIGHT = {-width / 2}\nLONG_SECTION_V_LEFT = {width / 2}\nLONG_SECTION_V_INCREMENT = 0.1"
@@ -258,6 +300,14 @@ def test_a_drive_of_a_format_that_nothing_reads_is_missed_before_anything_runs(p
 def test_a_site_may_not_be_named_like_a_target(project):
     write(project, "tables", {"road": {"file": "road.crg"}})
     assert_said(project, {"sites": ["tables"]}, "'tables' is the name of something else", config.STUDY)
+
+
+def test_every_name_of_a_rule_or_beside_sites_in_tables_is_taken(repository):
+    files = [repository / "Snakefile", *(repository / "workflow" / "rules").glob("*.smk")]
+    rules = {name for file in files for name in re.findall(r"^ *(?:rule|checkpoint) (\w+):", file.read_text(), re.MULTILINE)}
+    assert {"all", "calibrate", "diagnosis", "standin_score"} < rules
+    folders = {name for file in files for name in re.findall(r"results/(\w+)/", file.read_text())}
+    assert (rules | folders | {agreement.POOLED, comfort.PAPER}) - config.TAKEN == set()
 
 
 def test_a_stand_in_lies_in_its_folder(project):

@@ -51,6 +51,17 @@ def test_another_speed_in_the_study_leaves_the_measured_drives_as_they_are(proje
     assert changed == {"simulate"}
 
 
+def test_another_title_of_a_site_makes_its_pages_again_and_nothing_that_they_show(project):
+    scan = {"road": {"scan": {"profiles": "road.crg", "trajectory": "road.crg"}}}
+    steps = ("survey", "road", "inspect", "measured", "calibrate", "compare", "simulate", "iri", "maps", "tables", "report")
+    told = []
+    for title in ("Own", "Our own"):
+        write(project, "own", {**scan, "title": title})
+        study = config.load({"sites": ["own"]}, project)
+        told.append({step: stepsettings.as_json(study, step, "own", "base") for step in steps})
+    assert {step for step in steps if told[0][step] != told[1][step]} == {"tables", "report"}
+
+
 def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
     drive = {**DRIVE, "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
     (project / "drive.csv").write_text(HEADER)

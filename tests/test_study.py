@@ -1,6 +1,10 @@
 """What a configured study has: sites, runs, models, and which drives are calibrated on and diagnosed."""
 
-from ridecomfort import config
+from pathlib import Path
+
+import yaml
+
+from ridecomfort import config, modules, schema
 from tests.projects import DRIVE, HEADER, read, write
 
 
@@ -8,9 +12,11 @@ def test_drives_handed_in_are_in_the_order_of_their_numbers(project):
     (project / "elsewhere").mkdir()
     for number in (10, 9, 1, 2, 11):
         (project / "elsewhere" / f"run{number}.csv").touch()
+    (project / "elsewhere" / "run12.CSV").touch()
+    (project / "elsewhere" / "._run12.CSV").touch()  # as some systems leave beside a copy
     write(project, "own", {"road": {"file": "road.crg"}, "simulated": "elsewhere"})
-    study = config.load({**read(project), "sites": ["own"], "runs": 5}, project)
-    assert study.handed_in("own") == [f"elsewhere/run{number}.csv" for number in (1, 2, 9, 10, 11)]
+    study = config.load({**read(project), "sites": ["own"], "runs": 6}, project)
+    assert study.handed_in("own") == [*(f"elsewhere/run{number}.csv" for number in (1, 2, 9, 10, 11)), "elsewhere/run12.CSV"]
 
 
 def test_shards_name_every_run_once(project):
@@ -36,7 +42,33 @@ def test_effects_name_the_model_in_whatever_order(project, own_effects):
     assert study.model == "headwind+pull"
     assert study.effects("headwind+pull") == {"headwind": {}, "pull": {"size": 2.0}}
     assert study.effects("base") == {}
-    assert study.effect_files("headwind+pull") == ["mine/headwind.py", "mine/pull.py"]
+    assert {"mine/headwind.py", "mine/pull.py"} <= set(study.effect_files("headwind+pull"))
+    assert "mine/pull.py" not in study.effect_files("headwind")
+
+
+def test_files_of_effects_come_with_those_of_the_package_that_they_import(project, own_effects):
+    """Those that lie below a helper, too, else a change of it would leave the results as they were."""
+    package = modules.PACKAGE.resolve()
+    with (project / "mine" / "headwind.py").open("a") as file:
+        file.write("\n\nfrom ridecomfort.effects import library\n")
+    study = config.load({**own_effects, "effects": ["headwind", "steering_lag"]}, project)
+    for files, helpers in (
+        (study.effect_files("headwind+steering_lag"), ("effects/lag.py", "effects/contract.py", "effects/library.py", "errors.py")),
+        (study.effect_files("steering_lag"), ("effects/steering_lag.py", "effects/lag.py", "effects/contract.py")),
+        (study.library_files(), ("effects/lag.py", "effects/wave.py", "effects/swing.py", "errors.py")),
+    ):
+        assert {package / name for name in helpers} <= {(project / file).resolve() for file in files}
+    assert not any(file.endswith(("wave.py", "errors.py")) for file in study.effect_files("steering_lag"))
+
+
+def test_stand_in_drives_rest_on_every_effect_that_they_may_hide_and_on_no_other(project):
+    """On all candidates of a draw: which it takes is a secret. A name that there is no effect of is passed over in the draw, too."""
+    standin = schema.read_yaml(project / config.STANDIN)
+    standin["measurement"]["effects"] = [{"among": ["payload", "tyre_runout", "magic"], "size": [1, 1]}, {"among": ["imu_tilt"], "size": [1, 1]}]
+    (project / config.STANDIN).write_text(yaml.safe_dump(standin))
+    files = config.load({"sites": ["ts1"]}, project).standin_files()
+    effects = {Path(file).stem for file in files if Path(file).parent.name == "effects"}
+    assert effects == {"payload", "tyre_runout", "imu_tilt", "wave", "contract", "__init__"}
 
 
 def test_without_calibration_the_drives_of_one_vehicle_are_diagnosed_together(project):

@@ -255,6 +255,41 @@ def test_of_a_header_that_is_none_only_the_beginning_is_shown(tmp_path):
     assert len(str(refused.value)) < 600
 
 
+@pytest.mark.parametrize("longer", ["the first", "all"])
+def test_rows_with_a_field_more_than_the_header_are_refused_by_line(tmp_path, longer):
+    """Read on, each column would hold the values of the one before it."""
+    path = write(tmp_path, table())
+    header, *lines = path.read_text().splitlines()
+    count = 1 if longer == "the first" else len(lines)
+    path.write_text("\n".join([header, "", *(f"{line}," for line in lines[:count]), *lines[count:]]))
+    with pytest.raises(InputError) as refused:
+        readers.read(path, COLUMNS)
+    assert str(refused.value) == f"{path}: line 3: 10 fields, expected one for each of the 9 names of columns"
+
+
+def test_a_single_longer_row_further_down_is_refused_by_line(tmp_path):
+    path = write(tmp_path, table())
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join([*lines[:9], f"{lines[9]},7", *lines[10:]]))
+    with pytest.raises(InputError, match="9 fields in line 10, saw 10"):
+        readers.read(path, COLUMNS)
+
+
+def test_a_column_of_row_numbers_without_a_name_is_passed_over(tmp_path):
+    table().to_csv(tmp_path / "drive.csv")
+    assert readers.read(tmp_path / "drive.csv", COLUMNS)["a_x"].equals(readers.read(write(tmp_path, table()), COLUMNS)["a_x"])
+
+
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_a_file_that_is_not_separated_by_commas_says_what_it_is_separated_by(tmp_path, separator):
+    """With decimal commas its rows fall into more fields than its header, which is no news of use."""
+    table().to_csv(tmp_path / "drive.csv", index=False, sep=separator, decimal=",")
+    for look in (readers.read, readers.check):
+        with pytest.raises(InputError) as refused:
+            look(tmp_path / "drive.csv", COLUMNS)
+        assert str(refused.value) == f"{tmp_path / 'drive.csv'}: line 1: one column only: separated by {separator!r}? (expected ',')"
+
+
 def test_blank_lines_are_counted_though_they_are_no_rows(tmp_path):
     path = write(tmp_path, broken("ax [g]", 10, "n/a?"))
     lines = path.read_text().split("\n")

@@ -65,10 +65,13 @@ def test_refuses_parameters_in_another_order_than_their_values_are_handed_over_i
         library.find(tmp_path)
 
 
-def test_refuses_a_name_that_python_cannot_say(tmp_path):
-    put(tmp_path, "my-effect")
-    with pytest.raises(InputError, match="letters, digits and _"):
+@pytest.mark.parametrize("name", ["my-effect", "dämpfer", "2nd_damper"])
+def test_refuses_a_name_that_is_none_of_a_model_or_in_python(tmp_path, name):
+    put(tmp_path, name)
+    with pytest.raises(InputError) as refused:
         library.find(tmp_path)
+    said = f"{name!r} is no name of an effect (expected letters without accents, digits and _, no digit first)"
+    assert str(refused.value) == f"{tmp_path / name}.py: {said}"
 
 
 @pytest.mark.parametrize(("returned", "said"), [

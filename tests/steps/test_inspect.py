@@ -13,7 +13,7 @@ from ridecomfort.steps import inspect
 
 LENGTH = 260.0
 SETTINGS = {
-    "title": "own",
+    "site": "own",
     "speed": {"limit_km_h": 60, "lateral_acceleration": 3.0, "acceleration": 1.0, "deceleration": 1.5},
     "simulation": {"step": 0.001, "rate": 100},
 }

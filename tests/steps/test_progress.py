@@ -156,11 +156,13 @@ def test_no_guess_before_the_main_rule_was_timed(watched, clock):
     assert watched.said()[-1] == "[  9 %] road ts1 done in 1.0 s; 10 to go"
 
 
-def test_earlier_runs_give_a_first_guess(tmp_path, clock):
+def test_earlier_runs_give_a_first_guess_as_far_as_their_benchmarks_hold_numbers(tmp_path, clock):
     folder = tmp_path / "benchmarks" / "simulate" / "ts1"
     folder.mkdir(parents=True)
     for number, seconds in enumerate([4.0, 6.0]):
         (folder / f"{number}.tsv").write_text(f"s\th:m:s\n{seconds}\t0:00:05\n")
+    (folder / "empty.tsv").touch()
+    (folder / "cut.tsv").write_text("s\th:m:s\n")
     handler = progress.Progress(tmp_path / "benchmarks", io.StringIO())
     log(handler, "run_info", stats={"simulate": 10, "total": 10})
     assert handler.time_left() == pytest.approx(50.0)

@@ -33,7 +33,7 @@ def refused(tmp_path, content) -> str:
 
 def test_a_number_that_yaml_takes_for_text_is_refused_with_how_to_write_it(tmp_path, content):
     content["parameters"]["spring_stiffness_front"]["value"] = "2.8e4"
-    assert "'2.8e4' is text in YAML, expected a number such as 28000" in refused(tmp_path, content)
+    assert "spring_stiffness_front: value: '2.8e4', expected a number; YAML reads this as text, write 28000" in refused(tmp_path, content)
 
 
 def test_a_file_in_another_encoding_is_refused(tmp_path):
@@ -57,6 +57,25 @@ def test_an_implausible_value_is_refused(tmp_path, content, value):
 def test_an_unknown_parameter_is_refused(tmp_path, content):
     content["parameters"]["colour"] = {"value": 1, "unit": "1", "source": "paint"}
     assert "colour" in refused(tmp_path, content)
+
+
+def test_a_misspelt_key_is_refused_with_the_one_that_it_is_like(tmp_path, content):
+    """At the top, within a parameter, and the name of one."""
+    entry = content["parameters"].pop("wheelbase")
+    changes = [
+        ({"titel": "mine"}, {"wheelbase": entry}, "mine.yaml: unknown key 'titel'; did you mean 'title'?"),
+        ({}, {"wheelbase": {**entry, "vlaue": 2}}, "mine.yaml: parameters: wheelbase: unknown key 'vlaue'; did you mean 'value'?"),
+        ({}, {"wheelbase": {"value": 2.7, "unit": "m"}}, "mine.yaml: parameters: wheelbase: key 'source' is missing"),
+        ({}, {"weelbase": entry}, "mine.yaml: parameters: unknown parameter 'weelbase'; did you mean 'wheelbase'?"),
+    ]
+    for top, parameter, said in changes:
+        assert said in refused(tmp_path, {**content, **top, "parameters": {**content["parameters"], **parameter}})
+
+
+def test_a_unit_of_one_needs_no_quotes(tmp_path, content):
+    content["parameters"]["tyre_friction"]["unit"] = 1
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(content))
+    assert parameters.read(tmp_path / "mine.yaml")["tyre_friction"] == content["parameters"]["tyre_friction"]["value"]
 
 
 def test_a_missing_parameter_is_refused(tmp_path, content):

@@ -48,6 +48,7 @@ for site in study.made:
                 f"standin_drives_{site}"
             input:
                 code=modules.of_step("standin_drives"),
+                effects=study.standin_files(),
                 road=study.true_road(site),
                 vehicle=study.vehicle(site),
             output:

@@ -8,7 +8,7 @@ from statistics import NormalDist
 
 import yaml
 
-from .comfort import bands
+from .comfort import bands, limits
 from .comfort.iriedges import Edges
 from .drive import readers, units
 from .effects import library
@@ -26,9 +26,9 @@ STANDIN = Path("config/standin.yaml")
 TAKEN = frozenset(
     "all compare diagnose report blind survey road inspect measured calibrate sample simulate handed_in space thresholds "
     "iso2631 iri comparison agreement maps comfort tables figures diagnosis critical ladder compared diagnosed score logs "
-    "benchmarks bench none".split()
+    "benchmarks bench none located standin_score paper pooled".split()
 )
-"""Names of targets and of folders in results/, which no site may have."""
+"""Names of targets, of rules, of folders in results/ and of what stands beside sites in tables, which no site may have."""
 
 
 def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ()) -> Study:
@@ -99,9 +99,12 @@ def _study(settings: Mapping, given: list[str]) -> dict:
             file=_source("simulation", given),
             place="simulation: rate",
         )
-    iri = settings["comfort"]["iri"]
+    comfort = settings["comfort"]
+    iri = comfort["iri"]
     try:
-        bands.edges(settings["comfort"]["iso2631"]["bands"])
+        limits.bands(comfort["thresholds"])
+        limits.jerk_bands(comfort["jerk"])
+        bands.edges(comfort["iso2631"]["bands"])
         Edges(iri["speed_km_h"], iri["thresholds"])
     except InputError as problem:
         raise InputError(str(problem), file=_source("comfort", given), place="comfort") from None
@@ -171,6 +174,9 @@ def _check_effects(study: Study, given: list[str]) -> None:
         raise InputError(f"no such folder {str(folder)!r}", file=_source("effects_folder", given), place="effects_folder")
     if folder is not None:
         library.find(folder)  # a file there that is no effect would end the diagnosis only
+    named = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
+    for twice in {name for name in named if named.count(name) > 1}:
+        raise InputError(f"{twice!r} stands twice, expected each effect once", file=_source("effects", given), place="effects")
     if study.effects():
         try:
             library.check_plausible(library.choose(study.effects(), folder))
@@ -315,3 +321,14 @@ def _check_calibrations(study: Study) -> None:
             raise InputError(f"site {other!r} has no measured drives to fit", file=file, place=place)
         if study.vehicle(other) != study.vehicle(name):
             raise InputError(f"site {other!r} has another vehicle", file=file, place=place)
+        _check_circle(study, name, file, place)
+
+
+def _check_circle(study: Study, name: str, file, place: str) -> None:
+    """A site is compared with what was found on the one it is calibrated on, which must not wait for it in turn."""
+    passed = [name]
+    while (other := study.calibrated_elsewhere(passed[-1])) is not None:
+        if other in passed:
+            circle = " on ".join([*passed[passed.index(other):], other])
+            raise InputError(f"{circle} is a circle, expected a site that is calibrated on its own drives", file=file, place=place)
+        passed.append(other)

@@ -33,10 +33,18 @@ class _Loader(yaml.SafeLoader):
     def construct_mapping(self, node, deep=False):
         lines: dict = {}
         for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                raise yaml.MarkedYAMLError(problem="a key is a list or mapping, expected a name", problem_mark=key.start_mark)
             first = lines.setdefault(key.value, key.start_mark.line)
             if first != key.start_mark.line:
                 raise yaml.MarkedYAMLError(problem=f"key {key.value!r} stands in line {first + 1} already", problem_mark=key.start_mark)
         return super().construct_mapping(node, deep)
+
+    def construct_object(self, node, deep=False):
+        try:
+            return super().construct_object(node, deep)
+        except ValueError as problem:  # of what looks like a date or a number and is none
+            raise yaml.MarkedYAMLError(problem=f"{node.value!r}: {problem}", problem_mark=node.start_mark) from None
 
 
 def read_yaml(path) -> dict:
@@ -141,7 +149,7 @@ def _explain(error: ValidationError) -> str:
         case "enum":
             return f"{value!r}, expected one of {', '.join(map(str, expected))}{meaning}"
         case "minItems" | "minProperties":
-            return f"{value!r}, expected at least {expected} entries{meaning}"
+            return f"{value!r}, expected at least {expected} {'entry' if expected == 1 else 'entries'}{meaning}"
         case "maxItems" | "maxProperties" | "items":
             return f"{value!r} has too many entries{meaning}"
         case "uniqueItems":

@@ -37,12 +37,11 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             return {**at, "seed": study.standin["seed"], "scanner": study.standin["scanner"]}
         case "survey":
             grid = {key: own["road"]["scan"][key] for key in ("spacing", "width")}
-            return {**at, "title": own["title"], **grid}
+            return {**at, **grid}
         case "road":
-            return {**at, "title": own["title"], "standin": own["standin"], "options": own["road"]["options"]}
+            return {**at, "standin": own["standin"], "options": own["road"]["options"]}
         case "inspect":
-            road = {"title": own["title"], "options": own["road"]["options"]}
-            return {**at, **road, "speed": own["speed"], "simulation": simulation}
+            return {**at, "options": own["road"]["options"], "speed": own["speed"], "simulation": simulation}
         case "measured":
             drives = [{key: value for key, value in drive.items() if key != "noise_density"} for drive in own["drives"]]
             return {**at, "drives": drives, "alignment": chosen["alignment"], "simulation": simulation}

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
+from . import modules
 from .drive import readers
 from .effects import library
 
@@ -88,9 +89,13 @@ class Study:
         return not set(self.effects(model)) <= set(effect_files())
 
     def effect_files(self, model: str) -> list[str]:
-        """The files of a model's effects."""
+        """The files of a model's effects, and those of the package that they import."""
         known = effect_files(self.effects_folder)
-        return [os.path.relpath(known[name], self.folder) for name in self.effects(model) if name in known]
+        return self._with_imports(known[name] for name in self.effects(model) if name in known)
+
+    def _with_imports(self, files: Iterable[Path]) -> list[str]:
+        """Files, seen from the study's folder, with those of the package that they import."""
+        return sorted(os.path.relpath(path, self.folder) for path in modules.with_imports(files))
 
     def vehicle(self, site: str) -> str:
         """File of the vehicle that drives on a site."""
@@ -134,7 +139,8 @@ class Study:
         if folder is None:
             return []
         suffixes = readers.suffixes()
-        return [f"{folder}/{path.name}" for path in sorted((self.folder / folder).iterdir(), key=_in_order) if path.suffix in suffixes]
+        files = (path for path in (self.folder / folder).iterdir() if path.suffix.lower() in suffixes and not path.name.startswith("."))
+        return [f"{folder}/{path.name}" for path in sorted(files, key=_in_order)]
 
     @property
     def measured(self) -> list[str]:
@@ -161,8 +167,14 @@ class Study:
         return [*first, *(site for site in self.measured if [self.vehicle(site)] == vehicle and site not in first)]
 
     def library_files(self) -> list[str]:
-        """The file of every effect that may be missing."""
-        return [os.path.relpath(path, self.folder) for path in effect_files(self.effects_folder).values()]
+        """The file of every effect that may be missing, and those of the package that they import."""
+        return self._with_imports(effect_files(self.effects_folder).values())
+
+    def standin_files(self) -> list[str]:
+        """Files of the effects that the stand-in drives may hide, and those of the package that they import."""
+        known = effect_files()
+        named = {name for entry in self.standin["measurement"]["effects"] for name in entry["among"]}
+        return self._with_imports(known[name] for name in named if name in known)
 
     @property
     def made(self) -> list[str]:

@@ -9,14 +9,10 @@ import xarray as xr
 from scipy import fft
 
 from . import runs, sections, signals
-from .thresholds import Band, band, detect
-
-BANDS = {
-    "standing_low": Band(-0.50, 0.50, "Eriksson and Friman, standing in public transport; sec:back_motivation"),
-    "standing_high": Band(-0.90, 0.90, "Eriksson and Friman, standing in public transport; sec:back_motivation"),
-    "seated": Band(-2.90, 2.90, "Elbanhawi, Simic and Jazar (2015), seated; sec:back_motivation"),
-}
-"""m/s3; the lower and the upper figure for standing, and the upper bound for seated passengers."""
+from .limits import JERK as BANDS
+from .limits import Band
+from .limits import jerk_bands as bands  # noqa: F401 - they are asked for here
+from .thresholds import detect
 
 AXES = {"jerk_x": "a_x", "jerk_y": "a_y"}
 
@@ -25,13 +21,6 @@ CUTOFF = 2.0
 
 HALF_AMPLITUDE = np.sqrt(2 * np.log(2)) / (2 * np.pi)
 """Standard deviation in s of a Gaussian whose spectrum is a half at 1 Hz."""
-
-
-def bands(configured: Mapping | None = None) -> dict[str, Band]:
-    """Bands from plain settings ``{style: [lower, upper]}`` or ``[lower, upper, source]``, the paper's without any."""
-    if configured is None:
-        return dict(BANDS)
-    return {style: band(values, BANDS.get(style)) for style, values in configured.items()}
 
 
 def of_drive(acceleration, rate: float, cutoff: float = CUTOFF):

@@ -3,65 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
 from ..errors import InputError
 from . import runs, sections
-
-STYLES = ("PT", "ND", "AG")
-"""Public transport, normal and aggressive driving, mildest first."""
-
-BAE = "Bae, Moon and Seo (2019), as in tab:thresholds_manual"
-DATA = "sec:thresholding, from car-following data of Makridis et al."
-
-
-@dataclass(frozen=True)
-class Band:
-    """What a passenger accepts of one quantity: from ``lower`` to ``upper``, and who says so."""
-
-    lower: float
-    upper: float
-    source: str = ""
-
-    def __post_init__(self) -> None:
-        if not self.lower < self.upper:
-            raise InputError(f"[{self.lower}, {self.upper}] does not ascend", place="threshold")
-
-
-ACCELERATION = {
-    "a_x": {"PT": Band(-0.90, 0.90, BAE), "ND": Band(-2.00, 1.47, BAE), "AG": Band(-5.08, 3.07, BAE)},
-    "a_y": {"PT": Band(-0.90, 0.90, BAE), "ND": Band(-4.00, 4.00, BAE), "AG": Band(-5.60, 5.60, BAE)},
-    "a_z": {"PT": Band(-0.10, 0.10, DATA), "ND": Band(-0.10, 0.10, DATA), "AG": Band(-0.30, 0.30, DATA)},
-}
-"""m/s2, by axis and style (tab:thresholds_manual)."""
-
-
-def bands(configured: Mapping[str, Mapping] | None = None) -> dict[str, dict[str, Band]]:
-    """Bands from plain settings ``{axis: {style: [lower, upper]}}``, the paper's where none are given.
-
-    A setting may say where it comes from, ``[lower, upper, source]``; one that repeats the paper's keeps its source.
-    """
-    if configured is None:
-        return ACCELERATION
-    answer = {}
-    for axis in sorted(configured):
-        styles = sorted(configured[axis], key=lambda style: (STYLES.index(style) if style in STYLES else 9, style))
-        published = ACCELERATION.get(axis, {})
-        answer[axis] = {style: band(configured[axis][style], published.get(style)) for style in styles}
-    return answer
-
-
-def band(configured, published: Band | None = None) -> Band:
-    """A band from ``[lower, upper]`` or ``[lower, upper, source]``; with the figures of a published one, that one."""
-    if isinstance(configured, Band):
-        return configured
-    lower, upper, *source = configured
-    if not source and published is not None and (lower, upper) == (published.lower, published.upper):
-        return published
-    return Band(lower, upper, *(source or ["as configured"]))
+from .limits import ACCELERATION, DATA, STYLES, Band, bands  # noqa: F401 - they are asked for here
 
 
 def evaluate(

@@ -106,6 +106,8 @@ def _entries(folder: Path, files: tuple[tuple[str, int], ...]) -> Mapping[str, E
 @lru_cache(maxsize=512)
 def _load(path: Path, changed: int) -> Entry:
     """The effect of a file; read again only once it has ``changed``."""
+    if not (path.stem.isidentifier() and path.stem.isascii()):  # the name of a model, of its files and of the kernel's modules
+        raise InputError(f"{path.stem!r} is no name of an effect (expected letters without accents, digits and _, no digit first)", file=path)
     spec = importlib.util.spec_from_file_location(f"ridecomfort_effect_{path.stem}", path)
     module = importlib.util.module_from_spec(spec)
     try:
@@ -117,8 +119,6 @@ def _load(path: Path, changed: int) -> Entry:
         raise InputError("expected `effect = Effect(...)` and a function `act`", file=path)
     if effect.name != path.stem:
         raise InputError(f"holds effect {effect.name!r}, expected the name of the file", file=path)
-    if not effect.name.isidentifier():
-        raise InputError(f"{effect.name!r} is no name in Python (expected letters, digits and _)", file=path)
     if effect.port not in PORTS:
         raise InputError(f"unknown port {effect.port!r}; known are {', '.join(PORTS)}", file=path)
     _check_arguments(effect, act, path)

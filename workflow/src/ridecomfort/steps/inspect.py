@@ -17,7 +17,7 @@ def main(road, vehicle, gridded, config, output):
         prepared = scanned(prepared, store.read(gridded))
     found = inspection.inspect(prepared, parameters.read(vehicle), speed=config["speed"], **config["simulation"])
     found.attrs["used"] = "smoothed" if config["options"].get("smoothing") == "cross-validation" else "repaired"
-    store.write(found, output, title=f"Inspection of the road of {config['title']}", configuration=config)
+    store.write(found, output, title=f"Inspection of the road of {config['site']}", configuration=config)
 
 
 def scanned(prepared, before):

@@ -251,9 +251,10 @@ def _earlier(benchmarks: Path) -> dict[str, float]:
     for folder in benchmarks.glob("*/"):
         seconds = []
         for path in folder.rglob("*.tsv"):
-            fields = path.read_text().splitlines()[-1].split("\t")
-            if fields[0].replace(".", "", 1).isdigit():
-                seconds.append(float(fields[0]))
+            lines = path.read_text(errors="replace").splitlines() or [""]  # one that a full disk or a cut run left empty
+            first = lines[-1].split("\t")[0]
+            if first.replace(".", "", 1).isdecimal():
+                seconds.append(float(first))
         if seconds:
             means[folder.name] = sum(seconds) / len(seconds)
     return means

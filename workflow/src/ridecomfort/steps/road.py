@@ -17,7 +17,7 @@ def main(road, config, output):
         used.attrs["treatment"] += f"\nsmoothing took the IRI of the wheel tracks from {before:.3f} to {after:.3f} m/km"
     print(used.treatment, file=sys.stderr)
     used.attrs["standin"] = int(config.get("standin", False))
-    store.write(used, output, title=f"Road of {config.get('title', road.stem)}", configuration=config)
+    store.write(used, output, title=f"Road of {config.get('site', road.stem)}", configuration=config)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ def main(scan, trajectory, config, output, gridded=None):
             raise
         raise InputError(str(problem), file=trajectory if str(problem).startswith("trajectory") else scan) from None
     print(cleaned.treatment, file=sys.stderr)
-    title = config.get("title", f"Scanned road {scan.stem}")
+    title = f"Scanned road {config.get('site', scan.stem)}"
     if gridded is not None:
         before = road.assign(treated=cleaned.treated).assign_attrs(treatment=cleaned.treatment)
         store.write(before, gridded, title=f"{title}, as scanned", configuration=config)

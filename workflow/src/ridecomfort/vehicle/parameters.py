@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import re
+import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 
 from ..errors import InputError
-from ..schema import read_yaml
+from ..schema import read_yaml, validate
 
 
 @dataclass(frozen=True)
@@ -87,15 +87,13 @@ def read(path) -> Vehicle:
     Raises InputError for an unknown, missing or implausible parameter and for a wrong unit.
     """
     path = Path(path)
-    parameters = read_yaml(path).get("parameters")
-    if not isinstance(parameters, dict):
-        raise InputError("expected a mapping 'parameters' of name to {value, unit, source}", file=path)
+    parameters = validate(read_yaml(path), "vehicle", path)["parameters"]
     values, sources = {}, {}
     for name, entry in parameters.items():
         if name not in PARAMETERS:
-            raise InputError(f"unknown parameter {name!r}; known are {', '.join(PARAMETERS)}", file=path)
-        if not isinstance(entry, dict) or not {"value", "unit", "source"} <= entry.keys():
-            raise InputError(f"got {entry!r}, expected {{value, unit, source}}", file=path, place=name)
+            close = difflib.get_close_matches(str(name), PARAMETERS, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(PARAMETERS)}"
+            raise InputError(f"unknown parameter {name!r}; {hint}", file=path, place="parameters")
         if str(entry["unit"]) != PARAMETERS[name].unit:
             raise InputError(
                 f"unit {entry['unit']!r}, expected {PARAMETERS[name].unit!r}", file=path, place=name
@@ -118,8 +116,6 @@ def _check(name: str, value, path) -> float:
     parameter = PARAMETERS.get(name)
     if parameter is None:
         raise InputError(f"unknown vehicle parameter {name!r}", file=path)
-    if isinstance(value, str) and re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+", value):
-        raise InputError(f"{value!r} is text in YAML, expected a number such as {float(value):g}", file=path, place=name)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not parameter.lower <= value <= parameter.upper:
         raise InputError(
             f"{value!r} {parameter.unit}, expected {parameter.lower:g} to {parameter.upper:g} {parameter.unit}",

@@ -30,6 +30,7 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     point the other way, ``factor: -1``. Without it the columns are named as in the
     vocabulary and hold SI units. Raises InputError naming line and column.
     """
+    _check_separator(_header(path), path)
     table = _table(path)
     if columns is None:
         columns = _named(table.columns)
@@ -47,14 +48,29 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
 
 def check(path, columns: Mapping[str, Mapping] | None) -> None:
     """Raise InputError where the first line of the file does not name what ``columns`` asks for, or a drive needs without them."""
-    try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            found = next(csv.reader(file, skipinitialspace=True), [])
-    except UnicodeDecodeError:
+    found = _header(path)
+    if found is None:
         return  # reading it says why
+    _check_separator(found, path)
     if columns is None and missing(found):
         raise InputError(f"{missing(found)}; `columns` says what columns of other names hold", file=path, place="line 1")
     _check_names(found, _named(found) if columns is None else columns, path)
+
+
+def _header(path) -> list[str] | None:
+    """What the first line of a file names, None where that is no text."""
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            return next(csv.reader(file, skipinitialspace=True), [])
+    except UnicodeDecodeError:
+        return None
+
+
+def _check_separator(found: Sequence[str] | None, path) -> None:
+    """Raise InputError where all names stand in one column because something else than a comma lies between them."""
+    for separator in (";", "\t") if found and len(found) == 1 else ():
+        if separator in found[0]:
+            raise InputError(f"one column only: separated by {separator!r}? (expected ',')", file=path, place="line 1")
 
 
 def _named(found: Sequence[str]) -> dict[str, dict[str, str]]:
@@ -78,9 +94,23 @@ def _table(path) -> pd.DataFrame:
     import pandas as pd
 
     try:
-        return pd.read_csv(path, skipinitialspace=True)
+        table = pd.read_csv(path, skipinitialspace=True)
     except (ValueError, UnicodeDecodeError) as problem:
         raise InputError(f"not a readable CSV file ({str(problem).splitlines()[0]})", file=path) from None
+    # Of rows that are longer than the header pandas makes the first column an index, and every name stands for its neighbour.
+    if not isinstance(table.index, pd.RangeIndex):
+        raise _uneven(path)
+    return table
+
+
+def _uneven(path) -> InputError:
+    """What to say of the first line with another number of fields than the header has names."""
+    with open(path, encoding="utf-8-sig", newline="") as file:
+        rows = csv.reader(file, skipinitialspace=True)
+        counts = [(rows.line_num, len(row)) for row in rows if any(row)]
+    (_, names), *others = counts
+    line, fields = next(other for other in others if other[1] != names)
+    return InputError(f"{fields} fields, expected one for each of the {names} names of columns", file=path, place=f"line {line}")
 
 
 def _numbers(series: pd.Series, path, column: str) -> np.ndarray:

@@ -6,11 +6,11 @@ import ast
 import hashlib
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
-PACKAGE = Path(__file__).parents[1]
+PACKAGE = Path(__file__).parent
 
 LOADS = {
     "effects/compose.py": ("vehicle/kernel.py", "effects/neutral.py"),
@@ -31,15 +31,21 @@ def of_step(step: str) -> list[str]:
     Paths are relative to the working directory. Found in the source text without importing anything, so that a workflow of a thousand
     jobs starts fast. A step that is not written yet rests on nothing.
     """
+    found = with_imports(_files(("steps", step)))
+    found |= {data for path in found for data in path.parent.glob("*.*") if data.suffix in DATA}
+    return sorted(os.path.relpath(path) for path in found)
+
+
+def with_imports(files: Iterable[Path]) -> set[Path]:
+    """These files, those of the package or of a user, with the modules of the package that they import and that those import in turn."""
     found: set[Path] = set()
-    waiting = list(_files(("steps", step)))
+    waiting = list(files)
     while waiting:
         path = waiting.pop()
         if path not in found:
             found.add(path)
             waiting.extend(_imported(path))
-    found |= {data for path in found for data in path.parent.glob("*.*") if data.suffix in DATA}
-    return sorted(os.path.relpath(path) for path in found)
+    return found
 
 
 def compiled() -> str:
@@ -67,9 +73,9 @@ def imports(text: str) -> Iterator[ast.Import | ast.ImportFrom]:
 
 @cache
 def _imported(path: Path) -> frozenset[Path]:
-    """The package's modules that one module imports anywhere in its text."""
+    """The package's modules that one file imports anywhere in its text."""
     found: set[Path] = set()
-    for node in imports(path.read_text(encoding="utf-8")):
+    for node in imports(path.read_text(encoding="utf-8", errors="replace")):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 found |= _files(_inside(alias.name))
@@ -79,7 +85,8 @@ def _imported(path: Path) -> frozenset[Path]:
                 found |= _files(parts)
                 for alias in node.names:
                     found |= _files((*parts, alias.name))
-    for pattern in LOADS.get(path.relative_to(PACKAGE).as_posix(), ()):
+    own = path.relative_to(PACKAGE).as_posix() if PACKAGE in path.parents else ""
+    for pattern in LOADS.get(own, ()):
         found.update(PACKAGE.glob(pattern))
     return frozenset(found - {path})
 
@@ -89,6 +96,8 @@ def _source(path: Path, node: ast.ImportFrom) -> tuple[str, ...] | None:
     named = tuple(node.module.split(".")) if node.module else ()
     if node.level == 0:
         return _inside(node.module)
+    if PACKAGE not in path.parents:
+        return None
     parents = path.relative_to(PACKAGE).parts[: -node.level]
     return (*parents, *named)
 

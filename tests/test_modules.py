@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ridecomfort.steps import modules
+from ridecomfort import modules
 
 STEPS = sorted(
     path.stem
@@ -97,3 +97,10 @@ def test_every_import_form_is_followed(tmp_path, monkeypatch):
     monkeypatch.setattr(modules, "PACKAGE", package)
     found = {Path(path).resolve().relative_to(package).as_posix() for path in modules.of_step("try_it")}
     assert found == set(texts) - {"road/other.py"}
+
+
+def test_a_file_from_elsewhere_brings_what_it_imports_of_the_package_and_nothing_by_dots(tmp_path):
+    own = tmp_path / "own.py"
+    own.write_text("# A name in Latin-1: \xfc\nfrom . import errors\nfrom ridecomfort.effects.lag import lag\n", encoding="latin-1")
+    found = modules.with_imports([own])
+    assert {path.name for path in found} == {"own.py", "lag.py", "__init__.py"}
