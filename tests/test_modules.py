@@ -104,3 +104,14 @@ def test_a_file_from_elsewhere_brings_what_it_imports_of_the_package_and_nothing
     own.write_text("# A name in Latin-1: \xfc\nfrom . import errors\nfrom ridecomfort.effects.lag import lag\n", encoding="latin-1")
     found = modules.with_imports([own])
     assert {path.name for path in found} == {"own.py", "lag.py", "__init__.py"}
+
+
+def test_every_step_that_loads_effects_lists_their_files(repository):
+    """An effect is loaded by its name, so that no import tells which files a step rests on."""
+    inputs = {}
+    for file in (repository / "workflow" / "rules").glob("*.smk"):
+        for rule in file.read_text().split('code=modules.of_step("')[1:]:
+            step, rest = rule.split('"', 1)
+            inputs[step] = rest.split("output:")[0]
+    listing = {step for step, files in inputs.items() if "effects=" in files}
+    assert listing == {"calibrate", "compare", "simulate", "diagnose", "standin_drives", "standin_score"}
