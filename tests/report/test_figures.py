@@ -77,10 +77,13 @@ def words_of(figure):
 def test_figures_of_stand_in_sites_say_so_and_others_do_not(drawn, own_site):
     """A figure is shown without its caption sooner or later."""
     for name, each in drawn.items():
-        shows_data = name != "framework"
+        shows_data = name not in ("framework", "leastsquare")
         assert ("Stand-in data: Ts" in words_of(each)) == shows_data, name
     assert "Stand-in data: Ts2" in words_of(drawn["views_ts2"]) and "Ts1" not in words_of(drawn["views_ts2"])
     assert "Stand-in data: Ts1" in words_of(drawn["validation_iso"]) and "Ts2" not in words_of(drawn["validation_iso"])
+    for name in ("optichain", "convergence"):  # calibrated on the first
+        assert "Stand-in data: Ts1" in words_of(drawn[name]) and "Ts2" not in words_of(drawn[name])
+    assert "Stand-in data: Ts3" in words_of(drawn["opti_plots"])
     for name in ("critical_shares", "validation_iso"):
         assert "Stand-in" not in words_of(figures.draw(own_site, name))
 

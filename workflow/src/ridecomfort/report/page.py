@@ -12,6 +12,7 @@ from markupsafe import Markup
 
 from ..discrepancy.ranking import forms
 from . import catalogue, claims, notation, published
+from .figures import standin_mark
 from .study import STANDIN, Study
 from .table import Table, to_html
 
@@ -69,9 +70,6 @@ SECTIONS = (
 )
 """Key, title and pieces of each section; ``.figure`` tells a figure from the table of the same name."""
 
-WITHOUT_DATA = ("framework", "leastsquare")
-"""Figures that show no results of any site."""
-
 KINDS = {claims.HOLDS: "holds", claims.FAILS: "fails", claims.UNKNOWN: "open"}
 
 
@@ -122,17 +120,18 @@ def _lead(study: Study) -> str:
 
 def _sections(study: Study, tables: Mapping[str, Table], figures: Mapping[str, bytes]):
     said = captions(study)
+    figure_of = lambda name: _figure(name, said[name], figures[name], _standin_mark(study, name))  # noqa: E731
     for key, title, names in SECTIONS:
         pieces = []
         for name in names:
             figure = name.removesuffix(".figure")
             if name.endswith("*"):
                 pieces += [_table(table) for other, table in tables.items() if other.startswith(name[:-1])]
-                pieces += [_figure(other, said[other], figures[other]) for other in figures if other.startswith(name[:-1])]
+                pieces += [figure_of(other) for other in figures if other.startswith(name[:-1])]
             elif name in tables:
                 pieces.append(_table(tables[name]))
             elif figure in figures:
-                pieces.append(_figure(figure, said[figure], figures[figure]))
+                pieces.append(figure_of(figure))
         if pieces:
             yield {"key": key, "title": title, "pieces": pieces}
 
@@ -151,13 +150,24 @@ def _table(table: Table) -> dict:
     }
 
 
-def _figure(name: str, caption: str, image: bytes) -> dict:
+def _standin_mark(study: Study, name: str) -> str | None:
+    """The words for the stand-in sites whose data a figure shows, as they stand in its corner; None where it shows none."""
+    if name in catalogue.figures(study.settings["sites"]):
+        return standin_mark(study, name)
+    if name in catalogue.DIAGNOSIS_FIGURES:
+        return study.diagnosis.standin_mark()
+    if name in catalogue.DIFFERENCE_FIGURES:
+        return study.difference.standin_mark()
+    return study.difference.site(name.partition("_")[2]).standin_mark()
+
+
+def _figure(name: str, caption: str, image: bytes, mark: str | None) -> dict:
     return {
         "name": name,
         "image": base64.b64encode(image).decode("ascii"),
         "caption": _marked(caption),
         "alternative": notation.plain(caption),
-        "data": name not in WITHOUT_DATA,
+        "mark": mark,
     }
 
 

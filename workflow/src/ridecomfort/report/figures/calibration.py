@@ -59,8 +59,8 @@ def convergence(study: Study) -> Figure:
 
 
 def opti_plots(study: Study) -> Figure:
-    """fig:opti_plots: the first fitted drive of the paper's site (else of the last site with drives)."""
-    site = next((each for each in study.compared if each.name == PAPERS_SITE), study.compared[-1])
+    """fig:opti_plots: the first fitted drive of the site that is ``shown``."""
+    site = shown(study)
     drive = _drive(site)
     comparison = site.comparison.isel(drive=drive)
     time = comparison["time"].values
@@ -98,6 +98,9 @@ def opti_plots(study: Study) -> Figure:
     return drawn
 
 
+def shown(study: Study) -> Site:
+    """The site of fig:opti_plots: the paper's, else the last site with drives."""
+    return next((each for each in study.compared if each.name == PAPERS_SITE), study.compared[-1])
 
 
 def _roughest(time: np.ndarray, values: np.ndarray) -> float:
