@@ -115,6 +115,13 @@ def test_calibration_of_effects_goes_on_below(paper_like):
         assert "friction" in words
 
 
+def test_the_axis_of_the_iri_reaches_its_largest_value(own_site):
+    iri = own_site.sites[0].iri.copy(deep=True)
+    iri["iri_full"][100] = 3.0 * float(iri["iri_full"].max())
+    study = dataclasses.replace(own_site, sites=(dataclasses.replace(own_site.sites[0], iri=iri),))
+    assert figures.draw(study, "IRI_thresholds").axes[0].get_ylim()[1] > float(iri["iri_full"].max())
+
+
 def test_severity_darkens_from_class_to_class():
     """So that it reads in grey, too: luminance (ITU-R BT.709) falls within each method."""
     for classes in (("PT", "ND", "AG"), ("NU", "LU", "FU", "U", "VU", "EU"), ("VG", "G", "F", "M", "P")):
