@@ -115,6 +115,15 @@ def test_calibration_of_effects_goes_on_below(paper_like):
         assert "friction" in words
 
 
+def test_every_error_in_a_title_has_its_curve():
+    study = synthetic.study(("ts3",))
+    comparison = study.sites[0].comparison.assign_coords(state=["reference", "with_effects"])
+    study = dataclasses.replace(study, sites=(dataclasses.replace(study.sites[0], comparison=comparison),))
+    first = figures.draw(study, "opti_plots").axes[0]
+    assert first.get_title(loc="left").count("→") == 1 and "(paper, not calibrated: " in first.get_title(loc="left")
+    assert [line.get_label() for line in first.lines][1:] == ["simulated, not calibrated", "simulated with the model's effects, not calibrated"]
+
+
 def test_the_axis_of_the_iri_reaches_its_largest_value(own_site):
     iri = own_site.sites[0].iri.copy(deep=True)
     iri["iri_full"][100] = 3.0 * float(iri["iri_full"].max())

@@ -156,6 +156,20 @@ def test_site_without_calibration_has_its_reference_only():
     assert [row[0] for row in found.rows if row[1] == "this study"] == ["Ref", "Ref, check"]
 
 
+def test_effects_that_nothing_calibrated_have_their_own_rows():
+    study = synthetic.study(("ts2",))
+    site = study.sites[0]
+    site = dataclasses.replace(site, comparison=site.comparison.assign_coords(state=["reference", "with_effects"]), calibrated_on=None)
+    study = dataclasses.replace(study, sites=(site,))
+    errors = tables.calibration.nrmse(site, "with_effects")
+    found = tables.calibration.opti_res(study, site)
+    assert [row[0] for row in found.rows if row[1] == "this study"] == ["Ref", "With effects", "Ref, check", "With effects, check"]
+    assert list(found.rows[1][2:]) == errors
+    before = tables.calibration.baseline_res(study)
+    assert [row[0] for row in before.rows] == ["Ts2", "Ts2, with effects", "Ts2"] and list(before.rows[1][2:]) == errors
+    assert all(any("not calibrated" in note for note in each.notes) for each in (found, before))
+
+
 def test_every_table_of_results_says_stand_in_and_names_its_sources(made):
     for name, each in made.items():
         assert each.sources and all(source.file and source.variable and source.rule for source in each.sources)
