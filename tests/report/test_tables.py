@@ -142,6 +142,14 @@ def test_own_site_has_no_published_rows(own_site):
     assert any("exact: in the frequency domain" in note for note in found["weighting"].notes)  # what is not about the paper stays
 
 
+def test_a_distribution_of_another_family_than_the_papers_names_both(paper_like):
+    sampling = {**paper_like.sites[0].sampling, "speed_deviation": {"uniform": [-1, 1]}}
+    site = dataclasses.replace(paper_like.sites[0], sampling=sampling)
+    found = tables.inputs.lhs_input(dataclasses.replace(paper_like, sites=(site, *paper_like.sites[1:])))
+    families = [found.value(row, "distribution") for row in range(len(found.rows))]
+    assert families == ["uniform; paper: Gaussian", "Gaussian", "uniform"] + ["Gaussian", "Gaussian", "uniform"] * 2
+
+
 def test_effects_have_no_published_bounds(paper_like):
     study = dataclasses.replace(paper_like, calibrations={"ts1": synthetic.calibration_with_effect()})
     last = tables.calibration.constraints(study).rows[-1]

@@ -15,6 +15,7 @@ from .comfort import OURS, PAPER, windows
 
 GON_PER_RAD = 200.0 / np.pi
 ERRATUM = "†"
+FAMILIES = {"normal": "Gaussian", "uniform": "uniform"}
 
 
 def sites(study: Study) -> Table:
@@ -129,7 +130,7 @@ def lhs_input(study: Study) -> Table:
                     site.label,
                     values.size,
                     f"{symbol(name)} [{unit(VARIABLES[name].unit)}]",
-                    {"normal": "Gaussian", "uniform": "uniform"}.get(family or paper_family, family),
+                    _families(family, paper_family),
                     *paper,
                     *configured,
                     float(values.mean()),
@@ -278,6 +279,12 @@ def distribution(setting) -> tuple:
         return None, None, None
     family, parameters = next(iter(setting.items()))
     return family, *(float(value) for value in parameters)
+
+
+def _families(ours: str | None, papers: str | None) -> str:
+    """The family of a distribution in words, and the paper's where that is another."""
+    ours, papers = (FAMILIES.get(family, family) for family in (ours or papers, papers or ours))
+    return ours if ours == papers else f"{ours}; paper: {papers}"
 
 
 def _first(study: Study, dataset: str) -> tuple[xr.Dataset, str]:
