@@ -136,10 +136,28 @@ def test_own_site_has_no_published_rows(own_site):
     assert not any(name.startswith("opti_res") or name in ("baseline_res", "constraints") for name in found)
     for each in found.values():
         assert not any("paper" in column.key or column.key == "source" for column in each.columns)
-        assert not any("paper" in row for row in each.rows) and not any("paper" in note for note in each.notes)
+        assert not any("paper" in row for row in each.rows) and not any("The paper" in note for note in each.notes)
+        assert not any("published" in source.file for source in each.sources)
         assert all(0 < row < len(each.rows) for row in each.breaks)
     assert not any("tand-in" in note for each in found.values() for note in each.notes)
     assert any("exact: in the frequency domain" in note for note in found["weighting"].notes)  # what is not about the paper stays
+    assert "running rms" in found["perception"].notes[0]  # though it tells that the paper did so, too
+
+
+def test_a_site_that_is_called_paper_keeps_its_rows_columns_and_origins():
+    found, usual = (tables.make(synthetic.study((name,), drives=False, standin=False, runs=8)) for name in ("paper", "home"))
+    for name, each in found.items():
+        assert (len(each.rows), len(each.columns)) == (len(usual[name].rows), len(usual[name].columns)), name
+        assert len(each.sources) == len(usual[name].sources), name
+
+
+def test_thresholds_of_ones_own_name_their_source_whatever_its_words(own_site):
+    thresholds = own_site.sites[0].thresholds.copy(deep=True)
+    thresholds["source"] = thresholds["source"].astype(object)
+    thresholds["source"][:] = "a white paper of 2024"
+    site = dataclasses.replace(own_site.sites[0], thresholds=thresholds)
+    found = tables.make(dataclasses.replace(own_site, sites=(site,)))["thresholds_manual"]
+    assert any("a white paper of 2024" in note for note in found.notes)
 
 
 def test_a_distribution_of_another_family_than_the_papers_names_both(paper_like):

@@ -11,7 +11,7 @@ from ...vocabulary import SIGNALS
 from .. import catalogue, published
 from ..notation import symbol, unit, words
 from ..study import Difference, Site, Study
-from ..table import Column, Source, Table
+from ..table import Column, PapersNote, Source, Table
 from .comfort import OURS, PAPER
 
 CHANGE = r"$\pm$ [%]"
@@ -108,8 +108,8 @@ def constraints(study: Study) -> Table:
         Column("calibrated_on", ("", "Calibrated on")),
         Column("parameter", ("", "Parameter")),
         Column("unit", ("", "Unit")),
-        Column("paper_lower", ("Bounds, paper", "lower"), ".7g"),
-        Column("paper_upper", ("Bounds, paper", "upper"), ".7g"),
+        Column("paper_lower", ("Bounds, paper", "lower"), ".7g", of_paper=True),
+        Column("paper_upper", ("Bounds, paper", "upper"), ".7g", of_paper=True),
         Column("lower", ("Bounds, this study", "lower"), ".7g"),
         Column("upper", ("Bounds, this study", "upper"), ".7g"),
         Column("initial", ("Value, this study", "initial"), ".4g"),
@@ -144,9 +144,11 @@ def constraints(study: Study) -> Table:
         sources.append(Source(f"{OURS}, 90 % interval, in words", file, variables, "as in the file"))
     sources.append(Source.paper("calibration_bounds", "tab:constraints"))
     notes = [
-        "The paper writes the rear spring stiffness both $K_{sr}$ and $K_{rf}$. Its damping bounds lie above "
-        "what is published for passenger car tyres (0 to 2000 N s/m); they are kept for the paper's calibration.",
-        "The paper does not publish its calibrated values.",
+        PapersNote(
+            "The paper writes the rear spring stiffness both $K_{sr}$ and $K_{rf}$. Its damping bounds lie above "
+            "what is published for passenger car tyres (0 to 2000 N s/m); they are kept for the paper's calibration."
+        ),
+        PapersNote("The paper does not publish its calibrated values."),
     ]
     for name, calibration in study.calibrations.items():
         applied = {"joint": "the joint search", "sequence": "the sequence of blocks"}[calibration.attrs["applied"]]
@@ -270,7 +272,7 @@ def _notes(study: Study, notes=(), normalisation: bool = True) -> tuple[str, ...
     notes = list(notes)
     if normalisation:
         notes.append("NRMSE: RMSE over the range (largest − smallest value) of the measured signal.")
-        notes.append("The paper does not state how it normalises.")
+        notes.append(PapersNote("The paper does not state how it normalises."))
     if study.standin_note():
         notes.append(study.standin_note())
     return tuple(notes)

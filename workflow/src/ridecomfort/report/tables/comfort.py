@@ -10,7 +10,7 @@ from .. import catalogue, published
 from ..classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
 from ..notation import METHODS, symbol
 from ..study import Study
-from ..table import Column, Source, Table
+from ..table import Column, PapersNote, Source, Table
 
 OURS = "this study"
 PAPER = "paper"
@@ -39,7 +39,7 @@ def thresholding_table(study: Study) -> Table:
         notes=(
             "Along $x$ the simulated driver brakes and accelerates as the site file asks for (speed: acceleration, "
             "deceleration), so that counts of $a_x$ tell how the site was set, not what the road is like.",
-            "The paper prints no PT row for $a_z$, where its PT and ND thresholds are equal.",
+            PapersNote("The paper prints no PT row for $a_z$, where its PT and ND thresholds are equal."),
         ),
     )
 

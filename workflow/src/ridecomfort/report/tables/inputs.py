@@ -10,7 +10,7 @@ from .. import catalogue, published
 from ..classes import QUALITIES, STYLES
 from ..notation import symbol, unit
 from ..study import Site, Study
-from ..table import Column, Source, Table
+from ..table import Column, PapersNote, Source, Table
 from .comfort import OURS, PAPER, windows
 
 GON_PER_RAD = 200.0 / np.pi
@@ -86,7 +86,7 @@ def quantities(study: Study) -> Table:
     columns = (
         Column("symbol", ("Symbol",)),
         Column("description", ("Quantity",)),
-        Column("paper_unit", ("Unit, paper",)),
+        Column("paper_unit", ("Unit, paper",), of_paper=True),
         Column("name", ("Name in the files",)),
         Column("unit", ("Unit in the files",)),
     )
@@ -108,8 +108,8 @@ def lhs_input(study: Study) -> Table:
         Column("runs", ("", "Runs [-]"), "d"),
         Column("variable", ("", "Variable")),
         Column("distribution", ("", "Distribution")),
-        Column("paper_first", ("Paper", "$\\mu$ or a"), ".4g"),
-        Column("paper_second", ("Paper", "$\\sigma$ or b"), ".4g"),
+        Column("paper_first", ("Paper", "$\\mu$ or a"), ".4g", of_paper=True),
+        Column("paper_second", ("Paper", "$\\sigma$ or b"), ".4g", of_paper=True),
         Column("configured_first", ("Configured", "$\\mu$ or a"), ".4g"),
         Column("configured_second", ("Configured", "$\\sigma$ or b"), ".4g"),
         Column("mean", ("Sampled, " + OURS, "mean"), ".4f"),
@@ -153,7 +153,7 @@ def lhs_input(study: Study) -> Table:
     sources.append(Source.paper("sampling", "tab:lhs_input"))
     notes = [
         "Gaussian: mean $\\mu$ and standard deviation $\\sigma$; uniform: from a to b.",
-        "The paper does not state the unit of the speed deviation; m/s is assumed.",
+        PapersNote("The paper does not state the unit of the speed deviation; m/s is assumed."),
     ]
     lengths = [
         f"{site.label} {known['length_km_lhs_table']:.1f} km (text: {known['length_km']:.2f} km), "
@@ -162,7 +162,7 @@ def lhs_input(study: Study) -> Table:
         if (known := published.figures()["sites"].get(site.name))
     ]
     if lengths:
-        notes.append("The paper's table prints " + "; ".join(lengths) + ".")
+        notes.append(PapersNote("The paper's table prints " + "; ".join(lengths) + "."))
     return _table(study, "lhs_input", columns, rows, sources, notes, breaks)
 
 
@@ -190,8 +190,10 @@ def thresholds_manual(study: Study) -> Table:
             origins.setdefault(str(dataset["source"].sel(axis=axis, style=style).values), []).append(f"{symbol(axis)} {style}")
     notes = (
         "Bands of this study from: " + "; ".join(f"{origin} ({', '.join(where)})" for origin, where in origins.items()) + ".",
-        "The paper's text prints −5.80 m/s² for the AG deceleration along x; −5.08 m/s² of its table and of its "
-        "source is used.",
+        PapersNote(
+            "The paper's text prints −5.80 m/s² for the AG deceleration along x; −5.08 m/s² of its table and of its "
+            "source is used."
+        ),
     )
     caption = catalogue.INPUT_TABLES["thresholds_manual"]
     return Table("thresholds_manual", caption, tuple(columns), tuple(rows), sources, notes)
@@ -206,8 +208,8 @@ def acc_thresholds(study: Study) -> Table:
         Column("band", ("", "Band")),
         Column("lower", (OURS.capitalize(), "lower"), ".3f"),
         Column("upper", (OURS.capitalize(), "upper"), ".3f"),
-        Column("paper_lower", ("Paper", "lower"), ".3f"),
-        Column("paper_upper", ("Paper", "upper"), ".3f"),
+        Column("paper_lower", ("Paper", "lower"), ".3f", of_paper=True),
+        Column("paper_upper", ("Paper", "upper"), ".3f", of_paper=True),
     )
     rows, marks = [], {}
     for band in dataset["band"].values.tolist():
@@ -223,7 +225,7 @@ def acc_thresholds(study: Study) -> Table:
         Source.paper("iso2631_bands", "tab:acc_thresholds"),
     )
     notes = (
-        f"{ERRATUM} left out in the paper's table, though tab:rid_comf_res reports it; ISO 2631-1, Annex C.",
+        PapersNote(f"{ERRATUM} left out in the paper's table, though tab:rid_comf_res reports it; ISO 2631-1, Annex C."),
         "Bands overlap on purpose.",
     )
     caption = catalogue.INPUT_TABLES["acc_thresholds"]
