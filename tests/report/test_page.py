@@ -106,6 +106,16 @@ def test_figures_of_a_site_of_ones_own_do_not_say_stand_in_beside_one_that_is():
     assert not {"opti_plots", "leastsquare", "framework", "evidence", "signature"} & said
 
 
+@pytest.mark.parametrize("score", [None, {"found": []}])
+def test_every_file_that_was_read_is_told_once(score):
+    study, found, last = synthetic.study(("ts1",)), differing.difference(("ts1",)), differing.diagnosis(score=score)
+    if score is None:
+        last = dataclasses.replace(last, files={name: file for name, file in last.files.items() if name != "score"})
+    told = [file for file, *_ in page._files(dataclasses.replace(study, difference=found, diagnosis=last))]
+    read = [*study.sites[0].files.values(), "ts1/measured.nc", "ts1/base/calibration.nc", "comfort/base/agreement.nc", "ladder/base.nc"]
+    assert sorted(told) == sorted([*read, *last.files.values()])
+
+
 def test_one_site_of_ones_own_has_no_empty_sections_and_no_claims(own_site):
     text, found = rendered(own_site)
     assert not {"calibration", "claims"} & {*found.ids, *(link[1:] for link in found.links)}

@@ -5,8 +5,10 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping
 from importlib.resources import files
+from pathlib import PurePath
 
 import jinja2
+import xarray as xr
 import yaml
 from markupsafe import Markup
 
@@ -69,6 +71,9 @@ SECTIONS = (
     ("runs", "Number of runs", ("number_of_runs.figure", "number_of_runs")),
 )
 """Key, title and pieces of each section; ``.figure`` tells a figure from the table of the same name."""
+
+JSON = {"verdict.json": "Which effect is missing", "score.json": "The verdict against the truth of the stand-in drives"}
+"""What the files hold that are no datasets."""
 
 KINDS = {claims.HOLDS: "holds", claims.FAILS: "fails", claims.UNKNOWN: "open"}
 
@@ -177,23 +182,24 @@ def _claim(row) -> dict:
 
 
 def _files(study: Study) -> list[tuple[str, ...]]:
-    """File, title, configuration hash, seed and source of every dataset that was read."""
-    found = []
-    for site in study.sites:
-        for name, file in site.files.items():
-            found.append(_file(file, getattr(site, name)))
-    found += [_file(study.calibration_files[name], dataset) for name, dataset in study.calibrations.items()]
-    found.append(_file(study.assessment_file, study.assessment))
+    """File, title, configuration hash, seed and source of everything that was read, each file once."""
+    measured = study.difference.sites if study.difference else ()
+    found = {file: getattr(site, name) for site in (*study.sites, *measured) for name, file in site.files.items()}
+    found |= {study.calibration_files[name]: dataset for name, dataset in study.calibrations.items()}
+    found[study.assessment_file] = study.assessment
     if study.difference:
-        found.append(_file(study.difference.ladder_file, study.difference.ladder))
+        found[study.difference.ladder_file] = study.difference.ladder
     if study.diagnosis:
-        found.append(_file(study.diagnosis.files["ranking"], study.diagnosis.ranking))
-    return found
+        found |= {file: getattr(study.diagnosis, name) for name, file in study.diagnosis.files.items()}
+    return [_file(file, read) for file, read in found.items() if read is not None]
 
 
-def _file(file: str, dataset) -> tuple[str, ...]:
+def _file(file: str, read: xr.Dataset | Mapping) -> tuple[str, ...]:
+    """A file as ``_files`` tells of it; one of JSON is only called what it is."""
+    if not isinstance(read, xr.Dataset):
+        return file, JSON[PurePath(file).name], "", "", ""
     keys = ("title", "configuration_hash", "seed", "source")
-    return file, *(str(dataset.attrs.get(key, "")) for key in keys)
+    return file, *(str(read.attrs.get(key, "")) for key in keys)
 
 
 def _marked(text: str) -> Markup:
