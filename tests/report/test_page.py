@@ -116,6 +116,12 @@ def test_every_file_that_was_read_is_told_once(score):
     assert sorted(told) == sorted([*read, *last.files.values()])
 
 
+def test_captions_say_what_is_left_out():
+    assert "at most two of a signal" in catalogue.site_figures("ts1")["located_ts1"]
+    for name in ("thresholding_results_1", "thresholding_results_2"):
+        assert "others are not drawn" in catalogue.COMFORT_FIGURES[name]
+
+
 def test_one_site_of_ones_own_has_no_empty_sections_and_no_claims(own_site):
     text, found = rendered(own_site)
     assert not {"calibration", "claims"} & {*found.ids, *(link[1:] for link in found.links)}

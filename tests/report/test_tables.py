@@ -61,6 +61,13 @@ def test_bold_in_the_paper_is_where_its_tables_print_bold(made):
     assert leaders == ["ts1", "ts1", None, "ts2", "ts2", "ts3", None, "ts1", "ts1"]
 
 
+@pytest.mark.parametrize("name", DETECTIONS)
+def test_bold_type_is_explained_where_there_is_any(made, own_site, name):
+    assert made[name].bold and any(note.startswith("Bold:") for note in made[name].notes)
+    alone = tables.make(own_site)[name]
+    assert not alone.bold and not any("Bold" in note for note in alone.notes)
+
+
 def test_improvement_follows_from_the_errors(made, paper_like):
     found = made["opti_res_ts2"]
     ours = rows(found, "this study")

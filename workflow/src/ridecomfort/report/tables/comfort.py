@@ -191,6 +191,8 @@ def _detections(study: Study, name, dataset, heading, rows, choose, breaks=(), n
     ]
     sources.append(Source.paper("detections, misprints", f"tab:{name}"))
     notes = list(notes)
+    if bold:
+        notes.append("Bold: the site with the largest share $R_c$ of the row.")
     if marks:
         notes.append(
             f"{MISPRINT} as printed; $N$ = sections − $C$ and $R_n$ = 100 − $R_c$ are meant and used here."

@@ -65,8 +65,8 @@ def findings(study: Difference) -> Table:
         Column("explainable_pct", ("Error above the floor", "[% of the explainable]"), ".0f"),
     )
     notes = [
-        f"Found is what reaches {100 * located.NAMED:g} % of the signal's power in a band, at most five a site. Relatively most: in "
-        "percent of the signal's power under the same condition."
+        f"Found is what reaches {100 * located.NAMED:g} % of the signal's power in a band, at most five a site and two of a signal; where nothing "
+        "does, the largest. Relatively most: in percent of the signal's power under the same condition."
     ]
     rows, sources, breaks = [], [], []
     for site in study.sites:
