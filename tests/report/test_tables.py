@@ -175,6 +175,13 @@ def test_a_distribution_of_another_family_than_the_papers_names_both(paper_like)
     assert families == ["uniform; paper: Gaussian", "Gaussian", "uniform"] + ["Gaussian", "Gaussian", "uniform"] * 2
 
 
+def test_a_title_with_dollars_is_no_mathematics(own_site):
+    site = dataclasses.replace(own_site.sites[0], title="A $5 road & 50 % $ more")
+    found = tables.inputs.sites(dataclasses.replace(own_site, sites=(site,)))
+    assert "A $5 road & 50 % $ more" in table.to_markdown(found)
+    assert r"A \$5 road \& 50 \% \$ more" in table.to_latex(found)
+
+
 def test_effects_have_no_published_bounds(paper_like):
     study = dataclasses.replace(paper_like, calibrations={"ts1": synthetic.calibration_with_effect()})
     last = tables.calibration.constraints(study).rows[-1]

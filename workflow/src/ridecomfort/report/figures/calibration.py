@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ...vocabulary import SIGNALS
 from .. import catalogue, published, style
-from ..notation import SYMBOLS, symbol
+from ..notation import SYMBOLS, literal, symbol
 from ..study import Site, Study
 from ..tables.calibration import initial_cost
 from ..units import printed
@@ -123,4 +123,4 @@ def _drive(site: Site) -> int:
 
 
 def _name(site: Site, drive: int) -> str:
-    return str(site.comparison["drive"].values[drive])
+    return literal(site.comparison["drive"].values[drive])

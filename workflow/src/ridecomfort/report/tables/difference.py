@@ -39,7 +39,7 @@ def alignment(study: Difference) -> Table:
         for name in site.measured["drive"].values:
             own = site.measured.sel(drive=name)
             values = [factor * float(own[key]) if key in own else None for key, _, _, _, factor in shown]
-            rows.append((site.label, str(name), str(own["role"].item()), *values))
+            rows.append((site.label, notation.literal(name), str(own["role"].item()), *values))
         names = ", ".join(key for key, *_ in shown)
         sources.append(Source(f"all, {site.label}", site.files.get("measured", ""), names, "as in the file, in the unit printed"))
     notes = (

@@ -8,7 +8,7 @@ import xarray as xr
 from ...vocabulary import SIGNALS, VARIABLES
 from .. import catalogue, published
 from ..classes import QUALITIES, STYLES
-from ..notation import symbol, unit
+from ..notation import literal, symbol, unit
 from ..study import Site, Study
 from ..table import Column, PapersNote, Source, Table
 from .comfort import OURS, PAPER, windows
@@ -38,7 +38,7 @@ def sites(study: Study) -> Table:
             (
                 site.label,
                 OURS,
-                site.title.removeprefix(f"{site.label}, ") if site.title not in ("", site.label) else None,
+                literal(site.title.removeprefix(f"{site.label}, ")) if site.title not in ("", site.label) else None,
                 length(site.road) / 1000.0,
                 100.0 * mean_slope(site.road),
                 mean_curvature(site.road) * 1000.0 * GON_PER_RAD,
@@ -187,7 +187,8 @@ def thresholds_manual(study: Study) -> Table:
     origins: dict[str, list[str]] = {}
     for axis in ("a_x", "a_y", "a_z"):
         for style in STYLES:
-            origins.setdefault(str(dataset["source"].sel(axis=axis, style=style).values), []).append(f"{symbol(axis)} {style}")
+            origin = literal(dataset["source"].sel(axis=axis, style=style).item())
+            origins.setdefault(origin, []).append(f"{symbol(axis)} {style}")
     notes = (
         "Bands of this study from: " + "; ".join(f"{origin} ({', '.join(where)})" for origin, where in origins.items()) + ".",
         PapersNote(
