@@ -1,5 +1,7 @@
-"""Colours, sizes and fonts of all figures: one colour for one thing everywhere.
+"""Colours, sizes and fonts of all figures.
 
+A class of severity has one colour everywhere, and so have measured drives, reference, calibrated model and error wherever
+they are compared. Other lines take theirs from the same few colours (``LINES``): there a colour means what the legend says.
 Colours are those of Okabe and Ito (2008), which colour-blind readers tell apart; severity
 runs from light to dark so that it also reads in grey.
 """
