@@ -38,6 +38,15 @@ def test_a_step_is_told_only_what_it_uses(project, step):
     assert "runs_per_shard" not in stepsettings.as_json(plain, step, "own", "base")
 
 
+def test_the_page_tells_how_its_roads_drives_and_diagnosis_were_made(project):
+    study = config.load({"sites": ["own"], "alignment": {"search": 0.7}}, project)
+    told = stepsettings.of_step(study, "report", model="base")
+    assert told["alignment"] == {"search": 0.7} and "uncertain" in told["diagnosis"]
+    assert told["sites"]["own"]["road"] == study.sites["own"]["road"]["options"] and told["sites"]["own"]["road"]
+    # Tables and figures are not made anew for that.
+    assert not {"alignment", "diagnosis"} & set(stepsettings.of_step(study, "tables", model="base"))
+
+
 def test_another_speed_in_the_study_leaves_the_measured_drives_as_they_are(project):
     before = config.load({"sites": ["ts1"]}, project)
     content = schema.read_yaml(project / config.SITES / "ts1.yaml")

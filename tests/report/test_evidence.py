@@ -103,6 +103,15 @@ def test_the_figure_says_what_came_of_every_refit():
     assert "refit gains too little" in said
 
 
+def test_shares_on_drives_held_out_are_open_marks_in_the_colour_of_those_on_fitted_ones():
+    with style.styled():
+        each = diagnosed.figures(made_up.diagnosis())["evidence"]()
+    marks = {line.get_marker(): line for axes in each.axes for line in axes.lines if line.get_marker() in ("o", "D")}
+    fitted, held_out = marks["o"], marks["D"]
+    assert fitted.get_color() == held_out.get_color() == fitted.get_markerfacecolor() != style.REFERENCE
+    assert held_out.get_markerfacecolor() == "none"
+
+
 @pytest.mark.parametrize(
     ("why", "said"),
     [

@@ -77,10 +77,13 @@ def words_of(figure):
 def test_figures_of_stand_in_sites_say_so_and_others_do_not(drawn, own_site):
     """A figure is shown without its caption sooner or later."""
     for name, each in drawn.items():
-        shows_data = name != "framework"
+        shows_data = name not in ("framework", "leastsquare")
         assert ("Stand-in data: Ts" in words_of(each)) == shows_data, name
     assert "Stand-in data: Ts2" in words_of(drawn["views_ts2"]) and "Ts1" not in words_of(drawn["views_ts2"])
     assert "Stand-in data: Ts1" in words_of(drawn["validation_iso"]) and "Ts2" not in words_of(drawn["validation_iso"])
+    for name in ("optichain", "convergence"):  # calibrated on the first
+        assert "Stand-in data: Ts1" in words_of(drawn[name]) and "Ts2" not in words_of(drawn[name])
+    assert "Stand-in data: Ts3" in words_of(drawn["opti_plots"])
     for name in ("critical_shares", "validation_iso"):
         assert "Stand-in" not in words_of(figures.draw(own_site, name))
 
@@ -110,6 +113,22 @@ def test_calibration_of_effects_goes_on_below(paper_like):
         assert box.x0 > -0.02 and box.x1 < each.get_size_inches()[0] + 0.02
         words = " ".join(text.get_text() for text in each.findobj(Text))
         assert "friction" in words
+
+
+def test_every_error_in_a_title_has_its_curve():
+    study = synthetic.study(("ts3",))
+    comparison = study.sites[0].comparison.assign_coords(state=["reference", "with_effects"])
+    study = dataclasses.replace(study, sites=(dataclasses.replace(study.sites[0], comparison=comparison),))
+    first = figures.draw(study, "opti_plots").axes[0]
+    assert first.get_title(loc="left").count("→") == 1 and "(paper, not calibrated: " in first.get_title(loc="left")
+    assert [line.get_label() for line in first.lines][1:] == ["simulated, not calibrated", "simulated with the model's effects, not calibrated"]
+
+
+def test_the_axis_of_the_iri_reaches_its_largest_value(own_site):
+    iri = own_site.sites[0].iri.copy(deep=True)
+    iri["iri_full"][100] = 3.0 * float(iri["iri_full"].max())
+    study = dataclasses.replace(own_site, sites=(dataclasses.replace(own_site.sites[0], iri=iri),))
+    assert figures.draw(study, "IRI_thresholds").axes[0].get_ylim()[1] > float(iri["iri_full"].max())
 
 
 def test_severity_darkens_from_class_to_class():

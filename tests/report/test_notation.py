@@ -17,6 +17,8 @@ from ridecomfort.report import notation
         (r"$\Phi$-rate", "Φ-rate", "<i>Φ</i>-rate", r"$\Phi$-rate"),
         ("road_friction < 1", "road_friction < 1", "road_friction &lt; 1", r"road\_friction $<$ 1"),
         ("m/s² & −1", "m/s² & −1", "m/s² &amp; −1", r"m/s$^2$ \& $-$1"),
+        (r"from \$5 to \$9 & 50 %", "from $5 to $9 & 50 %", "from $5 to $9 &amp; 50 %", r"from \$5 to \$9 \& 50 \%"),
+        (r"\$5 on $R_c$", "$5 on R_c", "$5 on <i>R</i><sub>c</sub>", r"\$5 on $R_c$"),
         ("2π · a", "2π · a", "2π · a", r"2$\pi$ $\cdot$ a"),
     ],
 )
@@ -24,6 +26,11 @@ def test_forms(text, plain, html, latex):
     assert notation.plain(text) == plain
     assert notation.html(text) == html
     assert notation.latex(text) == latex
+
+
+@pytest.mark.parametrize("text", ["A $5 road & 50 % | $ more_or_less", r"C:\$x$", "no sign"])
+def test_what_a_user_wrote_is_shown_as_it_is(text):
+    assert notation.plain(notation.literal(text)) == text
 
 
 def test_symbols_and_units_of_the_vocabulary():

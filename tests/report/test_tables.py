@@ -61,6 +61,13 @@ def test_bold_in_the_paper_is_where_its_tables_print_bold(made):
     assert leaders == ["ts1", "ts1", None, "ts2", "ts2", "ts3", None, "ts1", "ts1"]
 
 
+@pytest.mark.parametrize("name", DETECTIONS)
+def test_bold_type_is_explained_where_there_is_any(made, own_site, name):
+    assert made[name].bold and any(note.startswith("Bold:") for note in made[name].notes)
+    alone = tables.make(own_site)[name]
+    assert not alone.bold and not any("Bold" in note for note in alone.notes)
+
+
 def test_improvement_follows_from_the_errors(made, paper_like):
     found = made["opti_res_ts2"]
     ours = rows(found, "this study")
@@ -136,10 +143,43 @@ def test_own_site_has_no_published_rows(own_site):
     assert not any(name.startswith("opti_res") or name in ("baseline_res", "constraints") for name in found)
     for each in found.values():
         assert not any("paper" in column.key or column.key == "source" for column in each.columns)
-        assert not any("paper" in row for row in each.rows) and not any("paper" in note for note in each.notes)
+        assert not any("paper" in row for row in each.rows) and not any("The paper" in note for note in each.notes)
+        assert not any("published" in source.file for source in each.sources)
         assert all(0 < row < len(each.rows) for row in each.breaks)
     assert not any("tand-in" in note for each in found.values() for note in each.notes)
     assert any("exact: in the frequency domain" in note for note in found["weighting"].notes)  # what is not about the paper stays
+    assert "running rms" in found["perception"].notes[0]  # though it tells that the paper did so, too
+
+
+def test_a_site_that_is_called_paper_keeps_its_rows_columns_and_origins():
+    found, usual = (tables.make(synthetic.study((name,), drives=False, standin=False, runs=8)) for name in ("paper", "home"))
+    for name, each in found.items():
+        assert (len(each.rows), len(each.columns)) == (len(usual[name].rows), len(usual[name].columns)), name
+        assert len(each.sources) == len(usual[name].sources), name
+
+
+def test_thresholds_of_ones_own_name_their_source_whatever_its_words(own_site):
+    thresholds = own_site.sites[0].thresholds.copy(deep=True)
+    thresholds["source"] = thresholds["source"].astype(object)
+    thresholds["source"][:] = "a white paper of 2024"
+    site = dataclasses.replace(own_site.sites[0], thresholds=thresholds)
+    found = tables.make(dataclasses.replace(own_site, sites=(site,)))["thresholds_manual"]
+    assert any("a white paper of 2024" in note for note in found.notes)
+
+
+def test_a_distribution_of_another_family_than_the_papers_names_both(paper_like):
+    sampling = {**paper_like.sites[0].sampling, "speed_deviation": {"uniform": [-1, 1]}}
+    site = dataclasses.replace(paper_like.sites[0], sampling=sampling)
+    found = tables.inputs.lhs_input(dataclasses.replace(paper_like, sites=(site, *paper_like.sites[1:])))
+    families = [found.value(row, "distribution") for row in range(len(found.rows))]
+    assert families == ["uniform; paper: Gaussian", "Gaussian", "uniform"] + ["Gaussian", "Gaussian", "uniform"] * 2
+
+
+def test_a_title_with_dollars_is_no_mathematics(own_site):
+    site = dataclasses.replace(own_site.sites[0], title="A $5 road & 50 % $ more")
+    found = tables.inputs.sites(dataclasses.replace(own_site, sites=(site,)))
+    assert "A $5 road & 50 % $ more" in table.to_markdown(found)
+    assert r"A \$5 road \& 50 \% \$ more" in table.to_latex(found)
 
 
 def test_effects_have_no_published_bounds(paper_like):
@@ -154,6 +194,20 @@ def test_site_without_calibration_has_its_reference_only():
     uncalibrated = dataclasses.replace(site, comparison=site.comparison.sel(state=["reference"]))
     found = tables.calibration.opti_res(study, uncalibrated)
     assert [row[0] for row in found.rows if row[1] == "this study"] == ["Ref", "Ref, check"]
+
+
+def test_effects_that_nothing_calibrated_have_their_own_rows():
+    study = synthetic.study(("ts2",))
+    site = study.sites[0]
+    site = dataclasses.replace(site, comparison=site.comparison.assign_coords(state=["reference", "with_effects"]), calibrated_on=None)
+    study = dataclasses.replace(study, sites=(site,))
+    errors = tables.calibration.nrmse(site, "with_effects")
+    found = tables.calibration.opti_res(study, site)
+    assert [row[0] for row in found.rows if row[1] == "this study"] == ["Ref", "With effects", "Ref, check", "With effects, check"]
+    assert list(found.rows[1][2:]) == errors
+    before = tables.calibration.baseline_res(study)
+    assert [row[0] for row in before.rows] == ["Ts2", "Ts2, with effects", "Ts2"] and list(before.rows[1][2:]) == errors
+    assert all(any("not calibrated" in note for note in each.notes) for each in (found, before))
 
 
 def test_every_table_of_results_says_stand_in_and_names_its_sources(made):

@@ -109,14 +109,8 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"], **place}
         case "tables" | "figures" | "report":
             keys = ("runs", "seed", "sampling_method", "space", "calibration", "comfort")
-            loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored, "switched_on": study.switched_on}
-            return {
-                **simulated,
-                "sites": summaries(study),
-                "model": model,
-                **{key: chosen[key] for key in keys},
-                **(loop if step == "report" else {}),
-            }
+            told = {**simulated, "sites": summaries(study), "model": model, **{key: chosen[key] for key in keys}}
+            return told | _of_page(study) if step == "report" else told
     raise KeyError(step)
 
 
@@ -142,6 +136,13 @@ def _summary(study: Study, site: str) -> dict:
         "sampling": own["sampling"],
         "vehicle": study.vehicle(site),
     }
+
+
+def _of_page(study: Study) -> dict:
+    """What the page says beside what tables and figures do: the loop, and what else its results were made with."""
+    sites = {site: {**summary, "road": study.sites[site]["road"]["options"]} for site, summary in summaries(study).items()}
+    loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored, "switched_on": study.switched_on}
+    return {"sites": sites, **{key: study.settings[key] for key in ("alignment", "diagnosis")}, **loop}
 
 
 def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:

@@ -137,9 +137,9 @@ VG_TO_P = "VG: very good, G: good, F: fair, M: mediocre, P: poor."
 
 COMFORT_FIGURES = {
     "thresholding_results_1": "Longitudinal and lateral acceleration along the sites, mean over the runs, with the "
-    f"thresholds that apply; {STRIPS} {PT_TO_AG}",
-    "thresholding_results_2": "Vertical acceleration along the sites, mean over the runs, with the thresholds that "
-    f"apply; {STRIPS} {PT_TO_AG}",
+    f"thresholds in the range of the signal, others are not drawn; {STRIPS} {PT_TO_AG}",
+    "thresholding_results_2": "Vertical acceleration along the sites, mean over the runs, with the thresholds in the "
+    f"range of the signal, others are not drawn; {STRIPS} {PT_TO_AG}",
     "ride_comfors": "Vibration total value of ISO 2631 along the sites, mean over the runs, on its bands, each shown "
     f"from its lower edge to that of the next; {STRIPS} {NU_TO_EU}",
     "IRI_thresholds": "IRI along the sites as a survey reports it and in full resolution, on the classes at the mean "
@@ -177,8 +177,9 @@ def site_figures(name: str) -> dict[str, str]:
     return {
         f"located_{name}": (
             f"{label(name)}: where simulated and measured drives differ. Left: error above the floor by place and frequency, in colours "
-            "that mean the same for every model and site, where it is more than chance, and in all; numbered boxes are the findings in words below, at most five "
-            "errors of 1 % of the signal's power or more in a band. Right: spectra of signal, error and floor."
+            "that mean the same for every model and site, where it is more than chance, and in all; numbered boxes are the findings in words below, at most five, "
+            "at most two of a signal: errors of 1 % of the signal's power or more in a band or, where none is as large, the largest. Right: spectra of "
+            "signal, error and floor."
         ),
         f"conditions_{name}": (
             f"{label(name)}: error above the floor in percent of the signal's power under the same condition of the drive. "

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from . import catalogue, notation, published
 from .classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
 from .study import Study
-from .table import Column, Source, Table
+from .table import PUBLISHED, Column, Source, Table
 from .tables.agreement import DIFFERENCE, POOLED, pair_title, place_title
 from .tables.calibration import CHANGE
 from .tables.comfort import OURS, PAPER, PERCEPTION
@@ -145,7 +145,7 @@ def table(study: Study, tables: Mapping[str, Table]) -> Table:
     sources = (
         Source("claim", "report/published.yaml", "claims", "the paper's conclusions"),
         Source("verdict, reason", f"tables {names}", f"rows of {OURS}", "report/claims.py, one rule a claim"),
-        Source(PAPER, "report/published.yaml", "detections, nrmse", "the same rules on the paper's figures"),
+        Source(PAPER, PUBLISHED, "detections, nrmse", "the same rules on the paper's figures"),
     )
     note = study.standin_note()
     notes = (f"{note} The verdicts are about these sites.",) if note else ()

@@ -1,7 +1,8 @@
 r"""Text with a little TeX mathematics in it, turned into LaTeX, HTML and plain text.
 
 Captions and headings are written once, as ``$R_c$ [%]``. Between dollar signs stand letters,
-Greek letters as commands, subscripts (``_x`` or ``_{x,PT}``), superscripts and ``\pm``.
+Greek letters as commands, subscripts (``_x`` or ``_{x,PT}``), superscripts and ``\pm``. ``\$`` is the sign itself
+(``literal``), as matplotlib has it.
 """
 
 from __future__ import annotations
@@ -52,6 +53,8 @@ _COMMANDS = {
 }
 _LATEX = {
     "\\": r"\textbackslash{}",
+    "$": r"\$",
+    "^": r"\textasciicircum{}",
     "%": r"\%",
     "&": r"\&",
     "#": r"\#",
@@ -125,6 +128,11 @@ def unit(name: str) -> str:
     return UNITS.get(name, name)
 
 
+def literal(text: str) -> str:
+    """What a user wrote, such as a title, as marked-up text that shows it as it is."""
+    return str(text).replace("$", r"\$")
+
+
 def plain(text: str) -> str:
     """The text without markup, for Markdown and alternative texts: ``a_x``, ``Φ-rate``."""
     return _convert(text, outside=str, inside=lambda math: re.sub(r"[{}]", "", _unicode(math)))
@@ -142,8 +150,8 @@ def latex(text: str) -> str:
 
 
 def _convert(text, outside, inside) -> str:
-    parts = str(text).split("$")
-    return "".join(inside(part) if odd % 2 else outside(part) for odd, part in enumerate(parts))
+    parts = re.split(r"(?<!\\)\$", str(text))
+    return "".join(inside(part) if odd % 2 else outside(part.replace(r"\$", "$")) for odd, part in enumerate(parts))
 
 
 def _unicode(math: str) -> str:

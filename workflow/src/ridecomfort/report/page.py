@@ -5,13 +5,16 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping
 from importlib.resources import files
+from pathlib import PurePath
 
 import jinja2
+import xarray as xr
 import yaml
 from markupsafe import Markup
 
 from ..discrepancy.ranking import forms
 from . import catalogue, claims, notation, published
+from .figures import standin_mark
 from .study import STANDIN, Study
 from .table import Table, to_html
 
@@ -69,8 +72,8 @@ SECTIONS = (
 )
 """Key, title and pieces of each section; ``.figure`` tells a figure from the table of the same name."""
 
-WITHOUT_DATA = ("framework", "leastsquare")
-"""Figures that show no results of any site."""
+JSON = {"verdict.json": "Which effect is missing", "score.json": "The verdict against the truth of the stand-in drives"}
+"""What the files hold that are no datasets."""
 
 KINDS = {claims.HOLDS: "holds", claims.FAILS: "fails", claims.UNKNOWN: "open"}
 
@@ -122,17 +125,18 @@ def _lead(study: Study) -> str:
 
 def _sections(study: Study, tables: Mapping[str, Table], figures: Mapping[str, bytes]):
     said = captions(study)
+    figure_of = lambda name: _figure(name, said[name], figures[name], _standin_mark(study, name))  # noqa: E731
     for key, title, names in SECTIONS:
         pieces = []
         for name in names:
             figure = name.removesuffix(".figure")
             if name.endswith("*"):
                 pieces += [_table(table) for other, table in tables.items() if other.startswith(name[:-1])]
-                pieces += [_figure(other, said[other], figures[other]) for other in figures if other.startswith(name[:-1])]
+                pieces += [figure_of(other) for other in figures if other.startswith(name[:-1])]
             elif name in tables:
                 pieces.append(_table(tables[name]))
             elif figure in figures:
-                pieces.append(_figure(figure, said[figure], figures[figure]))
+                pieces.append(figure_of(figure))
         if pieces:
             yield {"key": key, "title": title, "pieces": pieces}
 
@@ -151,13 +155,24 @@ def _table(table: Table) -> dict:
     }
 
 
-def _figure(name: str, caption: str, image: bytes) -> dict:
+def _standin_mark(study: Study, name: str) -> str | None:
+    """The words for the stand-in sites whose data a figure shows, as they stand in its corner; None where it shows none."""
+    if name in catalogue.figures(study.settings["sites"]):
+        return standin_mark(study, name)
+    if name in catalogue.DIAGNOSIS_FIGURES:
+        return study.diagnosis.standin_mark()
+    if name in catalogue.DIFFERENCE_FIGURES:
+        return study.difference.standin_mark()
+    return study.difference.site(name.partition("_")[2]).standin_mark()
+
+
+def _figure(name: str, caption: str, image: bytes, mark: str | None) -> dict:
     return {
         "name": name,
         "image": base64.b64encode(image).decode("ascii"),
         "caption": _marked(caption),
         "alternative": notation.plain(caption),
-        "data": name not in WITHOUT_DATA,
+        "mark": mark,
     }
 
 
@@ -167,23 +182,24 @@ def _claim(row) -> dict:
 
 
 def _files(study: Study) -> list[tuple[str, ...]]:
-    """File, title, configuration hash, seed and source of every dataset that was read."""
-    found = []
-    for site in study.sites:
-        for name, file in site.files.items():
-            found.append(_file(file, getattr(site, name)))
-    found += [_file(study.calibration_files[name], dataset) for name, dataset in study.calibrations.items()]
-    found.append(_file(study.assessment_file, study.assessment))
+    """File, title, configuration hash, seed and source of everything that was read, each file once."""
+    measured = study.difference.sites if study.difference else ()
+    found = {file: getattr(site, name) for site in (*study.sites, *measured) for name, file in site.files.items()}
+    found |= {study.calibration_files[name]: dataset for name, dataset in study.calibrations.items()}
+    found[study.assessment_file] = study.assessment
     if study.difference:
-        found.append(_file(study.difference.ladder_file, study.difference.ladder))
+        found[study.difference.ladder_file] = study.difference.ladder
     if study.diagnosis:
-        found.append(_file(study.diagnosis.files["ranking"], study.diagnosis.ranking))
-    return found
+        found |= {file: getattr(study.diagnosis, name) for name, file in study.diagnosis.files.items()}
+    return [_file(file, read) for file, read in found.items() if read is not None]
 
 
-def _file(file: str, dataset) -> tuple[str, ...]:
+def _file(file: str, read: xr.Dataset | Mapping) -> tuple[str, ...]:
+    """A file as ``_files`` tells of it; one of JSON is only called what it is."""
+    if not isinstance(read, xr.Dataset):
+        return file, JSON[PurePath(file).name], "", "", ""
     keys = ("title", "configuration_hash", "seed", "source")
-    return file, *(str(dataset.attrs.get(key, "")) for key in keys)
+    return file, *(str(read.attrs.get(key, "")) for key in keys)
 
 
 def _marked(text: str) -> Markup:

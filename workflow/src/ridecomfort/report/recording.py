@@ -16,7 +16,7 @@ def draw(result: Result, path) -> None:
     panels: dict[str, Callable] = {"iso2631": _ride, "thresholds": _styles, "iri": _roughness}
     with style.styled():
         figure = panels[result.method](result)
-        figure.suptitle(result.title, x=0.01, ha="left", fontsize=8)
+        figure.suptitle(notation.literal(result.title), x=0.01, ha="left", fontsize=8)
     style.save(figure, path)
 
 

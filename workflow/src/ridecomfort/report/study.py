@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import xarray as xr
@@ -76,6 +76,10 @@ class Difference:
     model: str = "base"
     calibrations: Mapping[str, xr.Dataset] = field(default_factory=dict)
     calibration_files: Mapping[str, str] = field(default_factory=dict)
+
+    def site(self, name: str) -> Compared:
+        """The measured site of that name."""
+        return next(site for site in self.sites if site.name == name)
 
     def standin_note(self) -> str | None:
         """As of a Study."""
@@ -164,9 +168,10 @@ class Study:
         """The sentence that goes wherever results of stand-in sites are shown, None without them."""
         return standin_note([site.label for site in self.standin])
 
-    def standin_mark(self, site: str | None = None) -> str | None:
-        """The words that go into figures of stand-in sites (of this ``site``, of any), None without them."""
-        return standin_mark([each.label for each in self.standin if site in (None, each.name)])
+    def standin_mark(self, sites: Iterable[str] | None = None) -> str | None:
+        """The words that go into figures of stand-in sites (of those among ``sites``, of any), None without them."""
+        shown = [site.name for site in self.sites] if sites is None else list(sites)
+        return standin_mark([each.label for each in self.standin if each.name in shown])
 
 
 def standin_note(labels: Sequence[str]) -> str | None:

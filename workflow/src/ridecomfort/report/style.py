@@ -1,5 +1,7 @@
-"""Colours, sizes and fonts of all figures: one colour for one thing everywhere.
+"""Colours, sizes and fonts of all figures.
 
+A class of severity has one colour everywhere, and so have measured drives, reference, calibrated model and error wherever
+they are compared. Other lines take theirs from the same few colours (``LINES``): there a colour means what the legend says.
 Colours are those of Okabe and Ito (2008), which colour-blind readers tell apart; severity
 runs from light to dark so that it also reads in grey.
 """
@@ -23,6 +25,7 @@ SINGLE, DOUBLE = 3.5, 7.2
 MEASURED = "#3A3A3A"
 REFERENCE = "#E69F00"
 CALIBRATED = "#0072B2"
+EFFECTS = "#009E73"
 SIGNAL = "#0072B2"
 ROAD = "#5B4636"
 PAPER = "#CC79A7"

@@ -17,6 +17,9 @@ from . import notation
 
 MISSING = "–"
 
+PUBLISHED = "report/published.yaml"
+"""The file of the paper's own figures."""
+
 STYLE = (
     "body{font:14px/1.4 system-ui,sans-serif;margin:1rem}h1{font-size:1rem}table{border-collapse:collapse}"
     "th,td{padding:.2rem .6rem;text-align:left;vertical-align:top}th[colspan]{text-align:center}"
@@ -28,15 +31,20 @@ STYLE = (
 
 @dataclass(frozen=True)
 class Column:
-    """A column: its name in the CSV, its heading from the top line down, its number format."""
+    """A column: its name in the CSV, its heading from the top line down, its number format; whether it holds the paper's figures."""
 
     key: str
     heading: tuple[str, ...]
     format: str = ""
+    of_paper: bool = False
 
     @property
     def numeric(self) -> bool:
         return bool(self.format)
+
+
+class PapersNote(str):
+    """A note that is only of use beside the paper's figures."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +59,7 @@ class Source:
     @classmethod
     def paper(cls, variable: str, label: str) -> Source:
         """The origin of the paper's own figures: entry of ``published.yaml`` and label of the paper."""
-        return cls("paper", "report/published.yaml", variable, f"{label} as printed")
+        return cls("paper", PUBLISHED, variable, f"{label} as printed")
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from matplotlib.figure import Figure
 
@@ -36,18 +36,28 @@ OF_SITE: Mapping[str, Callable[[Study, str], Figure]] = {
 }
 """Figures that every site has; their names end with the site's."""
 
+SHOWN: Mapping[str, Callable[[Study], Iterable[str]]] = {
+    "framework": lambda study: (),
+    "leastsquare": lambda study: (),
+    "validation_iso": lambda study: (weighting.sampled(study).name,),
+    "optichain": lambda study: study.calibrations,
+    "convergence": lambda study: study.calibrations,
+    "opti_plots": lambda study: (calibration.shown(study).name,),
+}
+"""Names of the sites whose data a figure shows, of each figure of the whole study that does not show all of them."""
+
 
 def draw(study: Study, name: str) -> Figure:
     """One figure by its name in ``catalogue.figures``, in the study's style."""
     with style.styled():
         if name in BUILDERS:
-            return style.marked(BUILDERS[name](study), _mark(study, name))
+            return style.marked(BUILDERS[name](study), standin_mark(study, name))
         kind, _, site = name.partition("_")
-        return style.marked(OF_SITE[kind](study, site), study.standin_mark(site))
+        return style.marked(OF_SITE[kind](study, site), standin_mark(study, name))
 
 
-def _mark(study: Study, name: str) -> str | None:
-    """The words for the stand-in sites whose data a figure of the whole study shows; None where it shows none."""
-    if name == "framework":
-        return None
-    return study.standin_mark(weighting.sampled(study).name if name == "validation_iso" else None)
+def standin_mark(study: Study, name: str) -> str | None:
+    """The words for the stand-in sites whose data a figure in ``catalogue.figures`` shows; None where it shows none."""
+    if name in BUILDERS:
+        return study.standin_mark(SHOWN[name](study) if name in SHOWN else None)
+    return study.standin_mark([name.partition("_")[2]])

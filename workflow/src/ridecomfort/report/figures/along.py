@@ -60,7 +60,7 @@ def iri_thresholds(study: Study) -> Figure:
     for site, ((signal, strip),) in zip(study.sites, panels):
         dataset = site.iri
         s, survey, full = dataset["s"].values, dataset["iri"].values, dataset["iri_full"].values
-        top = 1.08 * max(float(np.nanmax(survey)), float(np.nanpercentile(full, 99.5)))
+        top = 1.08 * max(float(np.nanmax(survey)), float(np.nanmax(full)))
         below = np.zeros(s.size)
         coarse = np.append(np.arange(0, s.size - 1, COARSE), s.size - 1)
         for name in dataset["quality"].values.tolist():

@@ -9,13 +9,20 @@ from matplotlib.figure import Figure
 
 from ...vocabulary import SIGNALS
 from .. import catalogue, published, style
-from ..notation import SYMBOLS, symbol
+from ..notation import SYMBOLS, literal, symbol
 from ..study import Site, Study
 from ..tables.calibration import initial_cost
 from ..units import printed
 
 PAPERS_SITE = "ts3"
 """The site that the paper shows in fig:opti_plots."""
+
+LOOKS = {
+    "reference": ("simulated, not calibrated", style.REFERENCE),
+    "with_effects": ("simulated with the model's effects, not calibrated", style.EFFECTS),
+    "calibrated": ("simulated, calibrated", style.CALIBRATED),
+}
+"""Label and colour of each state of the vehicle."""
 
 DETAIL = 3.0
 """Seconds of the drive that the right-hand panels show: those with the strongest vertical acceleration."""
@@ -59,8 +66,8 @@ def convergence(study: Study) -> Figure:
 
 
 def opti_plots(study: Study) -> Figure:
-    """fig:opti_plots: the first fitted drive of the paper's site (else of the last site with drives)."""
-    site = next((each for each in study.compared if each.name == PAPERS_SITE), study.compared[-1])
+    """fig:opti_plots: the first fitted drive of the site that is ``shown``."""
+    site = shown(study)
     drive = _drive(site)
     comparison = site.comparison.isel(drive=drive)
     time = comparison["time"].values
@@ -76,16 +83,15 @@ def opti_plots(study: Study) -> Figure:
         for axes, width in ((whole, 0.4), (detail, 0.8)):
             measured = factor * chosen["measured"].values
             axes.plot(time, measured, color=style.MEASURED, linewidth=width, label="measured", zorder=3)
-            for state, colour in (("reference", style.REFERENCE), ("calibrated", style.CALIBRATED)):
-                if state in chosen["state"].values:
-                    label = {"reference": "simulated, not calibrated", "calibrated": "simulated, calibrated"}[state]
-                    values = factor * chosen["simulated"].sel(state=state).values
-                    axes.plot(time, values, color=colour, linewidth=1.2, label=label)
+            for state in chosen["state"].values.tolist():
+                label, colour = LOOKS[state]
+                values = factor * chosen["simulated"].sel(state=state).values
+                axes.plot(time, values, color=colour, linewidth=1.2, label=label)
         whole.set_ylabel(f"{symbol(signal)} [{words}]")
         errors = [f"{factor * float(chosen['rmse'].sel(state=state)):.4f}" for state in chosen["state"].values]
         title = f"({letter}) RMSE {' → '.join(errors)} {words}"
         if signal in theirs:
-            title += f" (paper {theirs[signal]:.4f})"
+            title += f" (paper, not calibrated: {theirs[signal]:.4f})"
         whole.set_title(title)
         whole.margins(x=0)
         detail.set_xlim(middle - DETAIL / 2, middle + DETAIL / 2)
@@ -98,6 +104,9 @@ def opti_plots(study: Study) -> Figure:
     return drawn
 
 
+def shown(study: Study) -> Site:
+    """The site of fig:opti_plots: the paper's, else the last site with drives."""
+    return next((each for each in study.compared if each.name == PAPERS_SITE), study.compared[-1])
 
 
 def _roughest(time: np.ndarray, values: np.ndarray) -> float:
@@ -114,4 +123,4 @@ def _drive(site: Site) -> int:
 
 
 def _name(site: Site, drive: int) -> str:
-    return str(site.comparison["drive"].values[drive])
+    return literal(site.comparison["drive"].values[drive])

@@ -33,8 +33,8 @@ FEWEST = 6
 SIGNIFICANT, OTHER, ACCEPTED = "#0072B2", "#C9D3DA", "#D55E00"
 
 DOT = {"marker": "o", "linestyle": "", "color": style.CALIBRATED, "markersize": 4.5}
-DIAMOND = {**DOT, "marker": "D", "color": style.REFERENCE, "markeredgecolor": "black", "markeredgewidth": 0.4}
-
+DIAMOND = {**DOT, "marker": "D", "markerfacecolor": "none", "markeredgewidth": 1.0, "markersize": 6}
+"""How shares are drawn that a refit removes: open on drives held out, so that both are seen where they agree."""
 
 OBJECTIONS = {
     "lies outside what is plausible": "size not plausible",

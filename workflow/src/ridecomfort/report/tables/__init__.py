@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..study import Study
-from ..table import Table
+from ..table import PUBLISHED, PapersNote, Table
 from . import agreement, calibration, comfort, inputs, passengers, roads, roughness, weighting
 from .comfort import PAPER
 
@@ -13,7 +13,7 @@ from .comfort import PAPER
 def make(study: Study) -> dict[str, Table]:
     """All tables of a study by name, in the order of ``catalogue.tables`` but for the claims.
 
-    Where none of the sites is the paper's, no table has a column, row or note for what it published.
+    Where none of the sites is the paper's, no table has a column, row or note that is there for what it published.
     """
     made = {
         "sites": inputs.sites(study),
@@ -52,21 +52,17 @@ def make(study: Study) -> dict[str, Table]:
 
 def _ours(table: Table) -> Table:
     """The table without what stands in it for the paper's figures."""
-    rows = [row for row, cells in enumerate(table.rows) if PAPER not in cells]
-    dropped = ("source",) if any(column.key == "source" for column in table.columns) else ()
-    columns = [
-        number
-        for number, column in enumerate(table.columns)
-        if not column.key.startswith("paper_") and column.key not in dropped
-    ]
+    of_whom = next((number for number, column in enumerate(table.columns) if column.key == "source"), None)
+    rows = [row for row, cells in enumerate(table.rows) if of_whom is None or cells[of_whom] != PAPER]
+    columns = [number for number, column in enumerate(table.columns) if not column.of_paper and number != of_whom]
     place = {(row, column): (i, j) for i, row in enumerate(rows) for j, column in enumerate(columns)}
     breaks = {sum(row < above for row in rows) for above in table.breaks}
     return replace(
         table,
         columns=tuple(table.columns[column] for column in columns),
         rows=tuple(tuple(table.rows[row][column] for column in columns) for row in rows),
-        sources=tuple(source for source in table.sources if source.cells != PAPER),
-        notes=tuple(note for note in table.notes if "paper" not in note),
+        sources=tuple(source for source in table.sources if source.file != PUBLISHED),
+        notes=tuple(note for note in table.notes if not isinstance(note, PapersNote)),
         marks={place[cell]: mark for cell, mark in table.marks.items() if cell in place},
         bold=frozenset(place[cell] for cell in table.bold if cell in place),
         breaks=tuple(sorted(breaks - {0, len(rows)})),

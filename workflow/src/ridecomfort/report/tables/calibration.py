@@ -11,7 +11,7 @@ from ...vocabulary import SIGNALS
 from .. import catalogue, published
 from ..notation import symbol, unit, words
 from ..study import Difference, Site, Study
-from ..table import Column, Source, Table
+from ..table import Column, PapersNote, Source, Table
 from .comfort import OURS, PAPER
 
 CHANGE = r"$\pm$ [%]"
@@ -24,6 +24,11 @@ OF_EFFECTS = (
 """What is said of effects beside their calibrated sizes."""
 
 STATES = (("reference", "ref", "Ref"), ("calibrated", "opt", "Opt"))
+"""State of the vehicle, its key among the published figures, and how both are called in print."""
+
+WITH_EFFECTS = "with effects"
+NOT_CALIBRATED = f"{WITH_EFFECTS}: the model's effects at the sizes that they are configured with, not calibrated; Ref is without them."
+"""What is said of the state ``with_effects``, which an uncalibrated model with effects has."""
 
 _BOUNDS = {
     "spring_stiffness_front": "spring_stiffness_front_N_per_m",
@@ -50,6 +55,8 @@ def baseline_res(study: Study) -> Table:
     rows = []
     for site in study.compared:
         rows.append((site.label, OURS, *nrmse(site, "reference", _main_role(site))))
+        if _has_effects(site):
+            rows.append((f"{site.label}, {WITH_EFFECTS}", OURS, *nrmse(site, "with_effects", _main_role(site))))
         paper = published.figures()["nrmse"].get(site.name)
         if paper:
             rows.append((site.label, PAPER, *(paper["ref"][signal] for signal in SIGNALS)))
@@ -59,7 +66,7 @@ def baseline_res(study: Study) -> Table:
         _columns("Site"),
         tuple(rows),
         (*_sources(study.compared), Source.paper("nrmse", "tab:baseline_res")),
-        _notes(study),
+        _notes(study, [NOT_CALIBRATED] if any(map(_has_effects, study.compared)) else []),
     )
 
 
@@ -67,7 +74,7 @@ def opti_res(study: Study, site: Site) -> Table:
     """tab:opti_res_<site>: NRMSE before and after calibration and the change in percent."""
     rows = _changes(site, _main_role(site), "")
     sources = _sources((site,))
-    breaks, notes = [], []
+    breaks, notes = [], [NOT_CALIBRATED] if _has_effects(site) else []
     if _main_role(site) == "fit" and _drives(site, "check"):
         breaks.append(len(rows))
         rows += _changes(site, "check", ", check")
@@ -101,8 +108,8 @@ def constraints(study: Study) -> Table:
         Column("calibrated_on", ("", "Calibrated on")),
         Column("parameter", ("", "Parameter")),
         Column("unit", ("", "Unit")),
-        Column("paper_lower", ("Bounds, paper", "lower"), ".7g"),
-        Column("paper_upper", ("Bounds, paper", "upper"), ".7g"),
+        Column("paper_lower", ("Bounds, paper", "lower"), ".7g", of_paper=True),
+        Column("paper_upper", ("Bounds, paper", "upper"), ".7g", of_paper=True),
         Column("lower", ("Bounds, this study", "lower"), ".7g"),
         Column("upper", ("Bounds, this study", "upper"), ".7g"),
         Column("initial", ("Value, this study", "initial"), ".4g"),
@@ -137,9 +144,11 @@ def constraints(study: Study) -> Table:
         sources.append(Source(f"{OURS}, 90 % interval, in words", file, variables, "as in the file"))
     sources.append(Source.paper("calibration_bounds", "tab:constraints"))
     notes = [
-        "The paper writes the rear spring stiffness both $K_{sr}$ and $K_{rf}$. Its damping bounds lie above "
-        "what is published for passenger car tyres (0 to 2000 N s/m); they are kept for the paper's calibration.",
-        "The paper does not publish its calibrated values.",
+        PapersNote(
+            "The paper writes the rear spring stiffness both $K_{sr}$ and $K_{rf}$. Its damping bounds lie above "
+            "what is published for passenger car tyres (0 to 2000 N s/m); they are kept for the paper's calibration."
+        ),
+        PapersNote("The paper does not publish its calibrated values."),
     ]
     for name, calibration in study.calibrations.items():
         applied = {"joint": "the joint search", "sequence": "the sequence of blocks"}[calibration.attrs["applied"]]
@@ -224,7 +233,7 @@ def _main_role(site: Site) -> str:
 
 
 def _changes(site: Site, role: str, suffix: str) -> list[tuple]:
-    """Rows Ref, Opt and change of the drives of a role; Ref alone where nothing is calibrated."""
+    """Rows Ref, Opt and change of the drives of a role; Ref alone, or with that of the model's effects, where nothing is calibrated."""
     errors = {
         title: nrmse(site, state, role) for state, _, title in STATES if state in site.comparison["state"].values
     }
@@ -232,7 +241,14 @@ def _changes(site: Site, role: str, suffix: str) -> list[tuple]:
     if len(errors) == len(STATES):
         change = [100.0 * (before - after) / before for before, after in zip(*errors.values())]
         rows.append((CHANGE + suffix, OURS, *change))
+    if _has_effects(site):
+        rows.append((WITH_EFFECTS.capitalize() + suffix, OURS, *nrmse(site, "with_effects", role)))
     return rows
+
+
+def _has_effects(site: Site) -> bool:
+    """Whether the site was compared with effects that nothing calibrated."""
+    return "with_effects" in site.comparison["state"].values
 
 
 def _columns(heading: str) -> tuple[Column, ...]:
@@ -256,7 +272,7 @@ def _notes(study: Study, notes=(), normalisation: bool = True) -> tuple[str, ...
     notes = list(notes)
     if normalisation:
         notes.append("NRMSE: RMSE over the range (largest − smallest value) of the measured signal.")
-        notes.append("The paper does not state how it normalises.")
+        notes.append(PapersNote("The paper does not state how it normalises."))
     if study.standin_note():
         notes.append(study.standin_note())
     return tuple(notes)

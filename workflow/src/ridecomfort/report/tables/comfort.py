@@ -10,7 +10,7 @@ from .. import catalogue, published
 from ..classes import CRITICAL_BANDS, CRITICAL_QUALITIES, STYLES
 from ..notation import METHODS, symbol
 from ..study import Study
-from ..table import Column, Source, Table
+from ..table import Column, PapersNote, Source, Table
 
 OURS = "this study"
 PAPER = "paper"
@@ -39,7 +39,7 @@ def thresholding_table(study: Study) -> Table:
         notes=(
             "Along $x$ the simulated driver brakes and accelerates as the site file asks for (speed: acceleration, "
             "deceleration), so that counts of $a_x$ tell how the site was set, not what the road is like.",
-            "The paper prints no PT row for $a_z$, where its PT and ND thresholds are equal.",
+            PapersNote("The paper prints no PT row for $a_z$, where its PT and ND thresholds are equal."),
         ),
     )
 
@@ -191,6 +191,8 @@ def _detections(study: Study, name, dataset, heading, rows, choose, breaks=(), n
     ]
     sources.append(Source.paper("detections, misprints", f"tab:{name}"))
     notes = list(notes)
+    if bold:
+        notes.append("Bold: the site with the largest share $R_c$ of the row.")
     if marks:
         notes.append(
             f"{MISPRINT} as printed; $N$ = sections − $C$ and $R_n$ = 100 − $R_c$ are meant and used here."

@@ -17,7 +17,7 @@ from ...discrepancy.verdict import first_sentence, sentence
 from ...effects.contract import PORTS
 from ...study import BASE, JOIN
 from .. import catalogue
-from ..notation import formula, unit, words
+from ..notation import formula, literal, unit, words
 from ..study import Diagnosis
 from ..table import Column, Source, Table
 from . import advice
@@ -101,7 +101,7 @@ def verdict(found: Diagnosis) -> Table:
 
 def _found(effect: Mapping) -> str:
     """The sizes of an effect with their intervals, and what it removes; of an error of the measurement, what that is comes first."""
-    what = f"{sentence(effect['sentence'].removesuffix('.'))} " if effect.get("is_of_measurement") else ""
+    what = f"{literal(sentence(effect['sentence'].removesuffix('.')))} " if effect.get("is_of_measurement") else ""
     sizes = sentence(", ".join(map(_size, effect["sizes"])))
     return f"{what}{sizes} It takes {100 * effect['share']:.0f} % of the explainable error{_checked(effect)}."
 

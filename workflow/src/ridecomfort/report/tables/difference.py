@@ -39,7 +39,7 @@ def alignment(study: Difference) -> Table:
         for name in site.measured["drive"].values:
             own = site.measured.sel(drive=name)
             values = [factor * float(own[key]) if key in own else None for key, _, _, _, factor in shown]
-            rows.append((site.label, str(name), str(own["role"].item()), *values))
+            rows.append((site.label, notation.literal(name), str(own["role"].item()), *values))
         names = ", ".join(key for key, *_ in shown)
         sources.append(Source(f"all, {site.label}", site.files.get("measured", ""), names, "as in the file, in the unit printed"))
     notes = (
@@ -65,8 +65,8 @@ def findings(study: Difference) -> Table:
         Column("explainable_pct", ("Error above the floor", "[% of the explainable]"), ".0f"),
     )
     notes = [
-        f"Found is what reaches {100 * located.NAMED:g} % of the signal's power in a band, at most five a site. Relatively most: in "
-        "percent of the signal's power under the same condition."
+        f"Found is what reaches {100 * located.NAMED:g} % of the signal's power in a band, at most five a site and two of a signal; where nothing "
+        "does, the largest. Relatively most: in percent of the signal's power under the same condition."
     ]
     rows, sources, breaks = [], [], []
     for site in study.sites:

@@ -8,13 +8,14 @@ import xarray as xr
 from ...vocabulary import SIGNALS, VARIABLES
 from .. import catalogue, published
 from ..classes import QUALITIES, STYLES
-from ..notation import symbol, unit
+from ..notation import literal, symbol, unit
 from ..study import Site, Study
-from ..table import Column, Source, Table
+from ..table import Column, PapersNote, Source, Table
 from .comfort import OURS, PAPER, windows
 
 GON_PER_RAD = 200.0 / np.pi
 ERRATUM = "†"
+FAMILIES = {"normal": "Gaussian", "uniform": "uniform"}
 
 
 def sites(study: Study) -> Table:
@@ -37,7 +38,7 @@ def sites(study: Study) -> Table:
             (
                 site.label,
                 OURS,
-                site.title.removeprefix(f"{site.label}, ") if site.title not in ("", site.label) else None,
+                literal(site.title.removeprefix(f"{site.label}, ")) if site.title not in ("", site.label) else None,
                 length(site.road) / 1000.0,
                 100.0 * mean_slope(site.road),
                 mean_curvature(site.road) * 1000.0 * GON_PER_RAD,
@@ -85,7 +86,7 @@ def quantities(study: Study) -> Table:
     columns = (
         Column("symbol", ("Symbol",)),
         Column("description", ("Quantity",)),
-        Column("paper_unit", ("Unit, paper",)),
+        Column("paper_unit", ("Unit, paper",), of_paper=True),
         Column("name", ("Name in the files",)),
         Column("unit", ("Unit in the files",)),
     )
@@ -107,8 +108,8 @@ def lhs_input(study: Study) -> Table:
         Column("runs", ("", "Runs [-]"), "d"),
         Column("variable", ("", "Variable")),
         Column("distribution", ("", "Distribution")),
-        Column("paper_first", ("Paper", "$\\mu$ or a"), ".4g"),
-        Column("paper_second", ("Paper", "$\\sigma$ or b"), ".4g"),
+        Column("paper_first", ("Paper", "$\\mu$ or a"), ".4g", of_paper=True),
+        Column("paper_second", ("Paper", "$\\sigma$ or b"), ".4g", of_paper=True),
         Column("configured_first", ("Configured", "$\\mu$ or a"), ".4g"),
         Column("configured_second", ("Configured", "$\\sigma$ or b"), ".4g"),
         Column("mean", ("Sampled, " + OURS, "mean"), ".4f"),
@@ -129,7 +130,7 @@ def lhs_input(study: Study) -> Table:
                     site.label,
                     values.size,
                     f"{symbol(name)} [{unit(VARIABLES[name].unit)}]",
-                    {"normal": "Gaussian", "uniform": "uniform"}.get(family or paper_family, family),
+                    _families(family, paper_family),
                     *paper,
                     *configured,
                     float(values.mean()),
@@ -152,7 +153,7 @@ def lhs_input(study: Study) -> Table:
     sources.append(Source.paper("sampling", "tab:lhs_input"))
     notes = [
         "Gaussian: mean $\\mu$ and standard deviation $\\sigma$; uniform: from a to b.",
-        "The paper does not state the unit of the speed deviation; m/s is assumed.",
+        PapersNote("The paper does not state the unit of the speed deviation; m/s is assumed."),
     ]
     lengths = [
         f"{site.label} {known['length_km_lhs_table']:.1f} km (text: {known['length_km']:.2f} km), "
@@ -161,7 +162,7 @@ def lhs_input(study: Study) -> Table:
         if (known := published.figures()["sites"].get(site.name))
     ]
     if lengths:
-        notes.append("The paper's table prints " + "; ".join(lengths) + ".")
+        notes.append(PapersNote("The paper's table prints " + "; ".join(lengths) + "."))
     return _table(study, "lhs_input", columns, rows, sources, notes, breaks)
 
 
@@ -186,11 +187,14 @@ def thresholds_manual(study: Study) -> Table:
     origins: dict[str, list[str]] = {}
     for axis in ("a_x", "a_y", "a_z"):
         for style in STYLES:
-            origins.setdefault(str(dataset["source"].sel(axis=axis, style=style).values), []).append(f"{symbol(axis)} {style}")
+            origin = literal(dataset["source"].sel(axis=axis, style=style).item())
+            origins.setdefault(origin, []).append(f"{symbol(axis)} {style}")
     notes = (
         "Bands of this study from: " + "; ".join(f"{origin} ({', '.join(where)})" for origin, where in origins.items()) + ".",
-        "The paper's text prints −5.80 m/s² for the AG deceleration along x; −5.08 m/s² of its table and of its "
-        "source is used.",
+        PapersNote(
+            "The paper's text prints −5.80 m/s² for the AG deceleration along x; −5.08 m/s² of its table and of its "
+            "source is used."
+        ),
     )
     caption = catalogue.INPUT_TABLES["thresholds_manual"]
     return Table("thresholds_manual", caption, tuple(columns), tuple(rows), sources, notes)
@@ -205,8 +209,8 @@ def acc_thresholds(study: Study) -> Table:
         Column("band", ("", "Band")),
         Column("lower", (OURS.capitalize(), "lower"), ".3f"),
         Column("upper", (OURS.capitalize(), "upper"), ".3f"),
-        Column("paper_lower", ("Paper", "lower"), ".3f"),
-        Column("paper_upper", ("Paper", "upper"), ".3f"),
+        Column("paper_lower", ("Paper", "lower"), ".3f", of_paper=True),
+        Column("paper_upper", ("Paper", "upper"), ".3f", of_paper=True),
     )
     rows, marks = [], {}
     for band in dataset["band"].values.tolist():
@@ -222,7 +226,7 @@ def acc_thresholds(study: Study) -> Table:
         Source.paper("iso2631_bands", "tab:acc_thresholds"),
     )
     notes = (
-        f"{ERRATUM} left out in the paper's table, though tab:rid_comf_res reports it; ISO 2631-1, Annex C.",
+        PapersNote(f"{ERRATUM} left out in the paper's table, though tab:rid_comf_res reports it; ISO 2631-1, Annex C."),
         "Bands overlap on purpose.",
     )
     caption = catalogue.INPUT_TABLES["acc_thresholds"]
@@ -278,6 +282,12 @@ def distribution(setting) -> tuple:
         return None, None, None
     family, parameters = next(iter(setting.items()))
     return family, *(float(value) for value in parameters)
+
+
+def _families(ours: str | None, papers: str | None) -> str:
+    """The family of a distribution in words, and the paper's where that is another."""
+    ours, papers = (FAMILIES.get(family, family) for family in (ours or papers, papers or ours))
+    return ours if ours == papers else f"{ours}; paper: {papers}"
 
 
 def _first(study: Study, dataset: str) -> tuple[xr.Dataset, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...comfort import exposure, quantities
 from .. import catalogue
-from ..notation import plain, symbol
+from ..notation import literal, symbol
 from ..study import Study
 from ..table import Column, Source, Table
 from .comfort import notes_with_standin
@@ -57,7 +57,7 @@ def jerk(study: Study) -> Table:
     origins = dict.fromkeys(str(text) for text in first["jerk_source"].values.ravel())
     notes = (
         "Jerk of the driver's manoeuvres: of the acceleration behind a low-pass of 2 Hz. "
-        "Bands: " + "; ".join(plain(origin) for origin in origins) + ".",
+        "Bands: " + "; ".join(literal(origin) for origin in origins) + ".",
     )
     caption = catalogue.COMFORT_TABLES["jerk"]
     break_ = len(rows) // 2
