@@ -32,7 +32,7 @@ HIGHEST = 0.85
 """Share of the records' own cut-off up to which errors are judged."""
 
 BLOCK = 1.0
-"""s at the mean speed; white errors farther apart are independent."""
+"""s at the mean speed of the fastest drive on a site; white errors farther apart are independent."""
 
 SETTLING, UNDER_WAY = (1.5, 4.0), 6.0
 """s after the run-in that are left out too, at least and at most, and s after the beginning of the drive that suffice: at rest on level
@@ -199,15 +199,18 @@ def _parameter(name: str, value: float, bounds: Sequence[float]) -> Size:
 
 
 def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[Replay], noise_density: Mapping) -> list[Record]:
-    """A record for every replay, in their order, that of the sites and their drives."""
+    """A record for every replay, in their order, that of the sites and their drives; blocks of a site are all as long as its longest."""
     records, rest = [], iter(replays)
     for site in sites:
         passages: list[Passage] = []
+        own = []
         for drive in site.drives:
             role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
             density = noise_density.get(site.name, {}).get(str(drive.attrs["name"]), {})
             noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
-            records.append(replace(_record(site.name, next(rest), role, passages, len(sites) > 1), noise=noise))
+            own.append(replace(_record(site.name, next(rest), role, passages, len(sites) > 1), noise=noise))
+        longest = max((record.block for record in own), default=0.0)  # errors of the road are those of one block at any speed
+        records += [replace(record, block=longest) for record in own]
     return records
 
 
