@@ -21,7 +21,7 @@ from .spectrum import Spectrum, Whitening
 class Record:
     """One measured drive: what a test has to know beside its residual.
 
-    ``condition``: records of one condition (stretch of road and speed) share a spectrum of errors and may repeat one
+    ``condition``: records of one condition (stretch of road and speed) share a ``band`` and a spectrum of errors and may repeat one
     another at equal ``place`` (sample,), in the unit of ``block`` lengths. Samples of one ``site`` and block depend
     on one another, over all records: ``block`` is the same for all of a site.
     """

@@ -22,14 +22,11 @@ from ..vocabulary import SIGNALS, VARIABLES
 from .candidates import candidate
 from .car import Car
 from .experiment import Record, Size
-from .explain import INSTRUMENT, Passage, joined
+from .explain import HIGHEST, INSTRUMENT, Passage, joined
 from .judged import LOWEST, LOWEST_OF_DRIVER
 
 CALIBRATION_PROBE = 0.02
 """Share of the bounds' width that a calibrated parameter is probed with."""
-
-HIGHEST = 0.85
-"""Share of the records' own cut-off up to which errors are judged."""
 
 BLOCK = 1.0
 """s at the mean speed of the fastest drive on a site; white errors farther apart are independent."""
@@ -199,7 +196,7 @@ def _parameter(name: str, value: float, bounds: Sequence[float]) -> Size:
 
 
 def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[Replay], noise_density: Mapping) -> list[Record]:
-    """A record for every replay, in their order, that of the sites and their drives; blocks of a site are all as long as its longest."""
+    """A record for every replay, in their order, that of the sites and their drives."""
     records, rest = [], iter(replays)
     for site in sites:
         passages: list[Passage] = []
@@ -209,9 +206,18 @@ def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[
             density = noise_density.get(site.name, {}).get(str(drive.attrs["name"]), {})
             noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
             own.append(replace(_record(site.name, next(rest), role, passages, len(sites) > 1), noise=noise))
-        longest = max((record.block for record in own), default=0.0)  # errors of the road are those of one block at any speed
-        records += [replace(record, block=longest) for record in own]
+        records += _side_by_side(own)
     return records
+
+
+def _side_by_side(records: Sequence[Record]) -> list[Record]:
+    """Records of a site with one length of block, and those of a condition with one band: that of the least."""
+    longest = max((record.block for record in records), default=0.0)  # errors of the road are those of one block at any speed
+    upper: dict[str, float] = {}
+    for record in records:
+        upper[record.condition] = min(record.band[1], upper.get(record.condition, np.inf))
+    # Above it one of two repeats holds nothing, and half of the other's error would pass for noise.
+    return [replace(record, block=longest, band=(record.band[0], upper[record.condition])) for record in records]
 
 
 def _record(site: str, again: Replay, role: str, passages: list[Passage], several: bool) -> Record:
