@@ -13,7 +13,7 @@ from scipy.ndimage import gaussian_filter1d
 from ridecomfort import simulate
 from ridecomfort.calibrate import BOUNDS
 from ridecomfort.discrepancy import experiment as exp
-from ridecomfort.discrepancy import judged, opening
+from ridecomfort.discrepancy import explain, judged, opening
 from ridecomfort.discrepancy.car import Car
 from ridecomfort.discrepancy.realign import ROUNDS
 from ridecomfort.drive import align
@@ -258,7 +258,7 @@ class Remains:
 def _judged(series: np.ndarray) -> np.ndarray:
     """Series (..., 6, sample) in the band that is judged, the second at both ends left out."""
     fast = judged.judged(series, RATE, SIGNALS)
-    return judged.band(fast, RATE, (0.0, opening.HIGHEST * 0.5 * RATE))[..., 100:-100]
+    return judged.band(fast, RATE, (0.0, explain.HIGHEST * 0.5 * RATE))[..., 100:-100]
 
 
 def _scale(remains: Remains, drive, effects, kappa: float) -> tuple[float, float]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 from ridecomfort.discrepancy import judge, refit, select
 from ridecomfort.discrepancy.experiment import Size
 
@@ -37,6 +39,17 @@ def test_intervals_are_widened_by_what_held_out_drives_disagree_and_the_verdict_
     assert selection.birge_ratio > 2.0 and told > 1.5 * own
     found = judge.judge(selection, model.candidates)
     assert any(f"ask for other sizes by {selection.birge_ratio:.1f} times" in reason for reason in found.reasons)
+
+
+@pytest.mark.parametrize(("wider", "is_said"), [(1.0, False), (60.0, True)])
+def test_an_effect_whose_interval_holds_none_once_it_is_widened_is_told_with_a_word_on_it(monkeypatch, wider, is_said):
+    monkeypatch.setattr(select, "birge_ratio", lambda *_: wider)
+    model = Linear(60, {SIZE: 0.6})
+    selection = select.select(model, {"stiffness": 0.0}, most=1)
+    found = judge.judge(selection, model.candidates)
+    lower, upper = found.effects[0].sizes[0]["interval"]
+    assert (lower <= 0.0 <= upper) is is_said
+    assert any("the interval of its size holds none, too" in reason for reason in found.reasons) is is_said
 
 
 def test_what_no_fitted_drive_meets_is_not_widened_beyond_its_bounds():

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy.explain import explain, joined
-from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, judged
+from ridecomfort.discrepancy.explain import HIGHEST, explain, joined
+from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, band, judged
+from ridecomfort.drive.sampling import low_pass
 
 from .coloured import coloured
 
@@ -32,6 +33,18 @@ def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_com
     assert np.asarray(found["floor_rmse"]).mean() == pytest.approx(judged(noise, 100.0, ["a_z"] * noise.shape[1]).std(axis=-1).mean(), rel=0.06)
     assert float(found["explained_share"].sel(state="calibrated").mean()) == pytest.approx(0.75, abs=0.06)
     assert found.attrs["floor"] == "from repeats"
+
+
+def test_what_one_of_two_repeats_does_not_record_is_not_the_others_noise():
+    """An error of 0.3 that both share, noise of 0.05, both white up to 50 Hz, and an instrument that records up to 20 Hz alone."""
+    random = np.random.default_rng(2)
+    compared = comparison(repeats=2)[1].isel(state=[0], signal=[0])
+    noise = 0.05 * random.standard_normal((2, 6000))
+    residual = 0.3 * random.standard_normal(6000) + noise
+    residual[1] = low_pass(residual[1, :, None], 0.01, 20.0)[:, 0]
+    compared = compared.assign(residual=(compared["residual"].dims, residual[None, :, None]), cut_off=("drive", [45.0, 20.0]))
+    up_to_both = band(judged(noise, 100.0, ["a_z"]), 100.0, (0.0, HIGHEST * 20.0))
+    assert explain(compared)["floor_rmse"].values.ravel() == pytest.approx(2 * [up_to_both.std()], rel=0.1)
 
 
 def test_the_squares_by_stretch_are_parts_of_the_whole():

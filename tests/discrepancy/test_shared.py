@@ -86,6 +86,18 @@ def test_what_a_foot_leaves_of_slow_longitudinal_acceleration_does_not_matter_ho
     assert is_material(frame, residuals, measured) is matters
 
 
+def test_a_fast_error_is_seen_whichever_site_comes_first():
+    """Repeats share an error at 29 Hz on one site; on the other, where instruments recorded up to 17 Hz, nothing."""
+    random = np.random.default_rng(6)
+    record = lambda site, highest: Record("", "fit", site, site, RATE, (0.8, highest), 0.2 * np.arange(6000), 20.0)
+    error = band(random.standard_normal((1, 6000)), RATE, (28.0, 30.0))
+    sites = [(record(site, upper), *(noise + share * error for noise in 0.3 * random.standard_normal((2, 1, 6000))))
+             for site, upper, share in (("fast", 42.5, 1.0), ("slow", 17.0, 0.0))]  # fmt: skip
+    for pairs in (sites, sites[::-1]):
+        surest = shared._surest(("a_z",), pairs)
+        assert surest.z > shared.PLACED and surest.lower < 29.0 < surest.upper
+
+
 class Plain:
     """Series that are white and clean already."""
 

@@ -21,9 +21,9 @@ from .spectrum import Spectrum, Whitening
 class Record:
     """One measured drive: what a test has to know beside its residual.
 
-    ``condition``: records of one condition (stretch of road and speed) share a spectrum of errors and may repeat one
+    ``condition``: records of one condition (stretch of road and speed) share a ``band`` and a spectrum of errors and may repeat one
     another at equal ``place`` (sample,), in the unit of ``block`` lengths. Samples of one ``site`` and block depend
-    on one another, over all records.
+    on one another, over all records: ``block`` is the same for all of a site.
     """
 
     name: str
@@ -190,7 +190,7 @@ class Frame:
         return [piece.reshape(*rows.shape[:-1], len(self.experiment.channels), -1) for piece in pieces]
 
     def blocks(self, finer: float = 1.0) -> np.ndarray:
-        """Number of the block of every element of ``flat``; records of one site share them."""
+        """Number of the block of every element of ``flat``; equal places of one site have the same in all its records."""
         sites = sorted({self.experiment.records[index].site for index in self.indices})
         numbers = []
         for index in self.indices:

@@ -13,7 +13,7 @@ from ..drive.sampling import rate_of
 from ..vocabulary import VARIABLES
 from .experiment import Record
 from .floor import deviations
-from .judged import judged, lowest
+from .judged import band, judged, lowest
 
 SAME_SPEED, COMMON, SAME_PATH = 0.05, 0.5, 0.3
 """Relative difference of mean speeds within which drives repeat one another, share of the shorter that both must have driven, and m (rms)
@@ -31,6 +31,12 @@ STRETCH = 100.0
 
 REACHED = 1.0
 """m from the end of a stretch at which a drive has come through it: its last sample lies a little before."""
+
+HIGHEST = 0.85
+"""Share of the records' own cut-off up to which errors are judged."""
+
+SAME_CUT_OFF = 0.01
+"""Relative difference of cut-offs up to which they are the same: each is told from the times of its record."""
 
 INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 """Instrument that a signal of this unit is recorded with."""
@@ -101,22 +107,30 @@ def explain(
 
 
 def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
-    """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise."""
+    """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise, up to where all hold it."""
     found, signals = {}, comparison["signal"].values
+    rate = rate_of(comparison["time"].values)
     for group in repeats(comparison):
         records, residuals = [], []
+        upper = _known_to_all(highest(comparison)[group])
         for drive in group:
             row = comparison.sel(state=state).isel(drive=drive)
             residual = row["residual"].transpose("signal", "time").values
             kept = np.isfinite(residual).all(axis=0)
             place = row["s"].values[kept]
             records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
-            residuals.append(judged(residual[:, kept], rate_of(comparison["time"].values), signals))
+            residuals.append(band(judged(residual[:, kept], rate, signals), rate, (0.0, upper)))
         start, end = max(record.place[0] for record in records), min(record.place[-1] for record in records)
         for drive, record, part in zip(group, records, deviations(records, residuals)):
             inside = (record.place >= start) & (record.place <= end)
             found[drive] = OwnNoise(record.place[inside], part)
     return found
+
+
+def _known_to_all(cut_offs: np.ndarray) -> float:
+    """Hz up to which drives of these cut-offs tell what each has of its own: above what one holds, half of another's error is no noise."""
+    least, most = cut_offs.min(), cut_offs.max()
+    return np.inf if most - least <= SAME_CUT_OFF * most else HIGHEST * least
 
 
 def repeats(comparison: xr.Dataset) -> list[list[int]]:

@@ -242,6 +242,7 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
             kept.append(effect)
             reasons += _set(selection, by_name[effect.name])
             reasons += [_beyond(effect, size) for size in effect.beyond()]
+            reasons += _open(selection, by_name[effect.name])
             if effect.name in unmet:
                 reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
     return kept, reasons
@@ -252,6 +253,14 @@ def _beyond(effect: Named, size: Mapping) -> str:
     value, unit, (lower, upper) = f"{size['size']:.3g}", size["unit"], size["plausible"]
     told = f"{effect.name} ends at a {size['parameter']} of {value} {unit}".removesuffix(" 1")
     return f"{told}, beyond what is plausible ({lower:g} to {upper:g}): it may stand in for something beside it"
+
+
+def _open(selection: Selection, candidate: Candidate) -> list[str]:
+    """What is said of an effect that is there where what is told of each of its sizes, wider than the evidence for it, reaches to none."""
+    intervals = [(size.neutral, selection.told(size.key)) for size in candidate.sizes if size.key in selection.intervals]
+    if not intervals or any(not lower <= neutral <= upper for neutral, (lower, upper) in intervals):
+        return []
+    return [f"{candidate.name} explains what chance would not, but the interval of its size holds none, too: how large it is these drives leave open"]
 
 
 def _set(selection: Selection, candidate: Candidate) -> list[str]:

@@ -22,17 +22,14 @@ from ..vocabulary import SIGNALS, VARIABLES
 from .candidates import candidate
 from .car import Car
 from .experiment import Record, Size
-from .explain import INSTRUMENT, Passage, joined
+from .explain import HIGHEST, INSTRUMENT, Passage, joined
 from .judged import LOWEST, LOWEST_OF_DRIVER
 
 CALIBRATION_PROBE = 0.02
 """Share of the bounds' width that a calibrated parameter is probed with."""
 
-HIGHEST = 0.85
-"""Share of the records' own cut-off up to which errors are judged."""
-
 BLOCK = 1.0
-"""s at the mean speed; white errors farther apart are independent."""
+"""s at the mean speed of the fastest drive on a site; white errors farther apart are independent."""
 
 SETTLING, UNDER_WAY = (1.5, 4.0), 6.0
 """s after the run-in that are left out too, at least and at most, and s after the beginning of the drive that suffice: at rest on level
@@ -203,12 +200,24 @@ def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[
     records, rest = [], iter(replays)
     for site in sites:
         passages: list[Passage] = []
+        own = []
         for drive in site.drives:
             role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
             density = noise_density.get(site.name, {}).get(str(drive.attrs["name"]), {})
             noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
-            records.append(replace(_record(site.name, next(rest), role, passages, len(sites) > 1), noise=noise))
+            own.append(replace(_record(site.name, next(rest), role, passages, len(sites) > 1), noise=noise))
+        records += _side_by_side(own)
     return records
+
+
+def _side_by_side(records: Sequence[Record]) -> list[Record]:
+    """Records of a site with one length of block, and those of a condition with one band: that of the least."""
+    longest = max((record.block for record in records), default=0.0)  # errors of the road are those of one block at any speed
+    upper: dict[str, float] = {}
+    for record in records:
+        upper[record.condition] = min(record.band[1], upper.get(record.condition, np.inf))
+    # Above it one of two repeats holds nothing, and half of the other's error would pass for noise.
+    return [replace(record, block=longest, band=(record.band[0], upper[record.condition])) for record in records]
 
 
 def _record(site: str, again: Replay, role: str, passages: list[Passage], several: bool) -> Record:

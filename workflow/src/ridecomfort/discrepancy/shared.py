@@ -178,7 +178,7 @@ def _places(pairs, channel: int, edges: tuple[float, float]) -> tuple[tuple[str,
 
 def _bands(channels, pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Edges of the bands, and over (channel, band) the sum of products of the spectra of repeats and its variance by chance."""
-    lower, upper = pairs[0][0].band
+    lower, upper = min(record.band[0] for record, *_ in pairs), max(record.band[1] for record, *_ in pairs)
     edges = np.arange(lower, upper + 0.5 * WIDTH, WIDTH)
     agreement, variance = np.zeros((2, len(channels), len(edges) + 1))
     for record, one, other in pairs:
@@ -186,9 +186,9 @@ def _bands(channels, pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         spectra = np.fft.rfft(fading * one), np.fft.rfft(fading * other)
         frequency = np.fft.rfftfreq(one.shape[1], 1.0 / record.rate)
         numbers, count = np.searchsorted(edges, frequency, side="right"), len(edges) + 1
-        lowest = np.maximum(lower, record.lowest or np.zeros(len(channels)))
+        lowest = np.maximum(record.band[0], record.lowest or np.zeros(len(channels)))
         for c, (left, right) in enumerate(zip(*spectra)):
-            products = np.where(frequency >= lowest[c], left * right.conj(), 0.0)
+            products = np.where((frequency >= lowest[c]) & (frequency <= record.band[1]), left * right.conj(), 0.0)
             agreement[c] += np.bincount(numbers, products.real, count)
             variance[c] += np.bincount(numbers, 0.5 * np.abs(products) ** 2, count)
     return edges, agreement[:, 1:-1], variance[:, 1:-1]

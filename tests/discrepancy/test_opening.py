@@ -1,0 +1,74 @@
+"""Records of one site share its blocks of road, at whatever speed they were driven."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.ndimage import gaussian_filter1d
+
+from ridecomfort.discrepancy import experiment as exp
+from ridecomfort.discrepancy import floor, opening, refit
+from ridecomfort.discrepancy.experiment import Size
+from ridecomfort.discrepancy.span import taken_apart
+from ridecomfort.drive.sampling import low_pass
+
+RATE, ROAD = 50.0, 1500.0
+SIZE = Size("effect.size", "N", 0.0, -50.0, 50.0, 1.0)
+
+
+def records(*speeds, cut_offs=(25.0, 25.0, 25.0, 25.0)):
+    """Those of drives of one site at these speeds (m/s), cut off at these frequencies (Hz)."""
+    replays = []
+    for number, (speed, cut_off) in enumerate(zip(speeds, cut_offs)):
+        time = np.arange(int(ROAD / speed * RATE)) / RATE
+        drive = xr.Dataset({"e": ("time", np.zeros(time.size))}, {"time": time}, {"name": f"drive {number}", "cut_off": cut_off})
+        replays.append(SimpleNamespace(drive=drive, place=speed * time, time=time, compared=np.ones(time.size, bool)))
+    site = opening.Site("road", None, [again.drive for again in replays])
+    return opening._records([site], ["road"], replays, {})
+
+
+def told(seed, own):
+    """The interval of an effect that is not there, beside an error of another that all drives meet at equal place."""
+    random, place = np.random.default_rng(seed), np.arange(0.0, ROAD + 1.0, 0.1)
+    error, effect = (gaussian_filter1d(random.standard_normal(place.size), 4) for _ in range(2))
+    at = lambda line: {index: np.interp(record.place, place, line)[None] for index, record in enumerate(own)}
+    experiment = SimpleNamespace(records=own, channels=("a_z",), each_record=map, free=())
+    residuals = {index: part + 0.02 * random.standard_normal(part.shape) for index, part in at(error).items()}
+    flat = {index: taken_apart(np.full((1, *part.shape), 1e-3)) for index, part in residuals.items()}
+    frame = exp.frame(experiment, residuals, flat)
+    column, white = frame.flat(at(effect)), frame.flat(residuals)
+    amount = -(column @ white) / (column @ column)
+    left = {index: part + amount * at(effect)[index] for index, part in residuals.items()}
+    fit = refit.Fit({SIZE.key: amount}, left, (SIZE.key,), column[None], 0.0)
+    return refit.intervals(fit, frame, [SIZE])[SIZE.key]
+
+
+def test_a_place_lies_in_the_same_block_at_any_speed_and_a_block_lasts_a_second_at_the_highest():
+    slow, fast = records(16.0, 24.0)
+    place = np.arange(12.0, ROAD - 24.0, 24.0)
+    number = lambda record: np.interp(place, record.place, record.blocks())
+    assert np.array_equal(number(slow), number(fast))
+    assert slow.block == fast.block and abs(fast.block - 24.0 * opening.BLOCK) < 0.1
+
+
+def test_an_error_that_drives_at_several_speeds_share_is_not_evidence_from_each_of_them():
+    """Nine in ten intervals of an effect that is not there hold nil; of blocks of each drive's own length, six in ten would."""
+    own = [replace(record, lowest=()) for record in records(12.0, 16.0, 20.0, 24.0)]  # of a single signal
+    held = [lower <= 0.0 <= upper for lower, upper in (told(seed, own) for seed in range(40))]
+    assert np.mean(held) > 0.8
+
+
+def test_what_one_of_two_repeats_does_not_record_is_not_the_others_noise():
+    """An error of a mean square of 0.09 that both share, noise of 0.0025, and an instrument that records up to 10 Hz alone."""
+    random = np.random.default_rng(0)
+    own = [replace(record, lowest=()) for record in records(20.0, 20.0, cut_offs=(25.0, 10.0))]
+    common, noise = 0.3 * random.standard_normal(own[0].place.size), 0.05 * random.standard_normal((2, own[0].place.size))
+    residuals = {0: (common + noise[0])[None], 1: low_pass((common + noise[1])[:, None], 1.0 / RATE, 10.0).T}
+    (found,) = floor.floor(SimpleNamespace(records=own), residuals).values()
+    for record in own:
+        width = record.band[1] - record.band[0]
+        assert found.power(record.band, RATE)[0] == pytest.approx(0.0025 * width / (0.5 * RATE), rel=0.2)
