@@ -44,8 +44,19 @@ def test_the_map_integrates_to_the_mean_square_and_peaks_where_the_error_is(loca
     step = float(one["frequency_map"][1] - one["frequency_map"][0])
     inside = one.sel(s_map=slice(1440, 1560))
     assert float(inside.mean("s_map").sum() * step) == pytest.approx(0.32, rel=0.05)
-    place, frequency = np.unravel_index(one.values.argmax(), one.shape)
+    place, frequency = np.unravel_index(np.nanargmax(one.values), one.shape)
     assert 1400 < one["s_map"][place] < 1600 and one["frequency_map"][frequency] == pytest.approx(11.0)
+
+
+def test_an_error_that_is_even_along_a_drive_is_as_large_at_its_ends_in_the_map():
+    """White noise of unit variance at 100 Hz has a density of 0.02; a window reaches 1 s, 25 m, to either side."""
+    noise = np.random.default_rng(7).standard_normal((60, 6000))
+    places, _, density = locate._map([(0.25 * np.arange(6000), noise)], 100.0)
+    mean = density.mean(axis=(0, 2))
+    known = np.flatnonzero(np.isfinite(mean))
+    assert (places[known[0]], places[known[-1]]) == (40.0, 1460.0)
+    np.testing.assert_allclose(mean[known[[0, -1]]], 0.02, rtol=0.05)
+    np.testing.assert_allclose(mean[known[1:-1]].mean(), 0.02, rtol=0.02)
 
 
 def test_the_floor_is_what_a_drive_has_of_its_own(comparison):

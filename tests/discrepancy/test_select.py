@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import evidence, judge, probe, select, tries
+from ridecomfort.discrepancy import balance, evidence, judge, probe, select, tries
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.rung import begin
 from ridecomfort.errors import InputError
@@ -408,6 +408,15 @@ def test_without_repeats_the_floor_is_the_noise_that_is_known_of_the_instruments
     assert any("assumed from the noise" in reason for reason in found.reasons)
     low, high = model.records[0].band
     assert selection.floor_squares.max() == pytest.approx(0.01 * (high - low))
+
+
+@pytest.mark.parametrize(("is_repeated", "said"), [(False, "too little on drives held out"), (True, "repeats share an error that it leaves")])
+def test_without_repeats_an_error_that_repeats_share_is_not_the_reason_why_too_little_was_found(is_repeated, said):
+    """An error of the measurement that the drives held out have not, though they do not refute it: they do not meet it."""
+    model = Linear(1, {"effect_2.size": 2.0})
+    selection, _ = judged(model if is_repeated else alone(model))
+    half = balance.Balance(0.8, 0.0, 0.8, is_refuted=False, is_shared=False, is_left=False, is_little=True)
+    assert said in judge._unexplained(selection, half, is_little=True)
 
 
 @pytest.mark.parametrize("is_repeated", [False, True])

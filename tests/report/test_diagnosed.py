@@ -43,12 +43,12 @@ def test_a_size_that_is_known_well_is_told_with_the_digits_of_its_interval():
     assert told[1]["in_words"].startswith("Frequency 21.01 Hz (21 to 21.03).")
 
 
-@pytest.mark.parametrize("is_of_measurement, first", [(False, "no effect is named."), (True, "suspension friction.")])
+@pytest.mark.parametrize("is_of_measurement, first", [(False, "."), (True, ": suspension friction.")])
 def test_of_suspect_data_only_errors_of_the_measurement_are_named(is_of_measurement, first):
     (effect,) = made_up.VERDICT["effects"]
     suspect = {**made_up.VERDICT, "verdict": "suspect", "effects": [{**effect, "is_of_measurement": is_of_measurement}]}
     told = {row["what"]: row["in_words"] for row in rows(diagnosed.tables(made_up.diagnosis(suspect))["verdict"])}
-    assert told["verdict"].startswith(f"The data are suspect: {first}")
+    assert told["verdict"].startswith(f"The data are suspect{first}")
     assert ("suspension friction" in told) == is_of_measurement
     assert not is_of_measurement or told["suspension friction"].startswith("Friction of the struts. Front 80 N")
     assert ("effects: [suspension_friction]" in told["next"]) == is_of_measurement

@@ -189,7 +189,7 @@ def _unexplained(selection: Selection, balance: Balance, is_little: bool) -> str
         return f"but repeats share an error that no candidate explains: {selection.remaining}"
     if balance.explained < ENOUGH:
         return "that is less than half" + (" of what repeats share" if selection.has_repeats else "")
-    if balance.is_refuted:
+    if balance.is_refuted or not selection.has_repeats:  # without repeats nothing is known of what all share
         return "too little on drives held out to be what is missing"
     return f"but repeats share an error that it leaves: {selection.remaining}"
 

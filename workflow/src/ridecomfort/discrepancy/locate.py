@@ -182,13 +182,14 @@ def _white_floor(rows: xr.Dataset, bands) -> np.ndarray:
 
 
 def _map(parts, rate: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places in m, frequencies in Hz, and one-sided power density (signal, place, frequency), mean over parts."""
+    """Places in m, frequencies in Hz, and one-sided power density (signal, place, frequency), mean over parts; nan nearer to an end than half
+    a window."""
     start, end = min(place.min() for place, _ in parts), max(place.max() for place, _ in parts)
     grid = np.arange(start, end, STEP)
-    length = min(int(WINDOW * rate), min(len(place) for place, _ in parts))
+    length = min(int(WINDOW * rate), min(len(place) for place, _ in parts) // 2)
     rows = []
     for place, series in parts:
-        frequency, time, bins = stft(series, rate, nperseg=length, scaling="psd")
+        frequency, time, bins = stft(series, rate, nperseg=length, scaling="psd", boundary=None, padded=False)
         at = np.interp(time, np.arange(len(place)) / rate, place)
         density = 2.0 * np.abs(bins) ** 2
         one = [[np.interp(grid, at, line, np.nan, np.nan) for line in signal] for signal in density]

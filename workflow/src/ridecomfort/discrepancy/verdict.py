@@ -15,7 +15,7 @@ SAID = {
     "cluster": "Missing: {names}; the data do not tell those apart.",
     "outside": "Something is missing that is not in the library.",
     "nothing": "Nothing is missing beyond the noise that would be worth a name.",
-    "suspect": "The data are suspect: {names}.",
+    "suspect": "The data are suspect{names}.",
 }
 """What every kind of verdict says of the ``names`` of effects."""
 
@@ -104,7 +104,8 @@ def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, floa
     found."""
     if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
         return UNNAMED
-    said = SAID[kind].format(names=", ".join(names) or "no effect is named")
+    told = ", ".join(names)
+    said = SAID[kind].format(names=f": {told}" if kind == "suspect" and told else told)
     return said + LITTLE_TO_EXPLAIN.format(most=100 * max(at_first.values())) if is_of_little(kind, at_first) else said
 
 
