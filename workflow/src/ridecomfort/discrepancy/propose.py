@@ -18,8 +18,8 @@ LEVEL = 0.05
 SURE, CERTAIN = 0.005, 0.002
 """p-values over the whole library at which the fitted drives are sure, and at which they leave no doubt: hardly a draw comes near."""
 
-DECOYS = 6
-"""Columns with the spectrum of a candidate and random phases that must never rank."""
+DECOYS, DRAW = 6, 9
+"""Columns with the spectrum of a candidate and random phases that must never rank, and the number of their draw beside those of the test."""
 
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that what is proposed must reach."""
@@ -88,12 +88,12 @@ def propose(
         sign += signs
         group += [number] * len(parts)
         labels += [(job, key) for key in keys]
-    decoys = _decoys(frame, list(columns.values()), np.random.default_rng(seed))
+    decoys = _decoys(frame, list(columns.values()), np.random.default_rng([*seed, DRAW]))
     group += range(len(columns), len(columns) + DECOYS)
     sign += [0] * DECOYS
     found = evidence.score_test(
         frame.flat(residuals), free, np.stack([*rows, *decoys]), [frame.blocks(), frame.blocks(event.FINER)],
-        group=group, sign=sign, seed=sum(seed),
+        group=group, sign=sign, seed=seed,
     )  # fmt: skip
     by_shape, rare = event.p_values(frame, found.residual, found.projected, np.array(group), np.array(sign), few)
     p_value = np.minimum(np.minimum(BY_BLOCKS * found.p_value, BY_SHAPE * by_shape), 1.0)
