@@ -30,7 +30,7 @@ def p_of_noise(rng, whiten=whitened):
     residual = coloured(rng, SAMPLES)
     columns = candidates(rng)
     flat, rows = whiten(residual, columns)
-    found = evidence.score_test(flat, rows[:3], rows[3:], BLOCKS, resamples=399, seed=int(rng.integers(2**31)))
+    found = evidence.score_test(flat, rows[:3], rows[3:], BLOCKS, resamples=399, seed=[int(rng.integers(2**31))])
     return found.p_value.min()
 
 
@@ -76,7 +76,7 @@ def test_a_missing_response_is_found_and_measured():
     rng = np.random.default_rng(1)
     residual, columns = coloured(rng, SAMPLES), candidates(rng)
     flat, rows = whitened(residual - 0.1 * columns[7], columns)
-    found = evidence.score_test(flat, rows[:3], rows[3:], BLOCKS, seed=3)
+    found = evidence.score_test(flat, rows[:3], rows[3:], BLOCKS, seed=[3])
     assert np.argmin(found.p_value) == 4 and found.p_value[4] < 0.01
     assert found.size[4] == pytest.approx(0.1, abs=3 * found.error[4])
 

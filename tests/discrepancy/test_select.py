@@ -271,6 +271,16 @@ def test_nothing_is_named_where_nothing_is_missing():
     assert verdicts.count("nothing") >= 9
 
 
+def test_no_two_draws_of_rounds_and_searches_are_alike(monkeypatch):
+    """Decoys and the test, its rounds, and searches of other seeds."""
+    model, draw, seeds = Linear(5, {"effect_1.size": 0.8}), np.random.default_rng, []
+    monkeypatch.setattr(np.random, "default_rng", lambda seed: seeds.append(seed) or draw(seed))
+    for seed in (0, 1):
+        select.select(model, {"stiffness": 0.0}, most=2, seed=seed)
+    first = [draw(seed).integers(2**62) for seed in seeds if np.ndim(seed)]
+    assert len(first) == 16 and len(set(first)) == 16
+
+
 def test_effects_that_look_alike_are_named_as_a_cluster():
     _, found = judged(Linear(3, {"effect_2.size": 0.3}, twins=("effect_2.size", "effect_5.size")))
     assert found.verdict == "cluster"

@@ -77,6 +77,20 @@ def test_rates_that_are_too_large_where_the_road_does_not_bend_alone_are_no_gyro
     assert fitted(monkeypatch, {"roll_rate": 1.03, "pitch_rate": 1.03, "yaw_rate": 1.03}, 1.001) == []
 
 
+@pytest.mark.parametrize(("place", "said"), [(0.1, "cubic"), (0.9, "linear")])
+@pytest.mark.parametrize("driven", [(True, False, False), (False, True, True)])
+def test_records_place_a_road_between_its_points_alike_however_each_site_was_driven(place, said, driven):
+    """0 as cubic interpolation, 1 as linear: the share of the way from the one that was driven to the other is of each record its own."""
+    roads = [SimpleNamespace(road=SimpleNamespace(surface=SimpleNamespace(smooth=is_smooth))) for is_smooth in driven]
+    amounts = [np.zeros(30) for _ in driven]
+    for own, is_smooth in zip(amounts, driven):
+        own[nuisances.BETWEEN] = -(place if is_smooth else 1.0 - place) / nuisances.OTHERWISE
+    came, frame = SimpleNamespace(replays=roads), SimpleNamespace(indices=[0, 1, 2], amounts=lambda index, _: amounts[index])
+    found = suspect.smoothness(came, frame, amounts)
+    assert found == pytest.approx(place)
+    assert f"better with {said} interpolation" in suspect.of_road(came, frame, found)[0]
+
+
 def test_the_size_of_white_noise_is_estimated(rough):
     noisy = rough.copy()
     noisy["elevation"] = rough["elevation"] + 1e-3 * np.random.default_rng(2).standard_normal(rough["elevation"].shape)

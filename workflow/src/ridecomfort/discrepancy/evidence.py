@@ -71,7 +71,7 @@ def score_test(
     group: Sequence[int] | None = None,
     sign: Sequence[int] | None = None,
     resamples: int = RESAMPLES,
-    seed: int = 0,
+    seed: Sequence[int] = (0,),
 ) -> Evidence:
     """Test every column against a white residual, free directions projected out.
 
@@ -105,13 +105,13 @@ def score_test(
     by_block = [_block_sums(products, labels) for labels in numbers]
     for which, sums in enumerate(by_block):
         statistic, by_group = _bootstrap(
-            np.where(seen[:, None], -sums, 0.0), group, sign, resamples, np.random.default_rng([seed, which])
+            np.where(seen[:, None], -sums, 0.0), group, sign, resamples, np.random.default_rng([*seed, which])
         )
         statistics.append(statistic)
         p_value.append(by_group)
     white = np.where(seen, score / np.sqrt(safe), 0.0)
     alike = _correlation(columns, np.where(seen, left, np.inf))
-    of_white = _white_test(white, alike, group, sign, resamples, np.random.default_rng([seed, len(blocks)]))
+    of_white = _white_test(white, alike, group, sign, resamples, np.random.default_rng([*seed, len(blocks)]))
     deviations = by_block[0] + size[:, None] * _block_sums(squares, numbers[0])
     spread = np.sqrt(np.sum(deviations**2, axis=1))
     number = group.max() + 1

@@ -18,8 +18,8 @@ LEVEL = 0.05
 SURE, CERTAIN = 0.005, 0.002
 """p-values over the whole library at which the fitted drives are sure, and at which they leave no doubt: hardly a draw comes near."""
 
-DECOYS = 6
-"""Columns with the spectrum of a candidate and random phases that must never rank."""
+DECOYS, DRAW = 6, 9
+"""Columns with the spectrum of a candidate and random phases that must never rank, and the number of their draw beside those of the test."""
 
 HELD_OUT_Z = 2.0
 """z of the improvement of held-out drives that what is proposed must reach."""
@@ -37,7 +37,7 @@ BY_BLOCKS, BY_SHAPE = 1.5, 3.0
 @dataclass(frozen=True)
 class Proposal:
     """The evidence by candidate: ``p_value`` over the whole library, ``gain`` (fall of the white loss) and ``absorbed`` (share
-    that is free anyway) in the best shape, ``best``; by key of that shape ``size`` and ``size_error`` in probes.
+    that is free anyway) in the best shape, ``best``.
 
     ``columns``: what is projected of every column, by ((candidate, shape), key). ``rare``: names that act at few places.
     """
@@ -47,8 +47,6 @@ class Proposal:
     gain: np.ndarray
     absorbed: np.ndarray
     best: dict[str, Job]
-    size: dict[str, float]
-    size_error: dict[str, float]
     columns: dict[tuple[Job, str], np.ndarray]
     rare: frozenset[str]
     opposite: frozenset[str]
@@ -88,12 +86,12 @@ def propose(
         sign += signs
         group += [number] * len(parts)
         labels += [(job, key) for key in keys]
-    decoys = _decoys(frame, list(columns.values()), np.random.default_rng(seed))
+    decoys = _decoys(frame, list(columns.values()), np.random.default_rng([*seed, DRAW]))
     group += range(len(columns), len(columns) + DECOYS)
     sign += [0] * DECOYS
     found = evidence.score_test(
         frame.flat(residuals), free, np.stack([*rows, *decoys]), [frame.blocks(), frame.blocks(event.FINER)],
-        group=group, sign=sign, seed=sum(seed),
+        group=group, sign=sign, seed=seed,
     )  # fmt: skip
     by_shape, rare = event.p_values(frame, found.residual, found.projected, np.array(group), np.array(sign), few)
     p_value = np.minimum(np.minimum(BY_BLOCKS * found.p_value, BY_SHAPE * by_shape), 1.0)
@@ -102,15 +100,12 @@ def propose(
     names = tuple(dict.fromkeys(name for name, _ in jobs))
     own = {name: [g for g, job in enumerate(jobs) if job[0] == name] for name in names}
     best = {name: max(own[name], key=lambda g: found.group_gain[g]) for name in names}
-    shown = [(k, key) for k, (job, key) in enumerate(labels) if jobs.index(job) in best.values() and key in columns[job]]
     return Proposal(
         names=names,
         p_value=np.array([min(p_value[own[name]].min(), known.get(name, 1.0)) for name in names]),
         gain=np.array([found.group_gain[best[name]] for name in names]),
         absorbed=np.array([min(found.absorbed[k] for k in range(len(labels)) if group[k] == best[name]) for name in names]),
         best={name: jobs[g] for name, g in best.items()},
-        size={key: found.size[k] for k, key in shown},
-        size_error={key: found.error[k] for k, key in shown},
         columns={label: found.projected[k] for k, label in enumerate(labels)},
         rare=frozenset(job[0] for job, is_rare in zip(jobs, rare) if is_rare),
         opposite=frozenset(

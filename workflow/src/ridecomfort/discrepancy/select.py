@@ -243,7 +243,7 @@ class _Search:
                 rung.experiment, frames, base.values, winner, trials, found.columns
             )
         return Round(
-            found.names, found.p_value, found.gain, found.size, found.size_error, found.absorbed, tuple(trials), winner,
+            found.names, found.p_value, found.gain, found.absorbed, tuple(trials), winner,
             like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
             _passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials),
         )  # fmt: skip

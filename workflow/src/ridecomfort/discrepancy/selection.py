@@ -45,8 +45,6 @@ class Round:
     names: tuple[str, ...]
     p_value: np.ndarray
     gain: np.ndarray
-    size: dict[str, float]
-    size_error: dict[str, float]
     absorbed: np.ndarray
     trials: tuple[Trial, ...]
     winner: Trial | None
@@ -66,7 +64,7 @@ class Round:
     def empty(cls) -> Round:
         """A round without any candidate that the data could see."""
         nothing = np.zeros(0)
-        return cls((), nothing, nothing, {}, {}, nothing, (), None, (), {}, {}, 1.0, False, False)
+        return cls((), nothing, nothing, nothing, (), None, (), {}, {}, 1.0, False, False)
 
 
 @dataclass(frozen=True)

@@ -164,17 +164,22 @@ def of_clocks(experiment: Car, frame: Frame) -> list[str]:
 
 def smoothness(experiment: Car, frame: Frame, residuals) -> float:
     """Where the records place the road between its points: 0 as cubic interpolation, 1 as linear, beyond it smoother still."""
-    found = float(np.median([nuisances.between(frame.amounts(index, residuals[index])) for index in frame.indices]))
-    return found if experiment.replays[frame.indices[0]].road.surface.smooth else 1.0 - found
+    between = [nuisances.between(frame.amounts(index, residuals[index])) for index in frame.indices]
+    return float(np.median([share if is_smooth else 1.0 - share for share, is_smooth in zip(between, _smooth(experiment, frame))]))
+
+
+def _smooth(experiment: Car, frame: Frame) -> list[bool]:
+    """Whether the road of each record of a frame was driven with cubic interpolation, not linear."""
+    return [bool(experiment.replays[index].road.surface.smooth) for index in frame.indices]
 
 
 def of_road(experiment: Car, frame: Frame, place: float) -> list[str]:
     """Words on the road between the points of its file, where the records of a frame place it (``smoothness``) otherwise than it was driven."""
-    smooth = experiment.replays[frame.indices[0]].road.surface.smooth
     if place > SMOOTHER:
         return ["the drives fit a road that is smoother than the points of its file: either these hold noise, or the tyres roll over "
                 "what lies between them (tyre_enveloping)"]
-    if (place if smooth else 1.0 - place) < OTHERWISE:
+    smooth = place >= OTHERWISE  # roads that were driven so are the ones that the records place otherwise
+    if smooth not in _smooth(experiment, frame):
         return []
     other, why = ("linear", "; noise of its points would look alike") if smooth else ("cubic", "")
     return [f"the drives fit the road better with {other} interpolation between its points (road: options: interpolation: {other}){why}"]
