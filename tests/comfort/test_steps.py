@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort import store
-from ridecomfort.comfort import bands, iriedges, jerk, thresholds
+from ridecomfort.comfort import bands, iriedges, limits
 from ridecomfort.errors import InputError
 from ridecomfort.steps import agreement, iri, iso2631, maps
 from ridecomfort.steps import thresholds as thresholds_step
@@ -17,10 +17,10 @@ from ridecomfort.steps import thresholds as thresholds_step
 CONFIG = {
     "critical_length": 5,
     "sections": "sequential",
-    "jerk": {name: [band.lower, band.upper] for name, band in jerk.BANDS.items()},
+    "jerk": {name: [band.lower, band.upper] for name, band in limits.JERK.items()},
     "thresholds": {
         axis: {style: [band.lower, band.upper] for style, band in styles.items()}
-        for axis, styles in thresholds.ACCELERATION.items()
+        for axis, styles in limits.ACCELERATION.items()
     },
     "iso2631": {"bands": {name: [low, None if high == np.inf else high] for name, (low, high) in bands.BANDS.items()}},
     "iri": {

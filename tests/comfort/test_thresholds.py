@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.comfort import iso2631, sections, thresholds
+from ridecomfort.comfort import iso2631, limits, sections, thresholds
 from ridecomfort.errors import InputError
 
 S = 50.0 + 0.25 * np.arange(407)
@@ -26,9 +26,9 @@ def shard(runs: int = 30) -> xr.Dataset:
 
 def test_published_thresholds():
     """tab:thresholds_manual; AG deceleration -5.08 m/s2 (docs/method.md)."""
-    assert (thresholds.ACCELERATION["a_x"]["AG"].lower, thresholds.ACCELERATION["a_x"]["AG"].upper) == (-5.08, 3.07)
-    assert thresholds.ACCELERATION["a_y"]["ND"].upper == 4.0
-    assert all(band.source for styles in thresholds.ACCELERATION.values() for band in styles.values())
+    assert (limits.ACCELERATION["a_x"]["AG"].lower, limits.ACCELERATION["a_x"]["AG"].upper) == (-5.08, 3.07)
+    assert limits.ACCELERATION["a_y"]["ND"].upper == 4.0
+    assert all(band.source for styles in limits.ACCELERATION.values() for band in styles.values())
 
 
 def test_evaluate_by_plain_loops():
@@ -38,7 +38,7 @@ def test_evaluate_by_plain_loops():
     for axis in ("a_x", "a_y", "a_z"):
         values = runs[axis].values.astype(float)
         assert found[axis].values == pytest.approx(values.mean(axis=0))
-        for style, band in thresholds.ACCELERATION[axis].items():
+        for style, band in limits.ACCELERATION[axis].items():
             outside = (values < band.lower) | (values > band.upper)
             critical = outside[:, :400].reshape(30, 20, 20).all(axis=2)
             here = found.sel(axis=axis, style=style)
@@ -89,14 +89,14 @@ def test_mistakes_are_named(shards, message):
 
 
 def test_configured_bands():
-    bands = thresholds.bands({"a_x": {"PT": [-1, 2]}})
-    assert bands["a_x"]["PT"] == thresholds.Band(-1, 2, "as configured")
-    assert thresholds.bands({"a_z": {"AG": [-0.3, 0.3]}})["a_z"]["AG"].source == thresholds.DATA
-    assert thresholds.bands({"a_z": {"AG": [-0.2, 0.2, "own survey"]}})["a_z"]["AG"].source == "own survey"
-    mixed = thresholds.bands({"a_y": {"AG": [-5, 5], "PT": [-1, 1], "ND": [-3, 3]}})
+    bands = limits.bands({"a_x": {"PT": [-1, 2]}})
+    assert bands["a_x"]["PT"] == limits.Band(-1, 2, "as configured")
+    assert limits.bands({"a_z": {"AG": [-0.3, 0.3]}})["a_z"]["AG"].source == limits.DATA
+    assert limits.bands({"a_z": {"AG": [-0.2, 0.2, "own survey"]}})["a_z"]["AG"].source == "own survey"
+    mixed = limits.bands({"a_y": {"AG": [-5, 5], "PT": [-1, 1], "ND": [-3, 3]}})
     assert list(mixed["a_y"]) == ["PT", "ND", "AG"]  # mildest first, in whatever order they are written
     with pytest.raises(InputError, match=r"thresholds: a_x: PT: \[2, -1\], expected a lower value and one above it"):
-        thresholds.bands({"a_x": {"PT": [2, -1]}})
+        limits.bands({"a_x": {"PT": [2, -1]}})
     with pytest.raises(InputError, match="expected PT"):
         thresholds.evaluate([shard()], {"a_x": {"PT": [-1, 1]}, "a_y": {"ND": [-1, 1]}})
 
@@ -104,6 +104,6 @@ def test_configured_bands():
 def test_sections_of_the_mean_agree_with_the_public_door():
     runs = shard()
     found = thresholds.evaluate([runs])
-    band = thresholds.ACCELERATION["a_y"]["PT"]
+    band = limits.ACCELERATION["a_y"]["PT"]
     door = sections.critical(found["a_y"], S, (band.lower, band.upper))
     assert np.array_equal(door["critical"].values, found["critical"].sel(axis="a_y", style="PT").values.astype(bool))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ridecomfort.discrepancy import judge, select
 from ridecomfort.discrepancy.experiment import Candidate, Record, Size
 
 from .coloured import coloured
@@ -55,3 +56,9 @@ class Linear:
 
     def coarser(self, values, residuals):
         return self, residuals
+
+
+def judged(model, suspicions=()):
+    """What a search of at most three rounds found on such a model, and the verdict on it."""
+    selection = select.select(model, {"stiffness": 0.0}, most=3)
+    return selection, judge.judge(selection, model.candidates, suspicions)

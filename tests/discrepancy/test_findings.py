@@ -94,16 +94,17 @@ def test_a_place_that_holds_much_of_the_error_of_most_signals_is_told(located):
     even = located.copy(deep=True)
     share = even["power_share"]
     share[...] = 0.02 / share.sizes["stretch"] / share.sizes["band"]
-    assert findings.gathered(even) == ""
+    assert findings.gathered(even) == []
     hole = even.copy(deep=True)
     hole["power_share"][:4, 7] += 0.01 / share.sizes["band"]
     start, end = (float(located[f"stretch_{edge}"][7]) / 1000 for edge in ("start", "end"))
     mine = 100 * (0.01 + 0.02 / share.sizes["stretch"]) / 0.03
-    assert findings.gathered(hole) == findings.words(hole)[-1]
-    assert findings.gathered(hole).startswith(f"{mine:.0f} % of the error") and f"between {start:.2f} and {end:.2f} km" in findings.gathered(hole)
+    (said,) = findings.gathered(hole)
+    assert said == findings.words(hole)[-1]
+    assert said.startswith(f"{mine:.0f} % of the error") and f"between {start:.2f} and {end:.2f} km" in said
     of_two = even.copy(deep=True)
     of_two["power_share"][:2, 7] += 0.01 / share.sizes["band"]
-    assert findings.gathered(of_two) == ""
+    assert findings.gathered(of_two) == []
 
 
 def test_nothing_is_said_of_what_is_not_worth_a_sentence(located):

@@ -225,7 +225,7 @@ def test_a_speed_that_is_exact_has_no_scale_where_the_place_was_measured_on_hill
     road, drive = hills
     recorded = quarter_cars.recorded(drive, lateral_position=0.6)
     for told in (road, by_heights_alone(road)):
-        assert place.speed_scale(recorded, told) == pytest.approx(1.0, abs=5e-5)
+        assert place.speed_scale(recorded, place.way(recorded, told)) == pytest.approx(1.0, abs=5e-5)
 
 
 def test_a_place_on_the_road_and_the_way_to_it_are_each_others_inverse(hills):

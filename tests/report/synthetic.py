@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from ridecomfort.comfort import assessment, jerk
+from ridecomfort.comfort import assessment
+from ridecomfort.comfort.limits import JERK
 from ridecomfort.report import published
 from ridecomfort.report.study import Site, Study
 from ridecomfort.road import clean, defects, roughness, smoothing
@@ -208,9 +209,9 @@ def thresholds(rng, runs) -> xr.Dataset:
     dataset["upper"] = (("axis", "style"), bands[..., 1])
     dataset["source"] = (("axis", "style"), np.full((3, 3), "tab:thresholds_manual"))
     dims = ("jerk", "jerk_style")
-    dataset = dataset.assign_coords(jerk=["jerk_x", "jerk_y"], jerk_style=list(jerk.BANDS))
+    dataset = dataset.assign_coords(jerk=["jerk_x", "jerk_y"], jerk_style=list(JERK))
     for name in ("lower", "upper", "source"):
-        dataset[f"jerk_{name}"] = dims, [[getattr(band, name) for band in jerk.BANDS.values()]] * 2
+        dataset[f"jerk_{name}"] = dims, [[getattr(band, name) for band in JERK.values()]] * 2
     dataset["jerk_critical_count"] = dims, np.array([[12, 7, 0], [9, 4, 1]])
     dataset["jerk_critical_share"] = dims, dataset["jerk_critical_count"].values / 1.2
     dataset["jerk_run_share"] = (*dims, "run"), rng.uniform(0, 8, (2, 3, runs))

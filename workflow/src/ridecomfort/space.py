@@ -51,22 +51,20 @@ def along(drives: xr.Dataset, s: np.ndarray, variables: Sequence[str]) -> xr.Dat
     index = _indices(distance, lengths, s)
     interval = 1.0 / sampling.rate_of(drives["time"].values)
     result = xr.Dataset(coords={"run": drives["run"].values, "s": s})
-    for name in variables:
-        values = drives[name].transpose("run", "time").values
+    table = {name: drives[name].transpose("run", "time").values for name in variables}
+    for name, values in table.items():
         _check_values(drives["run"].values, values, lengths, name)
-        read = _waves if name in SIGNALS else _lines
-        rows = [read(row[:length].astype(np.float64), at, interval) for row, length, at in zip(values, lengths, index)]
-        result[name] = (("run", "s"), np.array(rows, dtype=np.float32))
+        result[name] = (("run", "s"), np.empty(index.shape, dtype=np.float32))
+    waves = [name for name in variables if name in SIGNALS]
+    for run, (length, at) in enumerate(zip(lengths, index)):
+        own = {name: values[run, :length].astype(np.float64) for name, values in table.items()}
+        if waves:
+            read = sampling.resampled(np.stack([own[name] for name in waves]), interval, at, 0.5 / interval)
+            own.update(zip(waves, read))
+        for name, values in own.items():
+            result[name].values[run] = values if name in waves else np.interp(at, np.arange(length), values)
     result.attrs = {"evaluated": f"{s[0]:g} to {s[-1]:g} m in steps of {s[1] - s[0]:g} m"}
     return result
-
-
-def _waves(values: np.ndarray, index: np.ndarray, interval: float) -> np.ndarray:
-    return sampling.resampled(values[None], interval, index, 0.5 / interval)[0]
-
-
-def _lines(values: np.ndarray, index: np.ndarray, interval: float) -> np.ndarray:
-    return np.interp(index, np.arange(len(values)), values)
 
 
 def _lengths(distance: np.ndarray) -> np.ndarray:

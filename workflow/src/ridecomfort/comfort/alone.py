@@ -14,7 +14,7 @@ from ..drive import sampling, units
 from ..drive.readers import csv
 from ..errors import InputError
 from ..vocabulary import STANDARD_GRAVITY, VARIABLES, describe
-from . import bands, exposure, iri, iso2631, jerk, quantities, seat, thresholds, total
+from . import bands, exposure, iri, iso2631, jerk, limits, quantities, seat, total
 from .quartercar import MOVING_AVERAGE
 
 AXES = ("a_x", "a_y", "a_z")
@@ -271,19 +271,19 @@ def styles(recording: xr.Dataset) -> Result:
             signal = signal - signal.mean()
         signals[name] = ("time", signal)
         rows += [
-            _outside(name, style, signal, band, "m/s2", rate) for style, band in thresholds.ACCELERATION[name].items()
+            _outside(name, style, signal, band, "m/s2", rate) for style, band in limits.ACCELERATION[name].items()
         ]
         if name != "a_z":
             rows += [
                 _outside(f"jerk of {name}", style, jerk.of_drive(signal, rate), band, "m/s3", rate)
-                for style, band in jerk.BANDS.items()
+                for style, band in limits.JERK.items()
             ]
     remarks += [recording.attrs["unused"]] if recording.attrs.get("unused") else []
     title = f"Accelerations and jerk against driving styles, {recording.sizes['time'] / rate:.1f} s at {rate:g} Hz"
-    return Result("thresholds", title, pd.DataFrame(rows), remarks, describe(signals), "m/s2", thresholds.ACCELERATION)
+    return Result("thresholds", title, pd.DataFrame(rows), remarks, describe(signals), "m/s2", limits.ACCELERATION)
 
 
-def _outside(quantity: str, style: str, signal: np.ndarray, band: thresholds.Band, unit: str, rate: float) -> dict:
+def _outside(quantity: str, style: str, signal: np.ndarray, band: limits.Band, unit: str, rate: float) -> dict:
     outside = np.concatenate([[False], (signal < band.lower) | (signal > band.upper), [False]])
     edges = np.flatnonzero(np.diff(outside.astype(np.int8)))
     longest = np.max(edges[1::2] - edges[::2], initial=0)

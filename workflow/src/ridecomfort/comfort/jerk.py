@@ -9,9 +9,7 @@ import xarray as xr
 from scipy import fft
 
 from . import runs, sections, signals
-from .limits import JERK as BANDS
-from .limits import Band
-from .limits import jerk_bands as bands  # noqa: F401 - they are asked for here
+from .limits import JERK, Band
 from .thresholds import detect
 
 AXES = {"jerk_x": "a_x", "jerk_y": "a_y"}
@@ -52,7 +50,7 @@ def along(acceleration: np.ndarray, speed: np.ndarray, spacing: float, cutoff: f
 
 def evaluate(
     shards: Iterable[xr.Dataset],
-    limits: Mapping[str, Band] = BANDS,
+    limits: Mapping[str, Band] = JERK,
     length: float = sections.LENGTH,
     *,
     sliding: bool = False,

@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..errors import InputError
 from . import runs, sections
-from .limits import ACCELERATION, DATA, STYLES, Band, bands  # noqa: F401 - they are asked for here
+from .limits import Band, bands
 
 
 def evaluate(

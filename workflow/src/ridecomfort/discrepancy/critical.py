@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from ..comfort import bands, iso2631, sections, thresholds
+from ..comfort import bands, iso2631, sections
+from ..comfort import limits as acceptable
 from ..comfort.seat import Seat
 from ..drive.sampling import rate_of, resampled
 from . import explain
@@ -32,7 +33,7 @@ def critical(
     """Grades of the sections of every measured drive, and of the model on the same path at the same speed, at the sensor.
 
     ``comparison``: as of ``compare.compare``. Places are ``spacing`` (m) apart, sections ``length`` (m); ``limits`` are
-    those of ``thresholds.bands``, ``weighting`` the settings of ISO 2631 (bands, time_constant, averaging, weightings,
+    those of ``limits.bands``, ``weighting`` the settings of ISO 2631 (bands, time_constant, averaging, weightings,
     factors, seat).
 
     Returns ``grade(source, method, drive, window)``: by thresholds the number of driving styles whose band some
@@ -42,7 +43,7 @@ def critical(
     "measured" and each state. ``window_start`` in m; ``repeat_group(drive)`` is equal for drives that repeat one another,
     else unique.
     """
-    table, settings = thresholds.bands(limits), dict(weighting or {})
+    table, settings = acceptable.bands(limits), dict(weighting or {})
     edges = np.array([lower for lower, _ in bands.edges(settings.get("bands")).values()])[1:]
     sources = ["measured", *(str(state) for state in comparison["state"].values)]
     s = comparison["s"].values
@@ -88,7 +89,7 @@ def _graded(signals, time, own, places, along, table, edges, settings) -> np.nda
     index = np.interp(places, np.maximum.accumulate(own), np.arange(len(own)))
     rate = rate_of(time)
     over_s = dict(zip(signals, resampled(np.stack(list(signals.values())), 1.0 / rate, index, 0.5 * rate)))
-    styles = thresholds.STYLES
+    styles = acceptable.STYLES
     passed = np.zeros((len(styles), len(along)), bool)
     for name in ACCELERATIONS:
         for k, style in enumerate(styles):

@@ -122,23 +122,23 @@ def are_small(found: Sequence[Finding]) -> bool:
     return all(finding.power_share < NAMED for finding in found)
 
 
-def gathered(located: xr.Dataset) -> str:
-    """The stretch in which most signals have much of their error, in words; empty if there is none. A single hole or crest does not come first in
+def gathered(located: xr.Dataset) -> list[str]:
+    """The stretch in which most signals have much of their error, in words, if there is one. A single hole or crest does not come first in
     any band, and yet may be what the model does otherwise than the car."""
     above = np.maximum(located["power_share"].values, 0.0).sum(axis=2)
     whole = above.sum(axis=1)
     counts = whole >= LEAST_NAMED
     if 2 * counts.sum() < len(whole):
-        return ""
+        return []
     share = np.median(above[counts] / whole[counts, None], axis=0)
     place = int(share.argmax())
     if share[place] < max(GATHERED, OFTEN / len(share)):
-        return ""
+        return []
     start, end = (float(located[f"stretch_{edge}"][place]) / 1000 for edge in ("start", "end"))
-    return (
+    return [
         f"{100 * share[place]:.0f} % of the error above the floor, the median of the signals, lies between {start:.2f} and {end:.2f} km, "
         f"{100 / len(share):.0f} % of the road"
-    )
+    ]
 
 
 def doubts(located: xr.Dataset) -> list[str]:
@@ -149,7 +149,7 @@ def doubts(located: xr.Dataset) -> list[str]:
 
 def words(located: xr.Dataset, count: int = 5) -> list[str]:
     """Doubts and, behind them, findings as sentences, and the place where errors gather."""
-    return [*doubts(located), *(finding.words() for finding in findings(located, count)), *filter(None, [gathered(located)])]
+    return [*doubts(located), *(finding.words() for finding in findings(located, count)), *gathered(located)]
 
 
 def _stretch(located: xr.Dataset, share: np.ndarray) -> tuple[float, float] | None:

@@ -17,7 +17,7 @@ import xarray as xr
 from ..errors import InputError
 from ..vocabulary import SIGNALS
 from . import mounting, path, place, turning
-from .record import acceleration
+from .record import acceleration, felt
 from .replay import Replay, Simulated, replay
 
 PASSES = 3
@@ -61,7 +61,7 @@ def align(
     measured, start = bool(drive.attrs["place_measured"]), float(drive["s"][0])
     way = place.way(work, road, start)
     if measured:
-        scale, offset = place.speed_scale(work, road), 0.0
+        scale, offset = place.speed_scale(work, way), 0.0
         work = place.moved(work, scale=scale)
     else:
         scale, offset = place.odometer(work, way, road, vehicle, simulate, options)
@@ -180,7 +180,7 @@ def _on_path(work: xr.Dataset, lateral: float) -> xr.Dataset:
 def _without_gravity(work: xr.Dataset, simulated: Simulated) -> xr.Dataset:
     aligned = work.copy()
     if work.attrs["gravity"]:
-        force = mounting.specific_force(work)
+        force = felt(work)
         for name, values in zip(SIGNALS[:3], acceleration(force, simulated.roll, simulated.pitch)):
             aligned[name] = work[name].copy(data=values)
         aligned["roll"] = "time", simulated.roll

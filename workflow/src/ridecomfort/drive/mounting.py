@@ -57,12 +57,6 @@ def level(drive: xr.Dataset) -> xr.Dataset:
     return result.assign(roll=zero, pitch=zero).assign_attrs(drive.attrs)
 
 
-def specific_force(drive: xr.Dataset) -> np.ndarray:
-    """What the accelerometers read, (3, time), from accelerations and the attitude that gravity was taken out with."""
-    values = np.stack([drive[name].values for name in SIGNALS[:3]])
-    return record.specific_force(values, drive["roll"].values, drive["pitch"].values)
-
-
 def fit(again: Replay, simulated: Simulated) -> Mounting:
     """Gain, rotation and bias that explain most of the difference between record and simulation.
 
@@ -98,7 +92,7 @@ def responses(simulated: Simulated) -> np.ndarray:
 
 def corrected(drive: xr.Dataset, mounting: Mounting) -> xr.Dataset:
     """The drive as the same instrument would have recorded it without this mounting, gain and bias."""
-    force = specific_force(drive) / mounting.gain
+    force = record.felt(drive) / mounting.gain
     rates = np.stack([drive[name].values for name in SIGNALS[3:]]) - np.array(mounting.bias)[:, None]
     turn = np.array(mounting.rotation)[:, None]
     force = force + np.cross(np.broadcast_to(turn, force.shape), force, axis=0)

@@ -115,9 +115,9 @@ def driven(work: xr.Dataset, recorded: xr.Dataset, along: Way, scale: float, off
     return work.assign(s=work["s"].copy(data=place), v_x=work["v_x"].copy(data=scale * recorded["v_x"].values))
 
 
-def speed_scale(drive: xr.Dataset, road) -> float:
+def speed_scale(drive: xr.Dataset, along: Way) -> float:
     """True over recorded v_x: the way driven over the integral of the recorded speed."""
-    first, last = way(drive, road)(drive["s"].values[[0, -1]])
+    first, last = along(drive["s"].values[[0, -1]])
     return float((last - first) / np.trapezoid(drive["v_x"].values, drive["time"].values))
 
 

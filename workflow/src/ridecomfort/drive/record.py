@@ -251,6 +251,11 @@ def specific_force(acceleration, roll, pitch) -> np.ndarray:
     return np.asarray(acceleration) + STANDARD_GRAVITY * upward(roll, pitch)
 
 
+def felt(drive: xr.Dataset) -> np.ndarray:
+    """What the accelerometers of a drive read in m/s2, (3, time), from its accelerations and attitude."""
+    return specific_force([drive[name].values for name in SIGNALS[:3]], drive["roll"].values, drive["pitch"].values)
+
+
 def acceleration(specific_force, roll, pitch) -> np.ndarray:
     """Acceleration in body axes in m/s2, shape (3, time), from what an accelerometer reads and attitude."""
     return np.asarray(specific_force) - STANDARD_GRAVITY * upward(roll, pitch)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ridecomfort.drive.record import specific_force
+from ridecomfort.drive.record import felt
 from ridecomfort.effects.contract import Effect, Parameter
 from ridecomfort.vocabulary import SIGNALS
 
@@ -26,7 +26,7 @@ effect = Effect(
 
 def act(drive, roll, pitch, yaw):
     values = np.stack([drive[name].values for name in SIGNALS])
-    force = specific_force(values[:3], drive["roll"].values, drive["pitch"].values)
+    force = felt(drive)
     change = turned(roll, pitch, yaw).T - np.eye(3)
     moved = values + np.concatenate([change @ force, change @ values[3:]])
     return drive.assign({name: drive[name].copy(data=row) for name, row in zip(SIGNALS, moved, strict=True)})

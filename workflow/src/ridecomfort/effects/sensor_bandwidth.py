@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ridecomfort.drive.record import acceleration, specific_force
+from ridecomfort.drive.record import acceleration, felt
 from ridecomfort.effects.contract import Effect, Parameter
 from ridecomfort.vocabulary import SIGNALS
 
@@ -34,12 +34,11 @@ def act(drive, time):
     # The exact answer to a signal that is straight between its samples.
     now, before = 1.0 - mean, mean - kept
     in_time = np.minimum(clock + time, clock[-1])
-    tilt = drive["roll"].values, drive["pitch"].values
     shown = np.stack([drive[name].values for name in SIGNALS])
-    shown[:3] = specific_force(shown[:3], *tilt)
+    shown[:3] = felt(drive)
     for values in shown:
         state = [(before + kept) * values[0]]
         late = lfilter([now, before], [1.0, -kept], values, zi=state)[0]
         values[:] = CubicSpline(clock, late)(in_time)
-    shown[:3] = acceleration(shown[:3], *tilt)
+    shown[:3] = acceleration(shown[:3], drive["roll"].values, drive["pitch"].values)
     return drive.assign({name: drive[name].copy(data=row) for name, row in zip(SIGNALS, shown, strict=True)})

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ridecomfort.drive.record import specific_force
+from ridecomfort.drive.record import felt
 from ridecomfort.effects.contract import Effect, Parameter
 from ridecomfort.vocabulary import SIGNALS
 
@@ -21,6 +21,6 @@ effect = Effect(
 
 def act(drive, accelerometer, gyroscope):
     values = np.stack([drive[name].values for name in SIGNALS])
-    force = specific_force(values[:3], drive["roll"].values, drive["pitch"].values)
+    force = felt(drive)
     scaled = values + np.concatenate([accelerometer * force, gyroscope * values[3:]])
     return drive.assign({name: drive[name].copy(data=row) for name, row in zip(SIGNALS, scaled, strict=True)})

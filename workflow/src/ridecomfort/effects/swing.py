@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ridecomfort.drive.record import specific_force
-
-ACCELERATIONS = ("a_x", "a_y", "a_z")
+from ridecomfort.drive.record import felt
+from ridecomfort.vocabulary import SIGNALS
 
 
 def swung(drive, signal: str, participation: float, frequency: float, damping_ratio: float):
@@ -14,8 +13,7 @@ def swung(drive, signal: str, participation: float, frequency: float, damping_ra
     if participation == 0.0:
         return drive
     body = drive[signal].values
-    felt = specific_force([drive[name].values for name in ACCELERATIONS], drive["roll"].values, drive["pitch"].values)
-    change = swing(felt[ACCELERATIONS.index(signal)], float(drive["time"][1] - drive["time"][0]), frequency, damping_ratio)
+    change = swing(felt(drive)[SIGNALS.index(signal)], float(drive["time"][1] - drive["time"][0]), frequency, damping_ratio)
     return drive.assign({signal: drive[signal].copy(data=body + participation * change)})
 
 

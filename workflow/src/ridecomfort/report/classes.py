@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..comfort.bands import BANDS
 from ..comfort.iriclass import QUALITIES
-from ..comfort.thresholds import STYLES
+from ..comfort.limits import STYLES
 
 __all__ = ["CRITICAL_BANDS", "CRITICAL_QUALITIES", "QUALITIES", "STYLES"]
 

@@ -1,16 +1,16 @@
 """Critical sections of a site by thresholds of acceleration, with those of jerk beside them."""
 
 from ridecomfort import store
-from ridecomfort.comfort import jerk, thresholds
+from ridecomfort.comfort import jerk, limits, thresholds
 from ridecomfort.steps.command import Command
 
 
 def main(shards, config, output):
-    limits, length, sliding = config["thresholds"], config["critical_length"], config["sections"] == "sliding"
-    signals = (store.read(shard, list(limits)) for shard in shards)
-    found = thresholds.evaluate(signals, limits, length, sliding=sliding)
+    accepted, length, sliding = config["thresholds"], config["critical_length"], config["sections"] == "sliding"
+    signals = (store.read(shard, list(accepted)) for shard in shards)
+    found = thresholds.evaluate(signals, accepted, length, sliding=sliding)
     manoeuvres = (store.read(shard, ["v_x", "a_x", "a_y"]) for shard in shards)
-    shaken = jerk.evaluate(manoeuvres, jerk.bands(config["jerk"]), length, sliding=sliding)
+    shaken = jerk.evaluate(manoeuvres, limits.jerk_bands(config["jerk"]), length, sliding=sliding)
     store.write(
         found.merge(shaken, compat="identical"),
         output,

@@ -46,7 +46,7 @@ def located(site: Compared, model: str) -> Figure:
     errors = findings.findings(found)
     lines = [f"{k}  {notation.signal(each.signal)}{each.words().removeprefix(each.signal)}" for k, each in enumerate(errors, start=1)]
     lines = [f"!  {doubt}" for doubt in findings.doubts(found)] + lines
-    lines = [SMALL] * findings.are_small(errors) + lines + list(filter(None, [findings.gathered(found)]))
+    lines = [SMALL] * findings.are_small(errors) + lines + findings.gathered(found)
     lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines]
     named = model.replace(JOIN, f" {JOIN} ")
     words = [*lines, fill(f"{site.label}, model {named}, {found.attrs['located_state']}; {floor_note(site)}", LONGEST)]

@@ -82,8 +82,7 @@ def findings(study: Difference) -> Table:
             notes.append(f"{site.label}: nothing reaches {100 * located.NAMED:g} %; told is the largest of what is left.")
         rule = "largest shares over bands, attribute words has them as sentences"
         sources.append(Source(site.label, site.files.get("comparison", ""), "power_share, explainable_share, condition_error", rule))
-        said = [*located.doubts(site.comparison), located.gathered(site.comparison)]
-        notes += [f"{site.label}: {words}" for words in said if words]
+        notes += [f"{site.label}: {words}" for words in (*located.doubts(site.comparison), *located.gathered(site.comparison))]
         notes.append(f"{site.label}: state {site.comparison.attrs['located_state']}; {floor_note(site)}")
     return _table(study, "findings", columns, rows, sources, notes, breaks[1:])
 
