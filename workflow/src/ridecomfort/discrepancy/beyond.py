@@ -301,6 +301,6 @@ def _calibrated(selection: Selection, state: State, sizes: Sequence[Size]) -> di
         scales=np.sqrt(state.squares.mean(axis=0)),
     )  # fmt: skip
     point, everything = task.point([state.fit.values[key] for key in task.parameters]), list(range(len(limits)))
-    for _ in range(2):
-        point = descend(task.about(point), point, everything, calibrate.COARSE).point
+    for _ in range(2):  # to the end: between parameters that stand in for one another a rough search stops far from the best
+        point = descend(task.about(point), point, everything, calibrate.EQUAL, exact=True).point
     return dict(zip(task.parameters, task.values(point).tolist()))
