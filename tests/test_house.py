@@ -15,7 +15,7 @@ PACKAGE = Path(ridecomfort.__file__).parent
 REPOSITORY = Path(__file__).resolve().parent.parent
 
 ORDER = [
-    {"vocabulary", "errors", "store", "schema", "pool", "modules"},
+    {"vocabulary", "errors", "csvtable", "store", "schema", "pool", "modules"},
     {"road", "vehicle", "effects", "drive"},
     {"simulate", "space", "sample", "calibrated"},
     {"standin"},

@@ -226,6 +226,14 @@ def test_a_known_unit_counts_among_other_brackets_and_empty_ones_are_none(tmp_pa
     np.testing.assert_allclose(found["a_z"], 9.80665 * wave)
 
 
+def test_rows_with_a_field_more_than_there_are_names_are_refused(tmp_path):
+    """Read on, a_z would be what stands behind it."""
+    rows = "\n".join(f"{time},{np.sin(time)}," for time in TIME)
+    (tmp_path / "my.csv").write_text(f"time,a_z\n{rows}\n")
+    with pytest.raises(InputError, match="my.csv: line 2: 3 fields, expected one for each of the 2 names"):
+        alone.recording(tmp_path / "my.csv")
+
+
 def test_columns_that_are_not_read_are_named(tmp_path, capsys):
     file = write(tmp_path / "my.csv", time=TIME, a_x=np.sin(TIME), az=np.cos(TIME), speed=0 * TIME)
     main(["comfort", "--iso2631", str(file)])

@@ -65,6 +65,14 @@ def test_columns_become_quantities_in_si_units(tmp_path):
     assert drive.attrs["name"] == "drive" and drive["pitch_rate"].attrs["units"] == "rad/s"
 
 
+def test_a_place_of_the_sensor_that_lacks_a_direction_is_refused(tmp_path):
+    drive = readers.read(write(tmp_path, table()), COLUMNS, sensor=(0.1, 0.2, 0.3))
+    del drive.attrs["sensor_y"]
+    store.write(drive, tmp_path / "drive.nc", title="a drive")
+    with pytest.raises(InputError, match="drive.nc: has no attribute 'sensor_y'"):
+        readers.read(tmp_path / "drive.nc")
+
+
 def test_a_netcdf_file_of_the_drive_schema_comes_back_as_it_was(tmp_path):
     drive = readers.read(write(tmp_path, table()), COLUMNS, role="check", sensor=(0.1, 0.2, 0.3), lateral_position=0.4)
     store.write(drive, tmp_path / "drive.nc", title="a drive")

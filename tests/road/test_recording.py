@@ -52,6 +52,14 @@ def test_a_trajectory_that_cannot_be_used_is_refused_in_one_line(tmp_path, data,
     assert "\n" not in str(refusal.value) and "t.csv" in str(refusal.value)
 
 
+def test_a_trajectory_whose_rows_are_longer_than_its_header_is_refused_by_line(tmp_path):
+    table().to_csv(tmp_path / "t.csv", index=False, lineterminator=",\n")
+    text = (tmp_path / "t.csv").read_text()
+    (tmp_path / "t.csv").write_text(text.replace(",\n", "\n", 1))
+    with pytest.raises(InputError, match="line 2: 8 fields, expected one for each of the 7 names"):
+        recording.trajectory(tmp_path / "t.csv")
+
+
 def netcdf(path, time=("s", TIME), **variables):
     """A trajectory of (unit, values); None: without a unit."""
     pose = {name: ("m" if name in "xyz" else None, values) for name, values in POSE.items()} | variables

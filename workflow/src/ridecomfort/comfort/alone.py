@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from .. import csvtable
 from ..drive import sampling, units
 from ..drive.readers import csv
 from ..errors import InputError
@@ -77,7 +78,7 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
     that is out of reason in its unit. Attribute ``unused``: a sentence about columns that were not read, or "".
     """
     settings = settings or {}
-    present = list(_table(file, rows=0).columns)
+    present = list(csvtable.read(file, rows=0).columns)
     columns = {**_headed(present, ("time", *AXES)), **settings.get("columns", {})}
     if "time" not in columns:
         raise InputError(f"no column time (found {', '.join(present)}); name it with --column time=COLUMN", file=file)
@@ -311,7 +312,7 @@ def roughness(
     """
     if local is not None and not (np.isfinite(local) and local > 0.0):
         raise InputError(f"{local!r}, expected an IRI above 0 m/km", place="--local")
-    table = _table(file)
+    table = csvtable.read(file)
     columns = {**_headed(table.columns, ("s", *HEIGHTS)), **(columns or {})}
     names = [name for name in HEIGHTS if name in columns]
     if "s" not in columns or not names:
@@ -374,13 +375,4 @@ def _check_ascending(s: np.ndarray, column, file) -> None:
         return
     i = back[0] + int(np.isfinite(s[back[0]]))
     found = f"{s[i]:.6g} m after {s[i - 1]:.6g} m" if i and np.isfinite(s[i]) else "no number"
-    raise InputError(f"{found} (expected positions that ascend)", file=file, place=f"line {csv.line_of(file, i)}, column {column!r}")
-
-
-def _table(file, rows: int | None = None) -> pd.DataFrame:
-    try:
-        return pd.read_csv(file, skipinitialspace=True, nrows=rows)
-    except FileNotFoundError:
-        raise InputError("no such file", file=file) from None
-    except (OSError, ValueError, UnicodeDecodeError) as problem:
-        raise InputError(f"not a readable CSV file ({str(problem).splitlines()[0]})", file=file) from None
+    raise InputError(f"{found} (expected positions that ascend)", file=file, place=f"line {csvtable.line_of(file, i)}, column {column!r}")

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from .. import store
+from .. import csvtable, store
 from ..drive import units
 from ..errors import InputError
 from .survey import POSE, Profiles
@@ -77,12 +77,7 @@ def trajectory(path) -> xr.Dataset:
             raise InputError("expected every variable over a dimension time that has values", file=path)
         values = {name: _variable(recorded[name], path) for name in ("time", *POSE)}
         return xr.Dataset({name: ("time", values[name]) for name in POSE}, coords={"time": values["time"]})
-    if not path.is_file():
-        raise InputError("no such file", file=path)
-    try:
-        table = pd.read_csv(path, skipinitialspace=True)
-    except (ValueError, UnicodeDecodeError) as problem:
-        raise InputError(f"not a readable CSV file ({str(problem).splitlines()[0]})", file=path) from None
+    table = csvtable.read(path)
     values = {}
     for column in table:
         parts = re.fullmatch(r"(\w+)\s*(?:\[(.*)\])?", column.strip())
@@ -122,5 +117,5 @@ def _column(name: str, series: pd.Series, unit: str | None, path: Path) -> np.nd
     bad = np.flatnonzero(~np.isfinite(numbers))
     if bad.size:
         value = "nothing" if pd.isna(series.iloc[bad[0]]) else repr(series.iloc[bad[0]])
-        raise InputError(f"{value}, expected a number", file=path, place=f"line {bad[0] + 2}, column {column!r}")
+        raise InputError(f"{value}, expected a number", file=path, place=f"line {csvtable.line_of(path, bad[0])}, column {column!r}")
     return numbers * factor

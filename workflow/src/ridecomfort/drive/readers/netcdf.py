@@ -53,8 +53,12 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     for name in ("name", "role", "lateral_position"):
         if name in dataset.attrs:
             attributes[name] = dataset.attrs[name]
-    if "sensor_x" in dataset.attrs:
-        attributes["sensor"] = tuple(float(dataset.attrs[f"sensor_{axis}"]) for axis in "xyz")
+    place = {name: dataset.attrs.get(name) for name in ("sensor_x", "sensor_y", "sensor_z")}
+    lacking = [name for name, value in place.items() if value is None]
+    if len(lacking) < len(place):
+        if lacking:
+            raise InputError(f"has no attribute {lacking[0]!r} (expected all of {', '.join(place)}, or none)", file=path)
+        attributes["sensor"] = tuple(map(float, place.values()))
     return quantities, attributes
 
 
