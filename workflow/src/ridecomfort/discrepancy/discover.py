@@ -17,7 +17,7 @@ import xarray as xr
 
 from .. import pool
 from ..effects.contract import Parameter
-from . import event, opening
+from . import opening
 from . import experiment as exp
 from .balance import LITTLE
 from .candidates import is_varied, shaping_size, towards
@@ -150,7 +150,7 @@ def discovered(
         rung = replace(rung, experiment=rung.experiment.looking_for([*known, *terms], folder))
         selection = search(
             rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
-            say=say, few=event.SEVERAL, simpler={candidate.name for candidate in known}, probed=probed,
+            say=say, simpler={candidate.name for candidate in known}, probed=probed,
             known=heard_as(line, radius),
         )  # fmt: skip
         residuals = exp.simulate(rung.experiment, {**rung.fit.values, **selection.final.values}, rung.fit.residuals)

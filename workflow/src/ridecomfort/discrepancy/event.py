@@ -14,12 +14,10 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from .experiment import Frame
 
-FEW_BLOCKS = 8.0
-"""Blocks below which the power of a column counts as that of events (participation number)."""
-
-SEVERAL = 20.0
-"""The same where a force of any form is looked for: of so many blocks, or fewer, the signs cannot be turned in enough ways for one of some
-hundred columns to stand out, and play in the steering, which turns back at a dozen places, was never sure."""
+FEW_BLOCKS = 20.0
+"""Blocks below which the power of a column counts as that of events (participation number): the signs of so few cannot be turned in enough
+ways for one of some hundred columns to stand out. Play in the steering, which turns back at a dozen places, was never sure by them, nor a
+stop that three drives meet a few times each, though it took nine tenths of the error."""
 
 HELD = 0.95
 """Share of a column's power that its window holds."""
@@ -41,15 +39,15 @@ def participation(columns: np.ndarray, numbers: np.ndarray) -> np.ndarray:
 
 
 def p_values(
-    frame: Frame, residual: np.ndarray, columns: np.ndarray, group: np.ndarray, sign: np.ndarray, few: float = FEW_BLOCKS
+    frame: Frame, residual: np.ndarray, columns: np.ndarray, group: np.ndarray, sign: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """By group: p-value over all groups whose columns act at less than ``few`` places (1 for the others), and whether it is one of them.
+    """By group: p-value over all groups whose columns act at less than FEW_BLOCKS places (1 for the others), and whether it is one of them.
 
     ``residual`` (element,) and ``columns`` (column, element) are vectors of ``frame``; ``sign`` is 1 where only positive
     amounts of a column are physical, else 0.
     """
     found, rare = np.ones(group.max() + 1), np.zeros(group.max() + 1, dtype=bool)
-    own = np.flatnonzero(participation(columns, frame.blocks()) < few)
+    own = np.flatnonzero(participation(columns, frame.blocks()) < FEW_BLOCKS)
     if not own.size:
         return found, rare
     groups, numbers = np.unique(group[own], return_inverse=True)

@@ -66,10 +66,10 @@ class Proposal:
 
 def propose(
     frame: Frame, residuals: Mapping[int, np.ndarray], free: np.ndarray, columns: Mapping[Job, Raw],
-    candidates: Mapping[str, Candidate], seed: Sequence[int], few: float = event.FEW_BLOCKS, known: Mapping[str, float] = {},
+    candidates: Mapping[str, Candidate], seed: Sequence[int], known: Mapping[str, float] = {},
 ) -> Proposal:  # fmt: skip
-    """Test ``columns`` on the white residuals of the fitted records; ``free``: white directions that are fitted anyway; ``few``: blocks
-    below which a column acts at few places. ``known``: p-values by name of what another test has found, of all candidates like these.
+    """Test ``columns`` on the white residuals of the fitted records; ``free``: white directions that are fitted anyway. ``known``:
+    p-values by name of what another test has found, of all candidates like these.
 
     All sizes of a candidate in one shape count together and each alone, two that may be of either sign against one another as well.
     """
@@ -93,7 +93,7 @@ def propose(
         frame.flat(residuals), free, np.stack([*rows, *decoys]), [frame.blocks(), frame.blocks(event.FINER)],
         group=group, sign=sign, seed=seed,
     )  # fmt: skip
-    by_shape, rare = event.p_values(frame, found.residual, found.projected, np.array(group), np.array(sign), few)
+    by_shape, rare = event.p_values(frame, found.residual, found.projected, np.array(group), np.array(sign))
     p_value = np.minimum(np.minimum(BY_BLOCKS * found.p_value, BY_SHAPE * by_shape), 1.0)
     p_value = np.maximum(p_value, found.white_p_value)
     jobs = list(columns)

@@ -30,6 +30,9 @@ SAME_GAIN = 0.05
 RENEWAL = 0.3
 """Probes that a size must have moved for its column to be made anew."""
 
+LEAST_BLOCKS = 8.0
+"""Blocks that the difference of two fits must be spread over (participation number) for its z to be that over blocks."""
+
 AT_BOUND = 1e-3
 """Share of the width of its bounds within which a size lies at one of them."""
 
@@ -299,7 +302,7 @@ def advantage(frame: Frame, one: Mapping[int, np.ndarray], other: Mapping[int, n
     sums = sums[sums != 0]
     fall = float(sums.sum())
     change = (better - worse)[None]
-    if fall > 0 and event.participation(change, frame.blocks())[0] < event.FEW_BLOCKS:
+    if fall > 0 and event.participation(change, frame.blocks())[0] < LEAST_BLOCKS:
         return fall, float(norm.isf(event.p_values(frame, worse, change, np.zeros(1, int), np.ones(1))[0][0]))
     spread = np.sqrt(np.sum((sums - sums.mean()) ** 2)) if sums.size > 1 else np.inf
     return fall, float(fall / spread) if spread > 0 else 0.0

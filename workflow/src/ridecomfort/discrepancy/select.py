@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import allowance, cluster, event, probe, refit
+from . import allowance, cluster, probe, refit
 from . import experiment as exp
 from .allowance import Allowance
 from .confirm import LEAST_SHARE, Confirmation, best
@@ -66,7 +66,6 @@ def search(
     each: Callable = map,
     together: Callable[[Sequence[str], str], bool] = lambda accepted, other: True,
     say: Callable[[str], None] = lambda words: None,
-    few: float = event.FEW_BLOCKS,
     simpler: Collection[str] = (),
     probed: Mapping[Job, Raw] = {},
     known: Mapping[str, float] = {},
@@ -74,10 +73,10 @@ def search(
     """Find up to ``most`` missing effects from a ``rung``.
 
     ``each`` maps a function over candidates (``map`` or that of a pool); ``together`` says whether a candidate may follow those
-    accepted, by their names; ``say`` is told what goes on; ``few``: as for ``propose``. ``simpler``: names that go before any other which
+    accepted, by their names; ``say`` is told what goes on; ``simpler``: names that go before any other which
     explains hardly more. ``probed``: columns of candidates that are known from a search from the same rung. ``known``: as for ``propose``.
     """
-    return _Search(rung, most, seed, each, together, say, few, simpler, probed, known).run()
+    return _Search(rung, most, seed, each, together, say, simpler, probed, known).run()
 
 
 @dataclass
@@ -88,7 +87,6 @@ class _Search:
     each: Callable
     together: Callable
     say: Callable
-    few: float = event.FEW_BLOCKS
     simpler: Collection[str] = ()
     probed: Mapping[Job, Raw] = field(default_factory=dict)
     known: Mapping[str, float] = field(default_factory=dict)
@@ -221,7 +219,7 @@ class _Search:
         if not jobs:
             return Round.empty()
         columns = {job: self.columns[job] for job in jobs}
-        found = propose(rung.frame, base.residuals, free, columns, self.by_name, [self.seed, number], self.few, self.known)
+        found = propose(rung.frame, base.residuals, free, columns, self.by_name, [self.seed, number], self.known)
         self.confirmation = Confirmation(rung, self.by_name, self.first, found.rare, found.certain(), not self.accepted)
         order = found.significant(PROPOSED)
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
