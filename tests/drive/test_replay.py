@@ -46,6 +46,22 @@ def test_the_same_vehicle_repeats_its_own_record(driven, car):
     assert share["a_z"] < 0.005 and share["roll_rate"] < 0.01 and share["pitch_rate"] < 0.01
 
 
+def test_a_centre_of_gravity_that_lies_farther_back_than_the_drive_is_told_of_moves_neither_sensor_nor_axles(driven, car):
+    """What is calibrated is where the centre of gravity lies, not where the instrument sits or the wheels are."""
+    course, told = driven
+    back = 0.12
+    other = car.replace(cg_to_front_axle=car["cg_to_front_axle"] + back)
+    x, y, z = trials.SENSOR
+    demand = trials._demand(np.random.default_rng(5), course.u, 22.0)
+    truth = simulate.run(course, other, sensor=(x + back, y, z), **demand)
+    record = truth[list(DRIVE)].isel(time=slice(200, None)).assign_attrs(told.attrs)
+    record = record.assign(s=record["s"] + back).assign_attrs(cg_to_front_axle=car["cg_to_front_axle"])
+    again = replay(record, course, simulate.run).tuned(other)
+    left = again.residual(again(other))[:, again.compared]
+    share = dict(zip(SIGNALS, left.std(axis=1) / again.measured()[:, again.compared].std(axis=1)))
+    assert max(share[name] for name in ("a_x", "a_z", "roll_rate", "pitch_rate")) < 0.02
+
+
 def test_it_drives_the_recorded_path_at_the_recorded_speed(driven, car):
     course, record = driven
     again = replay(record, course, simulate.run).tuned(car)

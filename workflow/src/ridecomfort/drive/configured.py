@@ -9,6 +9,7 @@ import xarray as xr
 from ..errors import InputError
 from ..vocabulary import STANDARD_GRAVITY
 from . import readers
+from .record import TOLD_OF
 
 PASSED_ON = ("name", "role", "gravity", "lateral_position", "road_friction", "distance_start")
 """Keys of a drive's entry that ``record.from_arrays`` knows by the same name."""
@@ -21,8 +22,8 @@ def read(path, entry: Mapping, vehicle, *, rate: float = 100.0) -> xr.Dataset:
     """The drive in the file, by the entry of a site file (workflow/schemas/site.yaml, ``drive``).
 
     ``vehicle`` turns places that are measured at the car (behind the front axle, above the
-    wheel centres) into places relative to the centre of gravity. A sensor without a place
-    is taken to sit there. ``rate`` in Hz. Raises InputError naming the file.
+    wheel centres) into places relative to the centre of gravity, and where that lies stands among the attributes (TOLD_OF). A sensor
+    without a place is taken to sit there. ``rate`` in Hz. Raises InputError naming the file.
     """
     attributes = {key: entry[key] for key in PASSED_ON if key in entry}
     place = entry.get("sensor") or {}
@@ -34,7 +35,7 @@ def read(path, entry: Mapping, vehicle, *, rate: float = 100.0) -> xr.Dataset:
     drive = readers.read(path, entry.get("columns"), rate=rate, **attributes)
     if entry.get("distance_of", "body") == "front_axle":
         drive["s"] = drive["s"].copy(data=drive["s"].values - vehicle["cg_to_front_axle"])
-    return drive
+    return drive.assign_attrs({TOLD_OF: float(vehicle[TOLD_OF])})
 
 
 def check_speed(aligned: xr.Dataset, path) -> xr.Dataset:

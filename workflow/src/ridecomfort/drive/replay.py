@@ -17,7 +17,7 @@ from scipy.signal import butter, sosfiltfilt, welch
 from ..errors import InputError
 from ..vehicle.driver import path_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
-from .record import upward
+from .record import TOLD_OF, upward
 from .sampling import rate_of, resampled, resampled_slopes
 
 RUN_IN = 50.0
@@ -124,8 +124,15 @@ class Replay:
         return self.sample(self.run(vehicle, effects), clock)
 
     def run(self, vehicle, effects=()) -> xr.Dataset:
-        """The simulated drive on its own clock."""
-        return self.simulate(self.road, vehicle, effects=effects, **self.demand, **self.options)
+        """The simulated drive on its own clock. Where the centre of gravity of ``vehicle`` lies farther back than that which the drive is told
+        of (TOLD_OF), the sensor stays at its place behind the axle, and ``s`` is that of the same point of the body."""
+        told_of, demand = self.drive.attrs.get(TOLD_OF), self.demand
+        back = 0.0 if told_of is None else vehicle[TOLD_OF] - told_of
+        if back:
+            x, y, z = demand["sensor"]
+            demand = {**demand, "sensor": (x + back, y, z), **{end: demand[end] - back for end in ("start", "end")}}
+        run = self.simulate(self.road, vehicle, effects=effects, **demand, **self.options)
+        return run.assign(s=run["s"] + back) if back else run
 
     def sample(self, run: xr.Dataset, clock: float = 0.0) -> Simulated:
         """A simulated drive at the places where the vehicle was at the measured instants minus ``clock``."""
