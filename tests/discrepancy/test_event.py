@@ -96,6 +96,8 @@ def test_what_acts_at_a_dozen_places_counts_as_an_event_and_what_acts_all_along_
         blocks=blocks, indices=[0], experiment=SimpleNamespace(records=[SimpleNamespace(rate=100.0)]),
         parts=lambda rows: [rows.reshape(*rows.shape[:-1], CHANNELS, SAMPLES)],
     )  # fmt: skip
+    of_dozen, of_all = event.participation(columns.reshape(2, -1), frame.blocks())
+    assert 8.0 < of_dozen < event.FEW_BLOCKS < of_all
     p_value, rare = event.p_values(frame, residual.ravel(), columns.reshape(2, -1), np.arange(2), np.zeros(2))
     assert rare.tolist() == [True, False] and p_value[0] < 0.005 and p_value[1] == 1.0
 

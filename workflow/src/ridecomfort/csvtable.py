@@ -20,7 +20,7 @@ def read(path, rows: int | None = None) -> pd.DataFrame:
     import pandas as pd
 
     try:
-        check_separator(path)
+        names(path)
         table = pd.read_csv(path, skipinitialspace=True, nrows=rows)
     except InputError:
         raise
@@ -34,17 +34,14 @@ def read(path, rows: int | None = None) -> pd.DataFrame:
 
 
 def names(path) -> list[str]:
-    """What the first line of a file names. Raises ValueError where that is no text."""
+    """What the first line of a file names. Raises UnicodeDecodeError where that is no text, and InputError where all names stand in one column
+    because something else than a comma lies between them."""
     with open(path, encoding="utf-8-sig", newline="") as file:
-        return next(csv.reader(file, skipinitialspace=True), [])
-
-
-def check_separator(path) -> None:
-    """Raise InputError where all names stand in one column because something else than a comma lies between them."""
-    found = names(path)
+        found = next(csv.reader(file, skipinitialspace=True), [])
     for separator in (";", "\t") if len(found) == 1 else ():
         if separator in found[0]:
             raise InputError(f"one column only: separated by {separator!r}? (expected ',')", file=path, place="line 1")
+    return found
 
 
 def line_of(path, row: int) -> int:

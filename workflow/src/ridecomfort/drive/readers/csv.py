@@ -49,7 +49,6 @@ def check(path, columns: Mapping[str, Mapping] | None) -> None:
     """Raise InputError where the first line of the file does not name what ``columns`` asks for, or a drive needs without them."""
     try:
         found = csvtable.names(path)
-        csvtable.check_separator(path)
     except UnicodeDecodeError:
         return  # reading it says why
     if columns is None and missing(found):
