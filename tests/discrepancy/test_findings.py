@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ridecomfort import vocabulary
-from ridecomfort.discrepancy import findings, locate
+from ridecomfort.discrepancy import classes, findings, locate
 
 from .drives import put_between_1400_and_1600_m
 
@@ -49,9 +49,17 @@ def test_an_error_at_many_places_is_not_said_to_be_everywhere(located):
     assert "at many places, half of it on 10 % of the road" in findings.words(patchy)[0]
 
 
+def test_two_steady_speeds_are_told_apart_between_them(located):
+    """Within what a driver holds of one speed lies no edge, though it wavers a little."""
+    wavering = put_between_1400_and_1600_m()
+    wavering["v_x"] = wavering["v_x"] + 0.1 * np.sin(np.arange(wavering.sizes["time"]))
+    assert findings.findings(locate.locate(wavering))[0].when == "speeds above 72 km/h"
+
+
 def test_low_classes_are_said_with_the_other_word(located):
+    held = ("condition_share", "condition_error", "condition_measured")
     turned = located.sel(condition=["speed"])
-    turned = turned.assign({key: turned[key].isel({"class": slice(None, None, -1)}) for key in ("condition_error", "condition_measured")})
+    turned = turned.assign({key: turned[key].isel({"class": slice(None, None, -1)}) for key in held})
     assert "speeds below" in findings.findings(turned)[0].when
 
 
@@ -59,6 +67,7 @@ def test_what_grows_less_than_the_signal_is_relatively_most_where_that_is_small(
     """As friction: the error is largest on rough road, and in percent of the signal on smooth road."""
     rough = located.copy(deep=True)
     error, measured = rough["condition_error"], rough["condition_measured"]
+    rough["condition_share"][...] = 1 / located.sizes["class"]
     growing = np.linspace(1.0, 2.0, located.sizes["class"])
     error[...] = growing[None, :, None, None]
     measured[...] = 1.0
@@ -132,6 +141,5 @@ def test_every_condition_that_is_located_has_its_words():
     rng = np.random.default_rng(0)
     held = (*vocabulary.SIGNALS, "v_x", "suspension_velocity", "tyre_velocity", "road_heave", "road_tilt")
     series = {name: 10.0 + rng.standard_normal(1000) for name in held}
-    drive = locate.Drive(100.0, *[np.zeros((6, 1000))] * 5, series, None)
-    assert set(locate._condition_series(drive)) == set(findings.CONDITIONS)
+    assert set(classes.conditions(series, 100.0)) == set(findings.CONDITIONS)
     assert findings.CONDITIONS["curvature"][0](0.01) == "radii below 100 m"

@@ -132,6 +132,7 @@ VARIABLES = _table(
     ("error_density", "1", "power spectral density of the error, in the unit of the signal squared per Hz"),
     ("condition_edge", "1", "edges of the classes of a condition, in its SI unit"),
     ("condition_level", "1", "mean of a condition in each class, in its SI unit"),
+    ("condition_share", "1", "share of the time that each class of a condition holds"),
     ("condition_error", "1", "mean square error in each class of a condition, in the unit of the signal squared"),
     ("condition_measured", "1", "mean square of the measured signal in each class of a condition, in its unit squared"),
     ("stretch_start", "m", "start of the stretch along the reference line"),

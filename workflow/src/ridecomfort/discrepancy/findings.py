@@ -173,8 +173,9 @@ def _when(located: xr.Dataset, signal: int, band: int) -> str:
 
     Beside the signal: rough stretches make any error larger, and only what grows otherwise than the signal says something of its cause.
     """
-    error = located["condition_error"].values[:, :, signal, band] - float(located["band_floor"][signal, band])
-    measured = located["condition_measured"].values[:, :, signal, band]
+    time = located["condition_share"].values
+    error = time * (located["condition_error"].values[:, :, signal, band] - float(located["band_floor"][signal, band]))
+    measured = time * located["condition_measured"].values[:, :, signal, band]
     parts = (np.cumsum(each, axis=1) / each.sum(axis=1, keepdims=True) for each in (error, measured))
     below, signal_below = (each[:, :-1] for each in parts)
     sides = [(1.0 - below, 1.0 - signal_below), (below, signal_below)]

@@ -10,7 +10,7 @@ import xarray as xr
 from scipy.signal import stft
 
 from ..drive.sampling import rate_of
-from . import explain, judged
+from . import classes, explain, judged
 from .response import responses
 
 BANDS = ((judged.LOWEST, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
@@ -24,13 +24,6 @@ STEP = 20.0
 
 WINDOW = 2.0
 """s of a spectrum of that map."""
-
-CLASSES = 5
-"""Classes of equal duration that a condition is divided into."""
-
-SLOW = 1.0
-"""Hz up to which a condition may change; its classes are of how the drive goes, not of single waves."""
-
 
 @dataclass(frozen=True)
 class Drive:
@@ -61,10 +54,8 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     drives, of what is judged (``judged.judged``):
     ``error_power(signal, stretch, band)`` and ``floor_power`` of the floor there; ``power_share``, the error above the
     floor over the signal's measured power in all bands, and ``explainable_share``, over its own in all bands above the floor; ``error_map(signal, s_map,
-    frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; by classes of equal duration
-    of a ``condition`` (SI units; edges in ``condition_edge``, means in ``condition_level``) ``condition_error`` and
-    ``condition_measured(condition, class, signal, band)``, the floor of which is
-    ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated, the ``ratio(signal)`` of their rms, what of the
+    frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; what ``classes.by_condition`` says of
+    conditions, the floor of which is ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated, the ``ratio(signal)`` of their rms, what of the
     first speaks for a wrong sign, ``against(signal)`` (``judged.against``), and another signal that it goes with instead,
     ``goes_with(signal)`` (``judged.taken_for``); and what ``response.responses`` says of transfer functions.
     Attribute ``located_state`` names the state, ``floor`` where the floor is known from.
@@ -87,7 +78,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     measured = np.average(powers, axis=0, weights=[len(d.place) for d in drives]).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
     whole = np.maximum(above.sum(axis=1, keepdims=True), 0.0).sum(axis=2, keepdims=True)  # bands below the floor take nothing off
-    conditions, condition_edges, levels, by_condition = _conditions(drives, bands)
+    by_condition = classes.by_condition([_driven(drive) for drive in drives], bands)
     places, frequency, density = _map([(d.place, d.error) for d in drives], rate)
     if noise:
         floor_density = np.nanmean(_map([(d.own.place, d.own.noise) for d in drives if d.own], rate)[2], axis=1)
@@ -106,12 +97,6 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
             "explainable_share": (("signal", "stretch", "band"), above / np.where(whole > 0, whole, np.nan)),
             "error_map": (("signal", "s_map", "frequency_map"), density),
             "floor_density": (("signal", "frequency_map"), floor_density),
-            "condition_edge": (("condition", "edge"), condition_edges),
-            "condition_level": (("condition", "class"), levels),
-            **{
-                f"condition_{key}": (("condition", "class", "signal", "band"), values)
-                for key, values in zip(("error", "measured"), by_condition)
-            },
             "correlation": ("signal", judged.correlation(signal, signal + error), {"units": "1"}),
             "ratio": ("signal", judged.ratio(signal, signal + error), {"units": "1"}),
             "against": ("signal", judged.against(recorded, driven, rate, names), {"units": "1"}),
@@ -124,12 +109,11 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
         },
         {
             "signal": comparison["signal"].values,
-            "condition": conditions,
             "s_map": ("s_map", places, {"units": "m"}),
             "frequency_map": ("frequency_map", frequency, {"units": "Hz"}),
         },
     )
-    result = result.merge(responses(drives, list(comparison["signal"].values)))
+    result = result.merge(by_condition).merge(responses(drives, list(comparison["signal"].values)))
     return result.assign_attrs(located_state=name, floor=comparison.attrs.get("floor", explain.NIL))
 
 
@@ -143,6 +127,10 @@ def _drive(row: xr.Dataset, own: explain.OwnNoise | None) -> Drive:
     rate = rate_of(time)
     both = (judged.judged(each, rate, row["signal"].values) for each in (residual[:, kept], signals[0]))
     return Drive(rate, residual[:, kept], *signals, *both, series, own)
+
+
+def _driven(drive: Drive) -> classes.Driven:
+    return classes.Driven(drive.rate, drive.error, drive.signal, classes.conditions(drive.series, drive.rate))
 
 
 def _stretches(drives: Sequence[Drive]) -> np.ndarray:
@@ -198,53 +186,6 @@ def _map(parts, rate: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     total = np.where(known, rows, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
     inside = (frequency >= BANDS[0][0]) & (frequency <= BANDS[-1][1])
     return grid, frequency[inside], np.where(known.any(axis=0), total, np.nan)[:, :, inside]
-
-
-def _conditions(drives: Sequence[Drive], bands):
-    """Conditions by name, their edges (condition, edge) and mean levels (condition, class) in SI units, and mean squares of
-    residual and measured, (2, condition, class, signal, band)."""
-    known = [_condition_series(drive) for drive in drives]
-    names = [name for name in known[0] if all(name in own for own in known)]
-    edges = np.stack(
-        [np.quantile(np.concatenate([own[name] for own in known]), np.linspace(0, 1, CLASSES + 1)) for name in names]
-    )
-    power = np.zeros((2, len(names), CLASSES, len(drives[0].residual), len(bands)))
-    samples, levels = np.zeros((2, len(names), CLASSES))
-    for drive, own in zip(drives, known):
-        which = [np.clip(np.searchsorted(edge, own[name], "right") - 1, 0, CLASSES - 1) for name, edge in zip(names, edges)]
-        for n, classes in enumerate(which):
-            samples[n] += np.bincount(classes, minlength=CLASSES)
-            levels[n] += np.bincount(classes, own[names[n]], minlength=CLASSES)
-        for k, band in enumerate(bands):
-            for source, series in enumerate((drive.error, drive.signal)):
-                for i, row in enumerate(judged.band(series, drive.rate, band) ** 2):
-                    for n, classes in enumerate(which):
-                        power[source, n, :, i, k] += np.bincount(classes, row, minlength=CLASSES)
-    levels = np.where(samples > 0, levels / np.maximum(samples, 1), np.nan)
-    samples = np.maximum(samples, 1)
-    return names, edges, levels, power / samples[None, :, :, None, None]
-
-
-def _condition_series(drive: Drive) -> dict[str, np.ndarray]:
-    """What the drive does at every sample, by name of the condition: (sample,) in SI units."""
-    speed = drive.series["v_x"]
-    found = {"speed": speed}
-    if "yaw_rate" in drive.series:
-        found["curvature"] = np.abs(_slow(drive.series["yaw_rate"], drive.rate)) / np.maximum(speed, 1.0)
-    for name, signal in (("lateral_acceleration", "a_y"), ("longitudinal_acceleration", "a_x")):
-        if signal in drive.series:
-            found[name] = np.abs(_slow(drive.series[signal], drive.rate))
-    for name in ("suspension_velocity", "tyre_velocity"):
-        if name in drive.series:
-            found[name] = np.sqrt(np.maximum(_slow(drive.series[name] ** 2, drive.rate), 0.0))
-    return found
-
-
-def _slow(series: np.ndarray, rate: float) -> np.ndarray:
-    """The running mean over 1/SLOW seconds."""
-    count = max(1, int(rate / SLOW))
-    weight = np.convolve(np.ones(len(series)), np.ones(count), "same")
-    return np.convolve(series, np.ones(count), "same") / weight
 
 
 def _positive(values: np.ndarray) -> np.ndarray:

@@ -52,6 +52,7 @@ def conditions(site: Compared) -> Figure:
     for axes, name in zip(panels, names):
         label, factor = AXES[name]
         one = found.sel(condition=name)
+        one = one.isel({"class": np.flatnonzero(one["condition_share"].values)})
         middle = factor * one["condition_level"].values
         for signal in SIGNALS:
             own = one.sel(signal=signal)
