@@ -17,6 +17,7 @@ from ridecomfort.discrepancy import explain, judged, opening
 from ridecomfort.discrepancy.car import Car
 from ridecomfort.discrepancy.realign import ROUNDS
 from ridecomfort.drive import align
+from ridecomfort.drive.record import TOLD_OF
 from ridecomfort.errors import InputError
 from ridecomfort.effects import library
 from ridecomfort.effects.contract import COMPILED
@@ -109,9 +110,10 @@ def make(
     true_car, _ = with_values(car, {}, hidden)
     demands = [_demand(rng, road.u.values, speed) for speed in (SPEED, SPEED, SPEED, SLOWER * SPEED)]
     every = tuple(effects) + tuple(background)
+    told_of = {name: car[name] for name in TOLD_OF}
     drive = lambda vehicle, sizes, demand: simulate.run(
         course, vehicle, effects={**_quiet(every), **sizes}, effects_folder=SHAPES, sensor=SENSOR, step=step, **demand
-    )
+    ).assign_attrs(told_of)
     bare = [drive(true_car, {}, demand) for demand in demands]
     errors = [_path(rng, road.u.values, path_error) for _ in demands]
     noises = [_noise(rng, record) for record in bare]

@@ -105,6 +105,26 @@ def test_data_that_are_suspect_beside_a_vehicle_put_right_do_not_take_the_place_
     assert best.verdict.verdict == "outside"
 
 
+def test_but_a_road_that_is_suspect_beside_it_is_a_reason():
+    """Tyres that damp a hundredth of what the file says; beside them the drives fit a smoother road."""
+    road = Verdict("suspect", (), ("a smoother road",), 0.0, 0.0)
+    other = righted.Outcome(None, road, None, ends(0.0, 0.0), None)
+    best, told, _ = chosen(search(0.2, 0.3), outcome(), search(0.9, 0.9, suspected="road", parameters=ALONE), other)
+    assert told is ALONE and (best.verdict.verdict, best.verdict.reasons) == ("outside", ("a smoother road",))
+
+
+@pytest.mark.parametrize("kind", ["named", "outside"])
+def test_fewer_effects_with_parameters_that_do_as_well_are_told_last_and_take_no_place(kind):
+    as_good = beyond.BeyondBounds((BAR,), 0.5, 0.6, is_instead=True, effects=("damper_knee",))
+    second = search(0.5, 0.6, kind="named", parameters=as_good)
+    assert not second.leaves_nothing_out
+    its = outcome(kind)
+    best, told, is_asked = chosen(search(0.5, 0.6), its, second, outcome())
+    assert (best, told, is_asked) == (its, as_good, False)
+    beside = beyond.BeyondBounds((DAMPER,), 0.1, 0.1)
+    assert chosen(search(0.5, 0.6), its, second, outcome(), found=beside)[1] is beside
+
+
 def test_a_second_search_is_not_asked_where_the_first_leaves_nothing_open():
     best, told, is_asked = chosen(search(0.9, 0.9), outcome("named"), search(0.95, 0.95, parameters=ALONE), outcome())
     assert not is_asked and told is None and best.verdict.verdict == "named" and righted.TRIED in best.verdict.reasons

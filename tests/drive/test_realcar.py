@@ -150,13 +150,17 @@ def test_as_the_readme_calibrates_a_car_of_which_little_is_known_most_of_its_err
 
 @pytest.mark.long
 def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_file_of_the_vehicle_is_wrong(drives, road, car, calibration):
+    """Within a tenth or two of a file of another car: the effects that are found where its inertias and bars are calibrated, or three of
+    them and those parameters, as good."""
     _, verdict, _ = diagnose({"realcar": (road, drives)}, car, calibration=calibration, bounds=BOUNDS)
-    assert verdict.verdict == "outside" and verdict.held_out_share > 0.4
+    assert verdict.share > 0.4 and verdict.held_out_share > 0.5
     assert verdict.effects[0].name == "damper_asymmetry"
-    assert {effect.name for effect in verdict.effects[1:3]} == {"damper_knee", "wheel_recession"}
-    beyond = {one.parameter: one.value for one in verdict.beyond_bounds.parameters}
+    assert {effect.name for effect in verdict.effects} == {"damper_asymmetry", "damper_knee", "wheel_recession", "roll_centre_height", "bump_steer"}
+    other = verdict.beyond_bounds
+    beyond = {one.parameter: one.value for one in (*other.parameters, *other.less_sure)}
+    assert other.is_instead and set(other.effects) == {"damper_asymmetry", "damper_knee", "wheel_recession"}
     assert beyond["roll_inertia"] < 0.8 * car["roll_inertia"] and beyond["anti_roll_stiffness_rear"] > 2 * car["anti_roll_stiffness_rear"]
-    assert verdict.beyond_bounds.held_out_share > 0.1
+    assert min(other.share, other.held_out_share) > 0.5
 
 
 @pytest.mark.long

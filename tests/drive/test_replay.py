@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort import simulate
+from ridecomfort.drive.record import TOLD_OF
 from ridecomfort.drive.replay import fused_place, replay, smooth, speed_bandwidth
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import DRIVE, SIGNALS
@@ -46,16 +47,17 @@ def test_the_same_vehicle_repeats_its_own_record(driven, car):
     assert share["a_z"] < 0.005 and share["roll_rate"] < 0.01 and share["pitch_rate"] < 0.01
 
 
-def test_a_centre_of_gravity_that_lies_farther_back_than_the_drive_is_told_of_moves_neither_sensor_nor_axles(driven, car):
+@pytest.mark.parametrize(("back", "higher"), [(0.12, 0.0), (0.0, 0.1), (-0.1, -0.05)])
+def test_a_centre_of_gravity_that_lies_elsewhere_than_the_drive_is_told_of_moves_neither_sensor_nor_axles(driven, car, back, higher):
     """What is calibrated is where the centre of gravity lies, not where the instrument sits or the wheels are."""
     course, told = driven
-    back = 0.12
-    other = car.replace(cg_to_front_axle=car["cg_to_front_axle"] + back)
+    told_of = {name: car[name] for name in TOLD_OF}
+    other = car.replace(cg_to_front_axle=car["cg_to_front_axle"] + back, cg_height=car["cg_height"] + higher)
     x, y, z = trials.SENSOR
     demand = trials._demand(np.random.default_rng(5), course.u, 22.0)
-    truth = simulate.run(course, other, sensor=(x + back, y, z), **demand)
+    truth = simulate.run(course, other, sensor=(x + back, y, z - higher), **demand)
     record = truth[list(DRIVE)].isel(time=slice(200, None)).assign_attrs(told.attrs)
-    record = record.assign(s=record["s"] + back).assign_attrs(cg_to_front_axle=car["cg_to_front_axle"])
+    record = record.assign(s=record["s"] + back).assign_attrs(told_of)
     again = replay(record, course, simulate.run).tuned(other)
     left = again.residual(again(other))[:, again.compared]
     share = dict(zip(SIGNALS, left.std(axis=1) / again.measured()[:, again.compared].std(axis=1)))

@@ -16,6 +16,7 @@ from ..identifiability import CONFIDENCE, UNIDENTIFIED
 from ..vehicle.parameters import PARAMETERS
 from . import refit
 from .car import Car
+from .confirm import EQUAL
 from .experiment import Size
 from .off_file import beside_given
 from .propose import HELD_OUT_Z
@@ -92,7 +93,8 @@ class BeyondBounds:
     """``parameters`` that lie beyond their bounds, and the ``share`` of the explainable error that goes on fitted and on held-out drives
     (nan where not known) when they may: beside effects that were found without; where ``is_first``, before any effect; where ``is_instead``,
     alone, as another explanation, which removes less than that of the verdict. ``less_sure``: parameters whose values lie beyond their
-    bounds, too, and do much there, but whose intervals reach back into them."""
+    bounds, too, and do much there, but whose intervals reach back into them. ``effects``: names of the fewer effects that remove as much as
+    those of the verdict where parameters may lie beyond their bounds; shares are of both then."""
 
     parameters: tuple[Beyond, ...]
     share: float
@@ -100,6 +102,7 @@ class BeyondBounds:
     is_first: bool = False
     is_instead: bool = False
     less_sure: tuple[Beyond, ...] = ()
+    effects: tuple[str, ...] = ()
 
     def words(self, is_more: bool) -> str:
         """What they are and what goes with them; ``is_more``: beside effects that were found."""
@@ -108,6 +111,8 @@ class BeyondBounds:
             names += f", less surely {_told(self.less_sure)}, of which one may stand in for another"
         checked = f", {100 * self.held_out_share:.0f} % on drives held out" if np.isfinite(self.held_out_share) else ""
         gone = f"{100 * self.share:.0f} % of the explainable error{checked}"
+        if self.effects:
+            return f"another explanation, as good, {gone}: {', '.join(self.effects)} alone, with parameters of the vehicle beyond their bounds, {names}"
         if self.is_instead:
             return f"another explanation, which removes less, {gone}: parameters of the vehicle beyond their bounds, {names}"
         share = f"{gone}{',' if checked else ''} goes with parameters of the vehicle beyond their bounds: {names}"
@@ -198,7 +203,8 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     """Parameters beyond their bounds, found by the search ``after``, which allowed that. None unless they alone explain a share that is worth
     a word, at least one lies outside of its bounds, and the model is better than that of the search ``before``, which kept to them: by
     such a share, or by parameters that alone leave no more than LEFT of what all effects did. Or with fewer effects it leaves no more than
-    CLOSER of what those did, whatever the parameters do alone.
+    CLOSER of what those did, whatever the parameters do alone. With fewer of the same effects that explain no EQUAL less, it is another
+    explanation, as good.
     """
     gained = shares(before, before.states[-1], after.states[-1], after)
     alone = shares(before, before.states[0], after.states[0], after)
@@ -208,7 +214,11 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     is_fewer = len(after.accepted) < len(before.accepted)
     is_better = _is_enough(alone) and (_is_enough(gained) or leaves(alone, LEFT))
     if not (is_better or is_fewer and leaves(whole, CLOSER)):
-        return None
+        is_part = is_fewer and set(after.accepted) < set(before.accepted)
+        if not (after.accepted and is_part and all(own > theirs - EQUAL for own, theirs in zip(whole, effects) if np.isfinite(own))):
+            return None
+        found = _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *whole, is_first=False)
+        return replace(found, is_instead=True, effects=after.accepted) if found is not None else None
     return _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *alone, is_first=True)
 
 

@@ -42,7 +42,9 @@ class Ranked:
 
     @property
     def leaves_nothing_out(self) -> bool:
-        """Whether it explains the drives, or sees that the data are wrong."""
+        """Whether it explains the drives better than a search within bounds, or sees that the data are wrong."""
+        if self.parameters is not None and self.parameters.is_instead:
+            return False
         return self.verdict.verdict in ("named", "cluster", "nothing") or self.table.attrs["suspected"] == "data"
 
 
@@ -95,13 +97,15 @@ def beside_the_vehicle(
     ``first`` keeps to the bounds, with its ``outcome`` and the parameters ``found`` beside its effects; ``second`` does not, and leaves
     something out. It is asked for its outcome where that of the first is "outside": only there is something left to explain.
     """
-    if second is not None and outcome.verdict.verdict == "outside":
+    if second is not None and second.parameters.is_instead:
+        found = found or second.parameters
+    elif second is not None and outcome.verdict.verdict == "outside":
         other = outcome_of(second)
         theirs, plain = _removed(first, first, outcome.sure), _removed(first, second, None)
         if found is not None:
             beside = np.add(_removed(first, first, None), (found.share, found.held_out_share))
             theirs = max(theirs, tuple(beside), key=_mean)
-        if other.verdict.verdict != "suspect" and is_better(_removed(first, second, other.sure), plain, theirs):
+        if (other.verdict.verdict != "suspect" or second.table.attrs["suspected"] == "road") and is_better(_removed(first, second, other.sure), plain, theirs):
             return _put_right(first, second, other)
         if found is None and is_much((second.parameters.share, second.parameters.held_out_share), theirs):
             found = replace(second.parameters, is_first=False, is_instead=True)
@@ -141,7 +145,9 @@ def _mean(found: Shares) -> float:
 
 def _put_right(first: Ranked, second: Ranked, outcome: Outcome) -> tuple[Outcome, BeyondBounds | None]:
     """The outcome of the second search with its parameters; beside a sure form those that lie beyond the bounds still, for which what has that
-    form may have stood in."""
+    form may have stood in. Where nothing but the road is suspect beside them, they are what is missing, and that of the road is a reason."""
+    if outcome.verdict.verdict == "suspect":
+        outcome = replace(outcome, verdict=replace(outcome.verdict, verdict="outside"))
     if outcome.sure is None or beside_a_force(outcome.verdict, outcome.sure) is outcome.verdict:
         return outcome, second.parameters
     found = still_beyond(first.selection, outcome.sure.selection)

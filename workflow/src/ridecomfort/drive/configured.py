@@ -35,7 +35,7 @@ def read(path, entry: Mapping, vehicle, *, rate: float = 100.0) -> xr.Dataset:
     drive = readers.read(path, entry.get("columns"), rate=rate, **attributes)
     if entry.get("distance_of", "body") == "front_axle":
         drive["s"] = drive["s"].copy(data=drive["s"].values - vehicle["cg_to_front_axle"])
-    return drive.assign_attrs({TOLD_OF: float(vehicle[TOLD_OF])})
+    return drive.assign_attrs({name: float(vehicle[name]) for name in TOLD_OF})
 
 
 def check_speed(aligned: xr.Dataset, path) -> xr.Dataset:

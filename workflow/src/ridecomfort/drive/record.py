@@ -41,9 +41,9 @@ FASTEST = {"roll_rate": 0.5, "pitch_rate": 0.5, "yaw_rate": 1.5}
 ROLES = ("fit", "check")
 """A drive is fitted, or kept for checking and never fitted."""
 
-TOLD_OF = "cg_to_front_axle"
-"""Attribute that says how far behind the front axle, in m, the centre of gravity lies of which a drive's place and that of its sensor are
-told: the parameter of the vehicle's file by this name. A drive without it is told of any vehicle's own."""
+TOLD_OF = ("cg_to_front_axle", "cg_height")
+"""Attributes that say where the centre of gravity lies, in m, of which a drive's place and that of its sensor are told: the parameters of the
+vehicle's file by these names. A drive without them is told of any vehicle's own."""
 
 
 def from_arrays(

@@ -124,13 +124,13 @@ class Replay:
         return self.sample(self.run(vehicle, effects), clock)
 
     def run(self, vehicle, effects=()) -> xr.Dataset:
-        """The simulated drive on its own clock. Where the centre of gravity of ``vehicle`` lies farther back than that which the drive is told
-        of (TOLD_OF), the sensor stays at its place behind the axle, and ``s`` is that of the same point of the body."""
-        told_of, demand = self.drive.attrs.get(TOLD_OF), self.demand
-        back = 0.0 if told_of is None else vehicle[TOLD_OF] - told_of
-        if back:
+        """The simulated drive on its own clock. Where the centre of gravity of ``vehicle`` lies farther back or higher than that which the drive
+        is told of (TOLD_OF), the sensor stays at its place on the body, and ``s`` is that of the same point of it."""
+        demand = self.demand
+        back, higher = (vehicle[name] - self.drive.attrs.get(name, vehicle[name]) for name in TOLD_OF)
+        if back or higher:
             x, y, z = demand["sensor"]
-            demand = {**demand, "sensor": (x + back, y, z), **{end: demand[end] - back for end in ("start", "end")}}
+            demand = {**demand, "sensor": (x + back, y, z - higher), **{end: demand[end] - back for end in ("start", "end")}}
         run = self.simulate(self.road, vehicle, effects=effects, **demand, **self.options)
         return run.assign(s=run["s"] + back) if back else run
 
