@@ -135,6 +135,17 @@ def test_a_place_that_may_be_nil_is_said_like_any_other():
     assert [row["plausible"] for row in found[:2]] == ["yes (-1 to 2.5)", "yes, may be nil (-1 to 2.5)"]
 
 
+def test_a_size_that_no_drive_meets_has_no_value():
+    """The stops of an axle that never reaches them: the middle of what is plausible is no finding."""
+    known = {"parameter": "front", "size": 4e5, "unit": "N/m", "interval": [3.7e5, 4.3e5], "plausible": [0.0, 8e5], "is_plausible": True}
+    effect = {**made_up.VERDICT["effects"][0], "sizes": [known, known | {"parameter": "rear", "interval": [0.0, 8e5]}]}
+    found = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "effects": [effect]}))
+    front, rear = rows(found["missing_effects"])[:2]
+    assert (front["size"], front["plausible"]) == (4e5, "yes (0 to 8e+05)")
+    assert (rear["size"], rear["interval_lower"], rear["interval_upper"], rear["plausible"]) == (None, None, None, "left open (0 to 8e+05)")
+    assert "front 4e+05 N/m (3.7e+05 to 4.3e+05), rear left open by these drives." in words(found["verdict"]).lower().replace(" n/m", " N/m")
+
+
 def test_a_size_whose_interval_includes_none_is_marked():
     found = made_up.diagnosis({**made_up.VERDICT, "effects": [{**made_up.VERDICT["effects"][0], "sizes": [
         {**made_up.VERDICT["effects"][0]["sizes"][0], "interval": [-5.0, 90.0]}]}]})  # fmt: skip

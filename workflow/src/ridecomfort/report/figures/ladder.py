@@ -26,18 +26,18 @@ DASHES = {"thresholds": (0, (4, 10)), "iso2631": (7, (4, 10))}
 LINEAR, TICKS = 10.0, (0, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 """% up to which the axis of the error is linear, and logarithmic beyond, so that the last falls are seen beside the first; its ticks."""
 
-HIGHEST, ROOM = 1000.0, 1.4
+HIGHEST, ROOM = 1000.0, 1.15
 """% at which the axis ends at the latest, whatever an uncalibrated model leaves, and times the largest error at which it does else: room for
-the number of that."""
+its marker."""
 
 APART = 5.0
 """Points between the markers at the top of the axis of signals that lie above it on the same rung."""
 
-NEAR_TOP = 0.6
-"""Share of HIGHEST from which on a number stands below its point, not in the title above."""
-
 LEGIBLE = (withStroke(linewidth=2.0, foreground="white"),)
-"""What keeps numbers readable over lines and markers."""
+"""What keeps words readable over lines and markers."""
+
+NUMBERS = 3.5
+"""Points above a panel at which the numbers of its rungs stand, clear of lines and of markers at its top."""
 
 LONGEST = 16
 """Letters in a line under a rung."""
@@ -56,7 +56,7 @@ def error_ladder(study: Difference) -> Figure:
         for axes, group in zip(panels[:, column], groups):
             chosen = found.sel(site=site, group=group)
             if np.isfinite(chosen["rmse"]).any():
-                axes.set_title(f"{catalogue.label(site)}, {TITLES[group]}")
+                axes.set_title(f"{catalogue.label(site)}, {TITLES[group]}", pad=13)
                 _left(axes, chosen, places)
             else:
                 axes.set_axis_off()
@@ -79,7 +79,7 @@ def error_ladder(study: Difference) -> Figure:
     panels[-1, 0].set_ylim(bottom=0.0)
     key = lambda look, label: Line2D([], [], color=look[0], marker=look[1], markersize=3.5, label=label)  # noqa: E731
     lines = [key(look, notation.signal(signal)) for signal, look in style.SIGNAL_LINES.items()]
-    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals (numbers)"))
+    lines.append(Line2D([], [], color="black", linewidth=2.2, label="all signals (numbers above)"))
     lines.append(Line2D([], [], color=style.FLOOR, linestyle="--", label="floor"))
     lines += [Line2D([], [], **look, label=f"{METHODS[name]}, model") for name, look in LOOKS.items()]
     if np.isfinite(found["repeats_agreeing"]).any():
@@ -100,13 +100,10 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
         axes.plot(*_known(places, values), color=colour, marker=marker, markersize=3.5)
     overall = _known(places, 100 * chosen["left_overall"].values)
     axes.plot(*overall, color="black", linewidth=2.2, zorder=1)
+    at = offset_copy(axes.get_xaxis_transform(), axes.figure, y=NUMBERS, units="points")
     for place, value in zip(*overall):
-        above, number = 6 if value < NEAR_TOP * HIGHEST else -9, f"{value:.0f}" if value >= LINEAR else f"{value:.1f}"
-        said = number if value <= HIGHEST else f"{number} ↑"
-        axes.annotate(
-            said, (place, min(value, HIGHEST)), xytext=(6, above), textcoords="offset points", fontsize=6, fontweight="bold",
-            path_effects=LEGIBLE,
-        )  # fmt: skip
+        number = f"{value:.0f}" if value >= LINEAR else f"{value:.1f}"
+        axes.text(place, 1.0, number, transform=at, ha="center", va="bottom", fontsize=6, fontweight="bold")
     _above(axes, chosen, places)
     most = 100 * np.nan_to_num(chosen["left"].values).max(axis=chosen["left"].dims.index("rung"))
     beyond = [f"{notation.signal(str(chosen['signal'].values[k]))} {most[k]:,.0f} %" for k in np.argsort(-most) if most[k] > HIGHEST]

@@ -108,10 +108,18 @@ def _found(effect: Mapping) -> str:
 
 def _size(size: Mapping) -> str:
     """A size with its interval, in words: with as many digits as tell its ends apart."""
+    if _is_left_open(size):
+        return f"{words(size['parameter'])} left open by these drives"
     numbers = (size["size"], *size["interval"])
     value, lower, upper = (f"{number:.{_digits(numbers)}g}" for number in numbers)
     amount = value if size["unit"] == "1" else f"{value} {unit(size['unit'])}"
     return f"{words(size['parameter'])} {amount} ({lower} to {upper})"
+
+
+def _is_left_open(size: Mapping) -> bool:
+    """Whether a size may be anything that is plausible, as that of a stop that no drive meets: its value says nothing."""
+    (lower, upper), (least, most) = size.get("interval", (np.nan, np.nan)), size.get("plausible") or (np.nan, np.nan)
+    return lower <= least and most <= upper
 
 
 def _digits(numbers: Sequence[float]) -> int:
@@ -150,6 +158,8 @@ def missing_effects(found: Diagnosis) -> Table:
             plausible = {True: "yes", False: "no", None: ""}[size.get("is_plausible")]
             if lower is not None and lower <= 0.0 <= upper and not size.get("is_shaping"):
                 plausible += ", may be nil"
+            if _is_left_open(size):
+                size, lower, upper, plausible = size | {"size": None}, None, None, "left open"
             if size.get("is_held"):
                 plausible = HELD[size["is_typical"]]
             if size.get("plausible"):
@@ -182,7 +192,7 @@ def missing_effects(found: Diagnosis) -> Table:
         "leave open; calibrated.md holds these and rests on one site, but fits what only shapes an effect, which may be held here. Where the "
         "size of one there and here are farther apart than the wider interval, the effect may stand in for another, or what calibration holds "
         "of the vehicle is not as its file says (calibration: parameters). May be nil: the interval of this size alone holds "
-        "nil; the effect is named for what all its sizes do together.",
+        "nil; the effect is named for what all its sizes do together. Left open: any plausible size does as well on these drives.",
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
