@@ -154,6 +154,7 @@ def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_fil
     them and those parameters, as good."""
     _, verdict, _ = diagnose({"realcar": (road, drives)}, car, calibration=calibration, bounds=BOUNDS)
     assert verdict.share > 0.4 and verdict.held_out_share > 0.5
+    assert verdict.verdict == ("named" if verdict.share > 0.5 else "outside")
     assert verdict.effects[0].name == "damper_asymmetry"
     assert {effect.name for effect in verdict.effects} == {"damper_asymmetry", "damper_knee", "wheel_recession", "roll_centre_height", "bump_steer"}
     other = verdict.beyond_bounds

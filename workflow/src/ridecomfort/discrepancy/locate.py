@@ -25,6 +25,7 @@ STEP = 20.0
 WINDOW = 2.0
 """s of a spectrum of that map."""
 
+
 @dataclass(frozen=True)
 class Drive:
     """One drive's samples that are compared: ``rate`` in Hz, series (signal, sample) and (sample,), own noise where known.
