@@ -17,7 +17,7 @@ from ridecomfort.discrepancy import explain, judged, opening
 from ridecomfort.discrepancy.car import Car
 from ridecomfort.discrepancy.realign import ROUNDS
 from ridecomfort.drive import align
-from ridecomfort.drive.record import TOLD_OF
+from ridecomfort.drive.sensor import TOLD_OF, moved
 from ridecomfort.errors import InputError
 from ridecomfort.effects import library
 from ridecomfort.effects.contract import COMPILED
@@ -111,8 +111,10 @@ def make(
     demands = [_demand(rng, road.u.values, speed) for speed in (SPEED, SPEED, SPEED, SLOWER * SPEED)]
     every = tuple(effects) + tuple(background)
     told_of = {name: car[name] for name in TOLD_OF}
+    forward, up = moved(told_of, true_car)
+    sensor = SENSOR[0] + forward, SENSOR[1], SENSOR[2] + up
     drive = lambda vehicle, sizes, demand: simulate.run(
-        course, vehicle, effects={**_quiet(every), **sizes}, effects_folder=SHAPES, sensor=SENSOR, step=step, **demand
+        course, vehicle, effects={**_quiet(every), **sizes}, effects_folder=SHAPES, sensor=sensor, step=step, **demand
     ).assign_attrs(told_of)
     bare = [drive(true_car, {}, demand) for demand in demands]
     errors = [_path(rng, road.u.values, path_error) for _ in demands]

@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 
 from ridecomfort import simulate
-from ridecomfort.drive.record import TOLD_OF
 from ridecomfort.drive.replay import fused_place, replay, smooth, speed_bandwidth
+from ridecomfort.drive.sensor import TOLD_OF
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import DRIVE, SIGNALS
 from tests.blind import trials

@@ -171,6 +171,26 @@ def test_the_sensor_is_placed_from_the_front_axle_and_the_wheel_centres(vehicle)
     assert z + vehicle["cg_height"] == pytest.approx(1.15 + vehicle["tyre_radius"], abs=0.03), "tyres give a little"
 
 
+def test_the_sensor_sits_at_its_place_in_the_car_that_is_driven(short, entries, vehicle, monkeypatch):
+    """What is hidden, as where its centre of gravity lies, does not take the instrument along."""
+    car, _ = drives.hidden_car(short["seed"], short["measurement"], vehicle)
+    assert abs(car["cg_height"] - vehicle["cg_height"]) > 0.001
+    places = []
+
+    def run(course, driven, *, sensor, **demand):
+        places.append((driven, sensor))
+        raise InterruptedError
+
+    monkeypatch.setattr(drives.simulate, "run", run)
+    monkeypatch.setattr(drives.simulate, "prepare", lambda road, interpolation: road)
+    u = np.arange(0.0, 400.0)
+    road = xr.Dataset({"curvature": ("u", np.zeros(len(u)))}, {"u": u})
+    with pytest.raises(InterruptedError):
+        drives.make_drives("ts2", short, road, vehicle, entries)
+    ((driven, sensor),) = places
+    assert driven.values == car.values and sensor == drives.sensor_place(car, entries[0]["sensor"])
+
+
 def test_lever_arm_of_the_truth_is_that_of_the_instrument(driven):
     """On a straight road at even speed, an instrument on the roof feels pitching in a_x."""
     record = driven[0][0]

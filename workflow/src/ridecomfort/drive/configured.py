@@ -7,9 +7,8 @@ from collections.abc import Mapping
 import xarray as xr
 
 from ..errors import InputError
-from ..vocabulary import STANDARD_GRAVITY
 from . import readers
-from .record import TOLD_OF
+from .sensor import TOLD_OF, sensor_place
 
 PASSED_ON = ("name", "role", "gravity", "lateral_position", "road_friction", "distance_start")
 """Keys of a drive's entry that ``record.from_arrays`` knows by the same name."""
@@ -49,15 +48,3 @@ def check_speed(aligned: xr.Dataset, path) -> xr.Dataset:
             place="v_x",
         )
     return aligned
-
-
-def sensor_place(vehicle, *, behind_front_axle: float, above_wheel_centres: float, left: float = 0.0):
-    """Place of a sensor in m relative to the centre of gravity of the sprung mass at rest: (x, y, z)."""
-    mass = vehicle["sprung_mass"] + 2 * (vehicle["unsprung_mass_front"] + vehicle["unsprung_mass_rear"])
-    deflection = STANDARD_GRAVITY * mass / 4 / vehicle["tyre_radial_stiffness"]
-    wheel_centre = vehicle["tyre_radius"] - deflection
-    return (
-        vehicle["cg_to_front_axle"] - behind_front_axle,
-        float(left),
-        wheel_centre + above_wheel_centres - vehicle["cg_height"],
-    )

@@ -41,10 +41,6 @@ FASTEST = {"roll_rate": 0.5, "pitch_rate": 0.5, "yaw_rate": 1.5}
 ROLES = ("fit", "check")
 """A drive is fitted, or kept for checking and never fitted."""
 
-TOLD_OF = ("cg_to_front_axle", "cg_height")
-"""Attributes that say where the centre of gravity lies, in m, of which a drive's place and that of its sensor are told: the parameters of the
-vehicle's file by these names. A drive without them is told of any vehicle's own."""
-
 
 def from_arrays(
     quantities: Mapping[str, tuple[np.ndarray, np.ndarray]],

@@ -17,8 +17,9 @@ from scipy.signal import butter, sosfiltfilt, welch
 from ..errors import InputError
 from ..vehicle.driver import path_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
-from .record import TOLD_OF, upward
+from .record import upward
 from .sampling import rate_of, resampled, resampled_slopes
+from .sensor import moved
 
 RUN_IN = 50.0
 """m that the model drives before it is compared: 2 s at 25 m/s, when a bounce of 1.3 Hz, damped by a third, is down to
@@ -124,15 +125,15 @@ class Replay:
         return self.sample(self.run(vehicle, effects), clock)
 
     def run(self, vehicle, effects=()) -> xr.Dataset:
-        """The simulated drive on its own clock. Where the centre of gravity of ``vehicle`` lies farther back or higher than that which the drive
-        is told of (TOLD_OF), the sensor stays at its place on the body, and ``s`` is that of the same point of it."""
+        """The simulated drive on its own clock. Where the centre of gravity of ``vehicle`` lies elsewhere in the car than that which the drive is
+        told of (``sensor.TOLD_OF``), the sensor stays at its place, and ``s`` is that of the same point."""
         demand = self.demand
-        back, higher = (vehicle[name] - self.drive.attrs.get(name, vehicle[name]) for name in TOLD_OF)
-        if back or higher:
+        forward, up = moved(self.drive.attrs, vehicle)
+        if forward or up:
             x, y, z = demand["sensor"]
-            demand = {**demand, "sensor": (x + back, y, z - higher), **{end: demand[end] - back for end in ("start", "end")}}
+            demand = {**demand, "sensor": (x + forward, y, z + up), **{end: demand[end] - forward for end in ("start", "end")}}
         run = self.simulate(self.road, vehicle, effects=effects, **demand, **self.options)
-        return run.assign(s=run["s"] + back) if back else run
+        return run.assign(s=run["s"] + forward) if forward else run
 
     def sample(self, run: xr.Dataset, clock: float = 0.0) -> Simulated:
         """A simulated drive at the places where the vehicle was at the measured instants minus ``clock``."""

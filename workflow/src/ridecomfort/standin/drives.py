@@ -68,7 +68,7 @@ def make_drives(site: str, settings: Mapping, road: xr.Dataset, vehicle: Vehicle
     records, truths = [], []
     for entry, rng in zip(entries, rngs, strict=True):
         target, lateral, driver = how_driven(rng, road.u.values, usual, entry, block)
-        place = sensor_place(vehicle, entry["sensor"])
+        place = sensor_place(car, entry["sensor"])
         drive = simulate.run(
             course, car, speed=target, lateral=lateral, friction=entry.get("road_friction", 1.0), effects=effects,
             sensor=place, step=block["step"], rate=1.0 / (block["step"] * instrument.STEPS_PER_SAMPLE),
