@@ -17,7 +17,7 @@ from ridecomfort.discrepancy import explain, judged, opening
 from ridecomfort.discrepancy.car import Car
 from ridecomfort.discrepancy.realign import ROUNDS
 from ridecomfort.drive import align
-from ridecomfort.drive.sensor import TOLD_OF, moved
+from ridecomfort.drive.sensor import TOLD_OF, displacement
 from ridecomfort.errors import InputError
 from ridecomfort.effects import library
 from ridecomfort.effects.contract import COMPILED
@@ -111,7 +111,7 @@ def make(
     demands = [_demand(rng, road.u.values, speed) for speed in (SPEED, SPEED, SPEED, SLOWER * SPEED)]
     every = tuple(effects) + tuple(background)
     told_of = {name: car[name] for name in TOLD_OF}
-    forward, up = moved(told_of, true_car)
+    forward, up = displacement(told_of, true_car)
     sensor = SENSOR[0] + forward, SENSOR[1], SENSOR[2] + up
     drive = lambda vehicle, sizes, demand: simulate.run(
         course, vehicle, effects={**_quiet(every), **sizes}, effects_folder=SHAPES, sensor=sensor, step=step, **demand

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import classes
+
+
+def _drive(error, signal, **series):
+    return SimpleNamespace(rate=100.0, error=error, signal=signal, series=series)
 
 
 def _held(values) -> list[int]:
@@ -41,7 +47,7 @@ def test_powers_of_classes_make_that_of_the_drives_and_shares_make_one():
     drives = []
     for speed, count in ((14.0, 3000), (22.0, 2000)):
         error, signal = rng.standard_normal((2, 3, count))
-        drives.append(classes.Driven(100.0, error, signal, {"speed": np.full(count, speed), "curvature": rng.random(count)}))
+        drives.append(_drive(error, signal, v_x=np.full(count, speed), yaw_rate=rng.random(count)))
     found = classes.by_condition(drives, [(2.0, 8.0), (8.0, 40.0)])
     np.testing.assert_allclose(found["condition_share"].sum("class"), 1.0)
     for key in ("error", "measured"):
@@ -53,6 +59,6 @@ def test_powers_of_classes_make_that_of_the_drives_and_shares_make_one():
 
 
 def test_a_condition_that_one_drive_does_not_know_is_left_out():
-    known = classes.Driven(100.0, np.ones((1, 500)), np.ones((1, 500)), {"speed": np.arange(500.0), "curvature": np.arange(500.0)})
-    unknown = classes.Driven(100.0, np.ones((1, 500)), np.ones((1, 500)), {"speed": np.arange(500.0)})
+    known = _drive(np.ones((1, 500)), np.ones((1, 500)), v_x=np.arange(500.0), yaw_rate=np.arange(500.0))
+    unknown = _drive(np.ones((1, 500)), np.ones((1, 500)), v_x=np.arange(500.0))
     assert classes.by_condition([known, unknown], [(2.0, 8.0)])["condition"].values.tolist() == ["speed"]

@@ -20,7 +20,7 @@ def car(repository):
 )
 def test_what_lies_elsewhere_is_the_difference_of_its_places(car, changed):
     other = car.replace(**changed)
-    forward, up = sensor.moved({name: car[name] for name in sensor.TOLD_OF}, other)
+    forward, up = sensor.displacement({name: car[name] for name in sensor.TOLD_OF}, other)
     (x, _, z), (x_other, _, z_other) = sensor.sensor_place(car, **PLACE), sensor.sensor_place(other, **PLACE)
     assert (forward, up) == pytest.approx((x_other - x, z_other - z), abs=1e-12)
 
@@ -30,11 +30,11 @@ def test_a_softer_tyre_lets_the_car_down_by_its_load(car):
     told_of = {name: car[name] for name in sensor.TOLD_OF}
     load = 9.80665 * (car["sprung_mass"] + 2 * car["unsprung_mass_front"] + 2 * car["unsprung_mass_rear"]) / 4
     down = load / 250e3 - load / car["tyre_radial_stiffness"]
-    assert sensor.moved(told_of, car.replace(tyre_radial_stiffness=250e3)) == pytest.approx((0.0, -down))
+    assert sensor.displacement(told_of, car.replace(tyre_radial_stiffness=250e3)) == pytest.approx((0.0, -down))
 
 
 def test_a_drive_that_is_told_of_no_vehicle_or_of_this_one_keeps_its_place(car):
     other = car.replace(cg_height=0.7, cg_to_front_axle=1.1)
-    assert sensor.moved({}, other) == (0.0, 0.0)
-    assert sensor.moved({name: other[name] for name in sensor.TOLD_OF}, other) == (0.0, 0.0)
-    assert sensor.moved({"cg_height": 0.5}, other) == pytest.approx((0.0, -0.2))
+    assert sensor.displacement({}, other) == (0.0, 0.0)
+    assert sensor.displacement({name: other[name] for name in sensor.TOLD_OF}, other) == (0.0, 0.0)
+    assert sensor.displacement({"cg_height": 0.5}, other) == pytest.approx((0.0, -0.2))

@@ -147,7 +147,7 @@ def test_parameters_that_are_another_explanation_come_last():
     assert told[-1]["in_words"].startswith("In place of that: if the vehicle's file may be that wrong")
     assert told[0]["in_words"].startswith("Something is missing that is not in the library.")
     fewer = advice.farther(beyond | {"effects": ["damper_knee"]})
-    assert fewer.startswith("In place of that, with effects: [damper_knee] alone: if the vehicle's file may be that wrong")
+    assert fewer.startswith("In place of that, with damper_knee alone of the effects above: if the vehicle's file may be that wrong")
 
 
 def test_bounds_that_are_proposed_are_those_of_a_vehicle_and_read_as_numbers(project):

@@ -212,14 +212,15 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     whole = shares(before, before.states[0], after.states[-1], after)
     leaves = lambda ours, most: not any(1.0 - own > most * (1.0 - theirs) for own, theirs in zip(ours, effects))
     is_fewer = len(after.accepted) < len(before.accepted)
-    is_better = _is_enough(alone) and (_is_enough(gained) or leaves(alone, LEFT))
-    if not (is_better or is_fewer and leaves(whole, CLOSER)):
-        is_part = is_fewer and set(after.accepted) < set(before.accepted)
-        if not (after.accepted and is_part and all(own > theirs - EQUAL for own, theirs in zip(whole, effects) if np.isfinite(own))):
-            return None
-        found = _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *whole, is_first=False)
-        return replace(found, is_instead=True, effects=after.accepted) if found is not None else None
-    return _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *alone, is_first=True)
+    is_better = _is_enough(alone) and (_is_enough(gained) or leaves(alone, LEFT)) or is_fewer and leaves(whole, CLOSER)
+    found = lambda gone, **kind: _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *gone, **kind)  # noqa: E731
+    if is_better:
+        return found(alone, is_first=True)
+    is_part = bool(after.accepted) and set(after.accepted) < set(before.accepted)
+    if not is_part or any(own <= theirs - EQUAL for own, theirs in zip(whole, effects)):
+        return None
+    as_good = found(whole, is_first=False)
+    return replace(as_good, is_instead=True, effects=after.accepted) if as_good is not None else None
 
 
 def still_beyond(before: Selection, after: Selection) -> BeyondBounds | None:

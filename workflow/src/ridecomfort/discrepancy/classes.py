@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import xarray as xr
@@ -23,14 +23,13 @@ SLOW = 1.0
 """Hz up to which a condition may change; its classes are of how the drive goes, not of single waves."""
 
 
-@dataclass(frozen=True)
-class Driven:
-    """One drive: ``rate`` in Hz, ``error`` and ``signal`` (signal, sample) of what is judged, and its ``conditions``, (sample,) each."""
+class Driven(Protocol):
+    """A drive with ``rate`` in Hz, ``error`` and ``signal`` (signal, sample) of what is judged, and ``series`` by name."""
 
     rate: float
     error: np.ndarray
     signal: np.ndarray
-    conditions: Mapping[str, np.ndarray]
+    series: Mapping[str, np.ndarray]
 
 
 def by_condition(drives: Sequence[Driven], bands: Sequence[tuple[float, float]]) -> xr.Dataset:
@@ -40,15 +39,16 @@ def by_condition(drives: Sequence[Driven], bands: Sequence[tuple[float, float]])
     nothing; ``condition_share(condition, class)`` of the time; ``condition_level(condition, class)``, the mean of the condition, nan where it
     holds nothing; ``condition_edge(condition, edge)``. Edges: ``edges``.
     """
-    names = [name for name in drives[0].conditions if all(name in drive.conditions for drive in drives)]
-    edge = np.stack([edges(np.concatenate([drive.conditions[name] for drive in drives])) for name in names])
+    known = [conditions(drive.series, drive.rate) for drive in drives]
+    names = [name for name in known[0] if all(name in own for own in known)]
+    edge = np.stack([edges(np.concatenate([own[name] for own in known])) for name in names])
     power = np.zeros((2, len(names), CLASSES, len(drives[0].error), len(bands)))
     samples, levels = np.zeros((2, len(names), CLASSES))
-    for drive in drives:
-        which = [_class(drive.conditions[name], of_it) for name, of_it in zip(names, edge)]
+    for drive, own in zip(drives, known):
+        which = [_class(own[name], of_it) for name, of_it in zip(names, edge)]
         for n, classes in enumerate(which):
             samples[n] += np.bincount(classes, minlength=CLASSES)
-            levels[n] += np.bincount(classes, drive.conditions[names[n]], minlength=CLASSES)
+            levels[n] += np.bincount(classes, own[names[n]], minlength=CLASSES)
         for k, band in enumerate(bands):
             for source, series in enumerate((drive.error, drive.signal)):
                 for i, row in enumerate(judged.band(series, drive.rate, band) ** 2):
@@ -101,7 +101,8 @@ def edges(values: np.ndarray) -> np.ndarray:
             gap = first + int(steps.argmax())
             found[k] = 0.5 * (ordered[gap] + ordered[gap + 1])
     for k in range(1, CLASSES):
-        below, above = (ordered[_class(ordered, found) == each] for each in (k - 1, k))
+        start, middle, end = np.searchsorted(ordered, [found[k - 1], found[k], found[k + 1] if k + 1 < CLASSES else np.inf])
+        below, above = ordered[start:middle], ordered[middle:end]
         if below.size and above.size and above.mean() < (1 + ALIKE) * below.mean():
             found[k] = found[k - 1]
     return found

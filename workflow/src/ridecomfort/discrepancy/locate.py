@@ -79,7 +79,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     measured = np.average(powers, axis=0, weights=[len(d.place) for d in drives]).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
     whole = np.maximum(above.sum(axis=1, keepdims=True), 0.0).sum(axis=2, keepdims=True)  # bands below the floor take nothing off
-    by_condition = classes.by_condition([_driven(drive) for drive in drives], bands)
+    by_condition = classes.by_condition(drives, bands)
     places, frequency, density = _map([(d.place, d.error) for d in drives], rate)
     if noise:
         floor_density = np.nanmean(_map([(d.own.place, d.own.noise) for d in drives if d.own], rate)[2], axis=1)
@@ -128,10 +128,6 @@ def _drive(row: xr.Dataset, own: explain.OwnNoise | None) -> Drive:
     rate = rate_of(time)
     both = (judged.judged(each, rate, row["signal"].values) for each in (residual[:, kept], signals[0]))
     return Drive(rate, residual[:, kept], *signals, *both, series, own)
-
-
-def _driven(drive: Drive) -> classes.Driven:
-    return classes.Driven(drive.rate, drive.error, drive.signal, classes.conditions(drive.series, drive.rate))
 
 
 def _stretches(drives: Sequence[Drive]) -> np.ndarray:

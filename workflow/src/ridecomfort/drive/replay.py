@@ -19,7 +19,7 @@ from ..vehicle.driver import path_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from .record import upward
 from .sampling import rate_of, resampled, resampled_slopes
-from .sensor import moved
+from .sensor import displacement
 
 RUN_IN = 50.0
 """m that the model drives before it is compared: 2 s at 25 m/s, when a bounce of 1.3 Hz, damped by a third, is down to
@@ -128,7 +128,7 @@ class Replay:
         """The simulated drive on its own clock. Where the centre of gravity of ``vehicle`` lies elsewhere in the car than that which the drive is
         told of (``sensor.TOLD_OF``), the sensor stays at its place, and ``s`` is that of the same point."""
         demand = self.demand
-        forward, up = moved(self.drive.attrs, vehicle)
+        forward, up = displacement(self.drive.attrs, vehicle)
         if forward or up:
             x, y, z = demand["sensor"]
             demand = {**demand, "sensor": (x + forward, y, z + up), **{end: demand[end] - forward for end in ("start", "end")}}

@@ -25,7 +25,7 @@ def sensor_place(vehicle, *, behind_front_axle: float, above_wheel_centres: floa
     )
 
 
-def moved(told_of: Mapping[str, float], vehicle) -> tuple[float, float]:
+def displacement(told_of: Mapping[str, float], vehicle) -> tuple[float, float]:
     """How much farther forward and up, in m, a point of the car lies from the centre of gravity of ``vehicle`` than from that of the one by which
     places were told (TOLD_OF; what is not told is as ``vehicle`` has it)."""
     names = [name for name in TOLD_OF if name in told_of]

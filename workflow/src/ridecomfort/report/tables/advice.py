@@ -116,7 +116,7 @@ def farther(beyond: Mapping) -> str:
     bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(as_written, _farther(one))) for one in those)
     begin = "In place of that" if beyond.get("is_instead") else "First of all"
     if beyond.get("effects"):
-        begin += f", with effects: [{', '.join(beyond['effects'])}] alone"
+        begin += f", with {', '.join(beyond['effects'])} alone of the effects above"
     return (
         f"{begin}: if the vehicle's file may be that wrong, have it calibrated. Add {names} to calibration: parameters in config/study.yaml, unless "
         f"they are there, and put {bounds} into calibration: bounds; then compare and diagnose again. If it cannot be, they stand in for something else."
