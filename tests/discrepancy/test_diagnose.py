@@ -309,6 +309,15 @@ def test_little_on_such_a_road_may_be_the_road():
     assert reconsidered(less, replace(SURE, share=0.05), is_road_open=True).verdict == "suspect"
 
 
+def test_unless_a_force_explains_more_than_the_road_could():
+    """As of joints with play, 0.29 and 0.20 beside friction of 0.02 and 0.01: of what is left noise of the road is most."""
+    less, force = replace(LITTLE, share=0.02, held_out_share=0.01), replace(SURE, share=0.29, held_out_share=0.2)
+    found = reconsidered(less, force, is_road_open=True)
+    assert found.verdict == "outside" and "at the tyre that the library does not hold explains more: 29 %" in found.reasons[-1]
+    for weaker in ({"share": 0.15}, {"held_out_share": -0.1}, {"p_value": 0.03}, {"place": ""}):
+        assert reconsidered(less, replace(force, **weaker), is_road_open=True).verdict == "suspect"
+
+
 def test_a_force_that_explains_more_does_even_on_a_noisy_road():
     assert reconsidered(LITTLE, SURE, is_road_open=True) is LITTLE
 

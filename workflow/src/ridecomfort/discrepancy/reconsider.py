@@ -77,7 +77,7 @@ def reconsidered(
         case "suspect":
             return _error_or_force(verdict, proposal, said, fits_better) if is_error_alone else _noise_or_force(verdict, proposal, said)
         case "outside":
-            return _road_or_force(verdict, proposal) if is_road_open else verdict
+            return _road_or_force(verdict, proposal, said) if is_road_open else verdict
     if _is_better(verdict, proposal, fits_better):
         return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}")
     if _is_in_doubt(verdict) and is_sure(proposal) and not proposal.beside and left(proposal) < left(verdict):
@@ -92,9 +92,8 @@ def _said_of(proposal: Discovery) -> str:
 
 def _noise_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
     """Noise of the road, which repeats share as well, gives way to a force that explains more than noise could."""
-    # Beside that noise, which weighs more the weaker an effect is, any fall on drives held out will do.
-    is_more = _is_no_chance(proposal) and proposal.share > LITTLE and not proposal.held_out_share <= 0
-    return with_reason(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})") if is_more else verdict
+    is_there = with_reason(verdict, "outside", f"{said} is there (p = {proposal.p_value:.2g})")
+    return is_there if _is_more_than_noise(proposal) else verdict
 
 
 def _error_or_force(verdict: Verdict, proposal: Discovery, said: str, fits_better: bool) -> Verdict:
@@ -106,13 +105,15 @@ def _error_or_force(verdict: Verdict, proposal: Discovery, said: str, fits_bette
     return verdict
 
 
-def _road_or_force(verdict: Verdict, proposal: Discovery) -> Verdict:
+def _road_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
     """Where the road may be another than that of its file, "outside" becomes what the library has, "suspect" if that is little, unless a
-    force explains BETTER as much."""
+    force explains BETTER as much and is sure, or, beside so little, is more than that road could be."""
     is_more = _leaves_half(verdict, proposal) if proposal.beside else proposal.share > BETTER * verdict.share
     if not verdict.effects or is_sure(proposal) and is_more:
         return verdict
     if not verdict.share >= LITTLE:
+        if is_more and _is_more_than_noise(proposal):
+            return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}")
         return with_reason(verdict, "suspect", "no form of a force that was tried explains more, and what the road is otherwise may be all of it")
     kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
     return with_reason(verdict, kind, "no form of a force that was tried explains more, and what the road is otherwise is shared by repeats, too")
@@ -263,6 +264,12 @@ def is_sure(proposal: Discovery) -> bool:
     if not (_is_no_chance(proposal) and proposal.share > LITTLE):
         return False
     return not np.isfinite(proposal.held_out_share) or proposal.held_out_share > CONFIRMED
+
+
+def _is_more_than_noise(proposal: Discovery) -> bool:
+    """Whether a proposed form explains more than noise of the road could. Beside that noise, which weighs more the weaker an effect is, any fall
+    on drives held out will do."""
+    return _is_no_chance(proposal) and proposal.share > LITTLE and not proposal.held_out_share <= 0
 
 
 def _is_no_chance(proposal: Discovery) -> bool:
