@@ -10,6 +10,8 @@ import pytest
 
 from ridecomfort.discrepancy import beyond, diagnose, opening, refit, rung, select
 from ridecomfort.discrepancy.experiment import Size
+from ridecomfort.discrepancy.judge import with_parameters
+from ridecomfort.discrepancy.verdict import Named, Verdict
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
 from tests.blind import trials
@@ -135,7 +137,7 @@ def test_a_wrong_file_is_told_of_which_fewer_effects_leave_half_and_beside_those
     )
     damping = beyond.Beyond("damping_rear", "N s/m", 2230.0, (1895.5, 2564.5), (631.8, 7693.5), 1193.0, (1182.0, 1204.0))
     monkeypatch.setattr(beyond, "shares", lambda selection, first, last, *others: (last - first, last - first))
-    monkeypatch.setattr(beyond, "_beyond", lambda *found, is_first: beyond.BeyondBounds((damping,), *found[-2:], is_first))
+    monkeypatch.setattr(beyond, "_beyond", lambda *found, is_first=False: beyond.BeyondBounds((damping,), *found[-2:], is_first))
     told = beyond.searched(before, after)
     assert (told is not None) is (told_as is not None)
     if told_as == "as good":
@@ -146,6 +148,36 @@ def test_a_wrong_file_is_told_of_which_fewer_effects_leave_half_and_beside_those
         )
     elif told is not None and alone < 0.0:
         assert told.words(True).startswith("beside what is missing, parameters of the vehicle lie beyond their bounds: damping_rear 1193 N s/m (1182 to 1204) for 2230")
+
+
+@pytest.mark.parametrize(
+    ("alone", "held_out", "sizes", "is_told"),
+    [(0.686, 0.575, 4, True), (0.68, 0.575, 1, True), (0.67, 0.575, 4, False), (0.686, 0.55, 4, False), (0.686, float("nan"), 4, True), (0.686, 0.575, 0, False)],
+)  # fmt: skip
+def test_parameters_that_do_alone_as_much_by_no_more_numbers_are_not_told_from_an_effect(monkeypatch, alone, held_out, sizes, is_told):
+    """As of tyres on soft ground, which sinks under every wheel: half of the pressure is lost in all four, 69 and 58 %, or they are half as
+    stiff, beyond what is published. What is accepted after that, and is little, changes nothing."""
+    loss = SimpleNamespace(name="tyre_pressure_loss", sizes=(None,) * sizes)
+    frame = SimpleNamespace(experiment=SimpleNamespace(candidates=(loss,)))
+    before = SimpleNamespace(accepted=(loss.name,), states=((0.0, 0.0), (0.694, 0.576)), frame=frame)
+    after = SimpleNamespace(
+        accepted=("damper_asymmetry",), states=((alone, held_out), (alone, held_out)), frame=frame, final=SimpleNamespace(values={}), intervals={}
+    )
+    stiffness = beyond.Beyond("tyre_radial_stiffness", "N/m", 320000.0, (250000.0, 400000.0), (83333.0, 1.2e6), 142000.0, (138000.0, 146000.0))
+    monkeypatch.setattr(beyond, "shares", lambda selection, first, last, *others: tuple(np.subtract(last, first)))
+    monkeypatch.setattr(beyond, "_beyond", lambda *found, is_first=False: beyond.BeyondBounds((stiffness,), *found[-2:], is_first))
+    told = beyond.searched(before, after)
+    assert (told is not None) is is_told
+    if not is_told:
+        return
+    assert told.is_instead and told.is_another_name and told.share == alone
+    gone = "69 %" if alone == 0.686 else "68 %"
+    assert told.words(True).startswith(f"another explanation, as good, {gone} of the explainable error")
+    effect = Named(loss.name, (), "", 0.001, 0.694, 0.576, 0.0, (), {})
+    found = with_parameters(Verdict("named", (effect,), (), 0.694, 0.576), told)
+    assert found.verdict == "cluster" and found.words().startswith(
+        "Missing: tyre_pressure_loss or tyre_radial_stiffness beyond its bounds; the data do not tell those apart. "
+    )
 
 
 def test_other_effects_are_no_other_explanation(monkeypatch):

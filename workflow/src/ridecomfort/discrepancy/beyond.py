@@ -92,9 +92,9 @@ class AtBound:
 class BeyondBounds:
     """``parameters`` that lie beyond their bounds, and the ``share`` of the explainable error that goes on fitted and on held-out drives
     (nan where not known) when they may: beside effects that were found without; where ``is_first``, before any effect; where ``is_instead``,
-    alone, as another explanation, which removes less than that of the verdict. ``less_sure``: parameters whose values lie beyond their
-    bounds, too, and do much there, but whose intervals reach back into them. ``effects``: names of the fewer effects that remove as much as
-    those of the verdict where parameters may lie beyond their bounds; shares are of both then."""
+    alone, as another explanation, which removes less than that of the verdict, or ``is_as_good``. ``less_sure``: parameters whose values lie
+    beyond their bounds, too, and do much there, but whose intervals reach back into them. ``effects``: names of the fewer effects that remove
+    as much as those of the verdict where parameters may lie beyond their bounds; shares are of both then."""
 
     parameters: tuple[Beyond, ...]
     share: float
@@ -103,6 +103,7 @@ class BeyondBounds:
     is_instead: bool = False
     less_sure: tuple[Beyond, ...] = ()
     effects: tuple[str, ...] = ()
+    is_as_good: bool = False
 
     def words(self, is_more: bool) -> str:
         """What they are and what goes with them; ``is_more``: beside effects that were found."""
@@ -111,16 +112,20 @@ class BeyondBounds:
             names += f", less surely {_told(self.less_sure)}, of which one may stand in for another"
         checked = f", {100 * self.held_out_share:.0f} % on drives held out" if np.isfinite(self.held_out_share) else ""
         gone = f"{100 * self.share:.0f} % of the explainable error{checked}"
-        if self.effects:
-            return f"another explanation, as good, {gone}: {', '.join(self.effects)} alone, with parameters of the vehicle beyond their bounds, {names}"
         if self.is_instead:
-            return f"another explanation, which removes less, {gone}: parameters of the vehicle beyond their bounds, {names}"
+            how, alone = "as good" if self.is_as_good else "which removes less", f"{', '.join(self.effects)} alone, with " if self.effects else ""
+            return f"another explanation, {how}, {gone}: {alone}parameters of the vehicle beyond their bounds, {names}"
         share = f"{gone}{',' if checked else ''} goes with parameters of the vehicle beyond their bounds: {names}"
         if self.is_first and not _is_enough((self.share, self.held_out_share)):
             return f"beside what is missing, parameters of the vehicle lie beyond their bounds: {names}; shares are of what they leave"
         if self.is_first:
             return f"{share}; other shares are of what they leave"
         return f"another {share}" if is_more else share
+
+    @property
+    def is_another_name(self) -> bool:
+        """Whether they do alone, and by no more numbers, what the effects of a verdict do."""
+        return self.is_as_good and not self.effects
 
     def names(self) -> list[str]:
         """All parameters that are told."""
@@ -130,6 +135,11 @@ class BeyondBounds:
         """The same with the values that this vehicle has as given: what it was calibrated to is no value of its file."""
         given = lambda those: tuple(replace(one, given=float(vehicle[one.parameter])) for one in those)
         return replace(self, parameters=given(self.parameters), less_sure=given(self.less_sure))
+
+
+def other_name(parameters: Sequence[str]) -> str:
+    """Parameters that are not told from effects, in words."""
+    return f"{' and '.join(parameters)} beyond {'its' if len(parameters) == 1 else 'their'} bounds"
 
 
 def beyond_bounds(selection: Selection, each: Callable = map) -> tuple[BeyondBounds | None, Rung] | None:
@@ -203,8 +213,8 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     """Parameters beyond their bounds, found by the search ``after``, which allowed that. None unless they alone explain a share that is worth
     a word, at least one lies outside of its bounds, and the model is better than that of the search ``before``, which kept to them: by
     such a share, or by parameters that alone leave no more than LEFT of what all effects did. Or with fewer effects it leaves no more than
-    CLOSER of what those did, whatever the parameters do alone. With fewer of the same effects that explain no EQUAL less, it is another
-    explanation, as good.
+    CLOSER of what those did, whatever the parameters do alone. Parameters that alone explain no EQUAL less than all effects, by no more numbers
+    than these have, or do so with fewer of the same effects, are another explanation, as good.
     """
     gained = shares(before, before.states[-1], after.states[-1], after)
     alone = shares(before, before.states[0], after.states[0], after)
@@ -216,11 +226,19 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     found = lambda gone, **kind: _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *gone, **kind)  # noqa: E731
     if is_better:
         return found(alone, is_first=True)
+    no_less = lambda ours: not any(own <= theirs - EQUAL for own, theirs in zip(ours, effects))
+    another = found(alone) if _is_enough(alone) and no_less(alone) else None
+    if another is not None and len(another.names()) <= _numbers(before):
+        return replace(another, is_instead=True, is_as_good=True)
     is_part = bool(after.accepted) and set(after.accepted) < set(before.accepted)
-    if not is_part or any(own <= theirs - EQUAL for own, theirs in zip(whole, effects)):
-        return None
-    as_good = found(whole, is_first=False)
-    return replace(as_good, is_instead=True, effects=after.accepted) if as_good is not None else None
+    as_good = found(whole) if is_part and no_less(whole) else None
+    return replace(as_good, is_instead=True, is_as_good=True, effects=after.accepted) if as_good is not None else None
+
+
+def _numbers(selection: Selection) -> int:
+    """How many sizes the accepted effects of a selection have."""
+    accepted = (candidate for candidate in selection.frame.experiment.candidates if candidate.name in selection.accepted)
+    return sum(len(candidate.sizes) for candidate in accepted)
 
 
 def still_beyond(before: Selection, after: Selection) -> BeyondBounds | None:

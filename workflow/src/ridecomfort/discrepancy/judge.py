@@ -115,7 +115,8 @@ def with_remainder(verdict: Verdict, remainder: Mapping[str, float], at_first: M
 
 def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
     """A verdict with the parameters of the vehicle that explain more beyond their bounds, if any: a reason more. Where they came first and
-    nothing else is missing, or nothing that drives held out confirm, what is missing is no effect of the library."""
+    nothing else is missing, or nothing that drives held out confirm, what is missing is no effect of the library. Effects that do no more than
+    they do alone are not told from them: tyres that have all lost half of their pressure are as soft as tyres of half the stiffness."""
     if found is None:
         return verdict
     reasons = (*verdict.reasons, found.words(bool(verdict.effects)))
@@ -124,6 +125,7 @@ def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
         reasons = (*reasons, f"{names} may be what these leave: too little on drives held out to be what is missing")
         return replace(verdict, verdict="outside", effects=(), reasons=reasons, share=0.0, held_out_share=0.0, beyond_bounds=found)
     kind = "outside" if found.is_first and verdict.verdict == "nothing" else verdict.verdict
+    kind = "cluster" if found.is_another_name and kind == "named" else kind
     return replace(verdict, verdict=kind, reasons=reasons, beyond_bounds=found)
 
 

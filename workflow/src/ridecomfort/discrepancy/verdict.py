@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
-from .beyond import AtBound, BeyondBounds
+from .beyond import AtBound, BeyondBounds, other_name
 from .off_file import OffFile
 
 SAID = {
@@ -96,15 +96,16 @@ class Verdict:
         """The verdict as a few sentences."""
         told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
         names = [" or ".join((effect.name, *effect.like)) for effect in told]
-        return " ".join([first_sentence(self.verdict, names, self.remainder, self.at_first), *map(sentence, self.reasons)])
+        other = other_name(self.beyond_bounds.names()) if self.beyond_bounds and self.beyond_bounds.is_another_name else ""
+        return " ".join([first_sentence(self.verdict, names, self.remainder, self.at_first, other), *map(sentence, self.reasons)])
 
 
-def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, float], at_first: Mapping[str, float]) -> str:
+def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, float], at_first: Mapping[str, float], other: str = "") -> str:
     """What a verdict begins with; ``remainder``: share of the power of each signal that is left, ``at_first``: that was before anything was
-    found."""
+    found; ``other``: what all of the ``names`` are not told from (``beyond.other_name``)."""
     if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
         return UNNAMED
-    told = ", ".join(names)
+    told = ", ".join(names) + (f" or {other}" if other else "")
     said = SAID[kind].format(names=f": {told}" if kind == "suspect" and told else told)
     return said + LITTLE_TO_EXPLAIN.format(most=100 * max(at_first.values())) if is_of_little(kind, at_first) else said
 

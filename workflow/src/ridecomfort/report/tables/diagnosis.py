@@ -9,6 +9,7 @@ import xarray as xr
 
 from ...discrepancy import ranking
 from ...discrepancy.balance import LITTLE
+from ...discrepancy.beyond import other_name
 from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
@@ -69,7 +70,8 @@ def verdict(found: Diagnosis) -> Table:
     told = [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
     names = [_alike(effect) for effect in told]
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
-    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, said.get("remainder") or {}, said.get("at_first") or {})
+    known = [said.get(key) or {} for key in ("remainder", "at_first")]
+    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, *known, _other(beyond or {}))
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [(words(effect["name"]), _found(effect)) for effect in told if said["verdict"] in NAMING]
     rows += [("reason", sentence(reason)) for reason in said["reasons"]]
@@ -97,6 +99,12 @@ def verdict(found: Diagnosis) -> Table:
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)
+
+
+def _other(beyond: Mapping) -> str:
+    """Parameters of the vehicle beyond their bounds that are not told from the effects of a verdict, in words; empty without any."""
+    those = [*beyond.get("parameters", ()), *beyond.get("less_sure", ())]
+    return other_name([one["parameter"] for one in those]) if beyond.get("is_as_good") and not beyond.get("effects") else ""
 
 
 def _found(effect: Mapping) -> str:
