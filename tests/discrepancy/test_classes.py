@@ -37,6 +37,11 @@ def test_two_steady_speeds_are_two_classes_whose_edge_lies_between_them(slow):
     assert 18.0 in classes.edges(values).round(1)
 
 
+def test_a_drive_shorter_than_the_running_mean_has_that_of_all_of_it():
+    assert classes._slow(np.arange(76.0), 100.0).shape == (76,)
+    assert classes._slow(np.full(76, 3.0), 100.0) == pytest.approx(np.full(76, 3.0))
+
+
 def test_what_is_near_nil_keeps_its_classes_however_small_beside_the_largest():
     """Curvature of a road with few bends."""
     assert _held(np.geomspace(1e-5, 1e-1, 1000)) == [200] * 5

@@ -79,3 +79,10 @@ def test_what_drives_held_out_confirm_goes_first_unless_another_explains_more_of
     more = a_trial("more", 4000.0, 500.0, 1.8, 0.6)
     assert confirm.best([more, sure, much]) is more
     assert confirm.best([]) is None
+
+
+def test_what_no_drive_held_out_meets_goes_first_only_if_it_explains_more_of_the_fitted_ones():
+    unmet = a_trial("unmet", 12.0, float("nan"), float("nan"), float("nan"))
+    weak = a_trial("weak", 4000.0, 610.0, 1.9, 0.85)
+    assert confirm.best([unmet, weak]) is weak
+    assert confirm.best([replace(unmet, bic=4100.0), weak]).name == "unmet"

@@ -232,6 +232,36 @@ def test_without_repeats_the_floor_is_the_noise_that_is_known_of_the_instruments
     assert selection.floor_squares.max() == pytest.approx(0.01 * (high - low))
 
 
+def test_drives_held_out_that_repeat_a_fitted_one_tell_the_floor():
+    """One fitted drive, two more of it held out: no error is known that repeats share, but what noise is."""
+    model = Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0})
+    repeated = judged(model)[0]
+    model.records = [replace(record, role="fit" if number == 0 else "check") for number, record in enumerate(model.records)]
+    selection, found = judged(model)
+    assert selection.is_floor_known and not selection.has_repeats
+    assert selection.floor_squares.mean() == pytest.approx(repeated.floor_squares.mean(), rel=0.2)
+    assert found.verdict == "named" and [effect.name for effect in found.effects] == ["effect_2"]
+    assert any("the floor is known from repeats that are held out" in reason for reason in found.reasons)
+
+
+@pytest.mark.parametrize(("times", "is_asked"), [(1.0, False), (10.0, True)])
+def test_noise_that_is_told_far_larger_than_the_error_is_asked_about(times, is_asked):
+    model = alone(Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0}))
+    low, high = model.records[0].band
+    left = judged(model)[0].states[-1].squares.mean()
+    model.records = [replace(record, noise=(times * np.sqrt(left / (high - low)),) * 4) for record in model.records]
+    reasons = judged(model)[1].reasons
+    assert any("is its unit right?" in reason for reason in reasons) is is_asked
+
+
+@pytest.mark.parametrize("is_held_out", [True, False])
+def test_it_is_said_where_no_drive_is_held_out(is_held_out):
+    model = Linear(1, {"effect_2.size": 1.0})
+    model.records = model.records if is_held_out else [replace(record, role="fit") for record in model.records]
+    found = judged(model)[1]
+    assert found.verdict == "named" and ("no drive is held out: this rests on the fitted drives alone" in found.reasons) is not is_held_out
+
+
 @pytest.mark.parametrize(("is_repeated", "said"), [(False, "too little on drives held out"), (True, "repeats share an error that it leaves")])
 def test_without_repeats_an_error_that_repeats_share_is_not_the_reason_why_too_little_was_found(is_repeated, said):
     """An error of the measurement that the drives held out have not, though they do not refute it: they do not meet it."""

@@ -41,6 +41,25 @@ def test_on_a_road_that_is_another_an_error_that_repeats_share_counts_where_it_i
     assert found.verdict == said
 
 
+@pytest.mark.parametrize("is_shared", [True, False])
+def test_of_a_shorter_repeat_that_counts_which_both_have_driven_in_whatever_order_they_stand(is_shared):
+    """The first 12 s of 30: beyond them the shorter one says nothing, and what it held at its end is no error that it shares."""
+
+    def found(lengths):
+        model = Linear(8, {})
+        every = np.random.default_rng(3).standard_normal((4, SAMPLES))
+        model.records = [replace(record, place=record.place[:count]) for record, count in zip(model.records[:2], lengths)]
+        errors = [every + (0.0 if is_shared else k) * np.random.default_rng(k).standard_normal(every.shape) for k in (1, 2)]
+        residuals = {k: errors[k][:, :count] for k, count in enumerate(lengths)}
+        frame = SimpleNamespace(experiment=model, indices=[0, 1])
+        ((record, one, other),) = shared._pairs(frame, residuals)
+        assert one.shape == other.shape == (4, 1200) and record.place.size == 1200
+        return np.sum(one * other) / np.sqrt(np.sum(one**2) * np.sum(other**2))
+
+    first, second = found((1200, SAMPLES)), found((SAMPLES, 1200))
+    assert first == pytest.approx(second, abs=0.02) and bool(first > 0.99) is is_shared
+
+
 @pytest.mark.parametrize("seed", range(20, 26))
 def test_noise_of_every_drive_agrees_in_no_band(seed):
     selection, found = judged(Linear(seed, {}))

@@ -6,6 +6,7 @@ import pytest
 import yaml
 
 from ridecomfort import config as configuration
+from ridecomfort.discrepancy.explain import NIL, REPEATS
 from ridecomfort.report import diagnosed
 from ridecomfort.report.tables import advice
 from tests.report import differing as made_up
@@ -18,6 +19,14 @@ def test_the_better_of_library_and_proposed_form_comes_first(held_out, first, se
     tables = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "verdict": "outside", "proposal": proposal}))
     said = rows(tables["verdict"])[-1]["in_words"]
     assert said.startswith(first) and f"The second choice: {second[:7]}" in said
+
+
+@pytest.mark.parametrize(("verdict", "floor", "is_said"), [("outside", NIL, True), ("outside", REPEATS, False), ("named", NIL, False)])
+def test_where_something_is_missing_beside_a_floor_that_is_not_known_noise_comes_first(verdict, floor, is_said):
+    found = made_up.diagnosis({**made_up.VERDICT, "verdict": verdict})
+    found = replace(found, ranking=found.ranking.assign_attrs(floor=floor))
+    said = rows(diagnosed.tables(found)["verdict"])[-1]["in_words"]
+    assert said.startswith("First tell the noise of the instruments (noise_density") is is_said
 
 
 @pytest.mark.parametrize(("library", "said"), [(0.15, "Go on from what the library has"), (0.05, "Nothing that was found explains much")])

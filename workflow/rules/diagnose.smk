@@ -1,4 +1,4 @@
-# Which physical effect the model lacks, from the drives measured on all sites of the calibrated vehicle.
+# Which physical effect the model lacks, from the drives measured on all sites that share the first calibration.
 # What it names decides which models the study goes on with.
 checkpoint diagnosis:
     input:

@@ -114,7 +114,7 @@ def _class(values: np.ndarray, edge: np.ndarray) -> np.ndarray:
 
 
 def _slow(series: np.ndarray, rate: float) -> np.ndarray:
-    """The running mean over 1/SLOW seconds."""
-    count = max(1, int(rate / SLOW))
+    """The running mean over 1/SLOW seconds, or over all of a shorter series."""
+    count = min(max(1, int(rate / SLOW)), len(series))
     weight = np.convolve(np.ones(len(series)), np.ones(count), "same")
     return np.convolve(series, np.ones(count), "same") / weight

@@ -129,7 +129,8 @@ def best(trials: Sequence[Trial], simpler: Collection[str] = ()) -> Trial | None
     sound = [trial for trial in trials if not trial.objection]
     first = max(sound, key=_merit, default=None)
     explained = lambda trial: np.array([trial.bic, trial.held_out_gain, trial.held_out_share])
-    most = max((trial for trial in sound if np.all(explained(trial) > explained(first))), key=_merit, default=first)
+    is_more = lambda trial: np.all((explained(trial) > explained(first))[np.isfinite(explained(first))])  # a drive held out that says nothing aside
+    most = max((trial for trial in sound if is_more(trial)), key=_merit, default=first)
     alike = (trial for trial in sound if trial.name in simpler and not _explains_more(most, trial))
     return most if most is None or most.name in simpler else max(alike, key=_merit, default=most)
 

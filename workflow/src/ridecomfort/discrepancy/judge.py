@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from . import floor
 from .allowance import Allowance
 from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced
 from .beyond import AtBound, BeyondBounds
@@ -29,6 +30,9 @@ MAY_DRIVE = "something that is missing may drive it there"
 
 BEYOND = "; if the car may lie beyond, have it calibrated in wider bounds (calibration: parameters, bounds)"
 """...where there can be more or less of them."""
+
+TOO_NOISY = 1.5
+"""Times the error that is left, the median of the signals, from which on noise that is told of instruments is asked about."""
 
 NEARLY = 0.9
 """Share of what an effect removes, of fitted and of held-out drives, from which on another that was refitted is told beside it."""
@@ -98,7 +102,7 @@ def judge(
         reasons.append(f"repeats share an error yet, but nowhere more than a driver's foot and hands may make, or than matters; most surely {selection.remaining.band}")
     if effects and selection.birge_ratio > 1.0:
         reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
-    said = (*reasons, _floor(selection))
+    said = (*reasons, *_of_drives(selection, bool(effects)))
     left = balance.is_left, balance.is_shared or not selection.has_repeats
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error)
 
@@ -215,10 +219,25 @@ def _nearly(selection: Selection, effect: Named) -> list[str]:
     return told
 
 
+def _of_drives(selection: Selection, is_found: bool) -> list[str]:
+    """What the drives can tell, in words: what is known of the floor, and where effects were found without any drive held out that these rest on
+    the fitted ones."""
+    said = [_floor(selection)]
+    noise = [floor.assumed(selection.frame.experiment.records[index]) for index in selection.frame.indices]
+    times = float(np.sqrt(np.median([known / left for known, left in zip(noise, selection.states[-1].squares)])))
+    if times > TOO_NOISY and not selection.has_repeats:
+        said.append(f"the noise that is told of the instruments is {times:.1f} times the error that is left: is its unit right?")
+    if is_found and selection.check_frame is None:
+        said.append("no drive is held out: this rests on the fitted drives alone")
+    return said
+
+
 def _floor(selection: Selection) -> str:
     """What the floor is known from, in words."""
     if selection.has_repeats:
         return "the floor is known from repeats"
+    if selection.is_floor_known:
+        return "no fitted drive repeats another, so that it is not known what repeats share: the floor is known from repeats that are held out"
     assumed = "assumed from the noise of the instruments" if selection.floor_squares.any() else "taken as nil"
     return f"no drive was repeated: the floor is {assumed}"
 

@@ -33,7 +33,8 @@ FITS = 2
 class Rung:
     """``experiment``: its records aligned for the model. Of the fitted records ``frame``, ``fit`` and the ``raw`` columns of what is
     fitted; of those held out ``check`` (residuals) and ``check_frame``, empty and None without any. ``floor_squares``,
-    ``held_out_floor_squares``: of the floor, mean squares (record, channel); ``has_repeats``: whether it is known from repeats."""
+    ``held_out_floor_squares``: of the floor, mean squares (record, channel); ``has_repeats``: whether a fitted drive was repeated by
+    another, ``is_floor_known``: whether any drive was, so that it is known from repeats."""
 
     experiment: Experiment
     frame: Frame
@@ -44,6 +45,7 @@ class Rung:
     floor_squares: np.ndarray
     held_out_floor_squares: np.ndarray
     has_repeats: bool
+    is_floor_known: bool
 
     def squares(self, fit: Fit, check: Mapping[int, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
         """Mean squares (record, channel) of the fitted records of a fit, and of residuals ``check`` of those held out; without any of
@@ -78,11 +80,11 @@ def climb(
     check, check_frame = {}, None
     if held_out:
         check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out)
-    has_repeats, floor_squares, held_out_floor_squares = _floor_squares(experiment, frame, fit, check, check_frame)
+    repeated, floor_squares, held_out_floor_squares = _floor_squares(experiment, frame, fit, check, check_frame)
     if before is not None:
         floor_squares = np.minimum(before.floor_squares, floor_squares)
         held_out_floor_squares = np.minimum(before.held_out_floor_squares, held_out_floor_squares)
-    return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, has_repeats)
+    return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, *repeated)
 
 
 @dataclass(frozen=True)
@@ -214,11 +216,13 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Ex
     return experiment, frame, fit, raw
 
 
-def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
-    """Whether the floor is known from repeats, and its mean squares on fitted and held-out records; of a condition without repeats, the mean
-    of the others. Repeats differ in their path, so what the model lacks differs too: the floor sinks as the model improves."""
+def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[tuple[bool, bool], np.ndarray, np.ndarray]:
+    """Whether fitted drives were repeated by one another, and whether any were; and mean squares of the floor on fitted and held-out records,
+    of a condition without repeats the mean of the others. Repeats differ in their path, so what the model lacks differs too: the floor sinks
+    as the model improves."""
     cleaned = frame.all_cleaned(fit.residuals)
-    known = floor.floor(experiment, cleaned)
+    held_out = check_frame.all_cleaned(check) if check else {}
+    has_repeats, known = bool(floor.floor(experiment, cleaned)), floor.floor(experiment, {**cleaned, **held_out})
     floors = []
     for indices in roles(experiment):
         rows = np.zeros((len(indices), len(experiment.channels)))
@@ -230,5 +234,5 @@ def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tu
     # No floor lies above what a model has reached.
     floor_squares, held_out_floor_squares = np.minimum(floors[0], floor.squares(experiment, cleaned)), floors[1]
     if check:
-        held_out_floor_squares = np.minimum(held_out_floor_squares, floor.squares(experiment, check_frame.all_cleaned(check)))
-    return bool(known), floor_squares, held_out_floor_squares
+        held_out_floor_squares = np.minimum(held_out_floor_squares, floor.squares(experiment, held_out))
+    return (has_repeats, bool(known)), floor_squares, held_out_floor_squares

@@ -136,6 +136,7 @@ class _Search:
             tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,
             rung.check_frame, wider, self.probed, self._allowed(final, frame), frozenset(self.needless),
+            rung.is_floor_known,
         )  # fmt: skip
 
     def _final_fit(self) -> tuple[Fit, Frame, set[str]]:

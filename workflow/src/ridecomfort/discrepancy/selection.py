@@ -115,6 +115,9 @@ class Selection:
     """By key of a size of an accepted effect, what its interval has to allow for beside ``intervals`` (``allowance``)."""
     needless: frozenset[str] = frozenset()
     """Names of accepted effects without which the last fit is no worse: nil in ``final``, with no ``intervals``."""
+    is_floor_known: bool = False
+    """Whether any drive was repeated, fitted or held out; ``has_repeats``: whether a fitted one was by another, so that it is known what
+    repeats share."""
 
     def told(self, key: str) -> tuple[float, float]:
         """The interval of a size with what it has to allow for."""

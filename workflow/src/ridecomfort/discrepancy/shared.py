@@ -105,7 +105,7 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
 
 
 def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:
-    """Every two records of a condition: the first, and the series (channel, sample) of both at its places."""
+    """Every two records of a condition, as far as both were driven: the first, and the series (channel, sample) of both at its places."""
     groups: dict[str, list[int]] = {}
     for index in frame.indices:
         groups.setdefault(frame.experiment.records[index].condition, []).append(index)
@@ -114,8 +114,10 @@ def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Rec
         place, finer = zip(*(denser(record.place, series[i]) for record, i in zip(records, own)))
         for a in range(len(own)):
             for b in range(a):
-                other = np.stack([np.interp(records[a].place, place[b], row) for row in finer[b]])
-                yield records[a], series[own[a]], other
+                inside = (records[a].place >= place[b][0]) & (records[a].place <= place[b][-1])
+                record = replace(records[a], place=records[a].place[inside])
+                other = np.stack([np.interp(record.place, place[b], row) for row in finer[b]])
+                yield record, series[own[a]][:, inside], other
 
 
 def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> bool:

@@ -1,4 +1,4 @@
-"""Find the physical effects that the model lacks, from all measured drives; write the evidence and the verdict.
+"""Find the physical effects that the model lacks, from all drives of one calibration; write the evidence and the verdict.
 
 Where something is missing that no effect of the library explains, the form that is proposed for it is written
 beside the verdict as an effect file, ``discovered.py`` (``discovered_2.py`` where there is an effect of that name), to be read,

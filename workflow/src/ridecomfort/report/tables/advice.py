@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...discrepancy.balance import ENOUGH, LITTLE
 from ...discrepancy.confirm import EQUAL
+from ...discrepancy.explain import NIL
 from ...discrepancy.verdict import SMALL, is_of_little
 from ...effects import library
 from ...schema import as_written
@@ -52,6 +53,12 @@ ROAD_FIRST = (
 )
 """What comes before anything else where the road may be another between its points."""
 
+FLOOR_FIRST = (
+    "First tell the noise of the instruments (noise_density of the drives in the site file), or drive a stretch again at the same speed: until then noise "
+    "counts as an error that something is missing for. Then: "
+)
+"""What comes before anything else where something is missing that is not in the library, and no floor is known."""
+
 FILE_FIRST = "First, or in the same go, put the vehicle's file right, as the row above says. Then: "
 """What comes before where calibration holds parameters beside the drives."""
 
@@ -80,6 +87,7 @@ def next_step(found: Diagnosis) -> str:
     if said["verdict"] == "nothing":
         return f"{before}{NEXT['nothing']} {_left(said)}"
     if said["verdict"] == "outside":
+        before += FLOOR_FIRST if found.ranking.attrs.get("floor") == NIL else ""
         return before + _outside(found, proposal, own, named)
     if said["verdict"] == "suspect":
         wrong = [effect["name"] for effect in said["effects"] if effect.get("is_of_measurement")]

@@ -236,7 +236,7 @@ def evidence(found: Diagnosis) -> Table:
         rows += [(turn, words(name), *one) for name, one in told.items()]
     notes = (
         "Gain: fall of twice the negative log-likelihood. The p-value is that of the largest gain over the whole library, by block "
-        "wild bootstrap: a screen of what is worth a refit; docs/diagnosis.md says how often it is small where nothing is missing. Every effect is tested; the "
+        "wild bootstrap: a screen of what is worth a refit; docs/diagnosis.md says how often it is small where nothing is missing. Every effect is tested that does what alignment does not do, too; the "
         "best are refitted together with the calibrated parameters, and what that removes "
         "is told above the floor as known in the round: for what an accepted effect removes, and its size, in the end see the missing effects. "
         "Accepted is what the next round searches beside; whether it has a name in the end says the verdict.",

@@ -45,8 +45,9 @@ def alignment(study: Difference) -> Table:
     notes = (
         "Clock offset: how much later accelerations and rates stand in the record than distance and speed. Speed scale: true "
         "over recorded speed. Mounting: rotation of the instrument against the body. Gains: against gravity, and against the bends of "
-        "the road (below 0.2 Hz; none where it hardly bends). Clock, speed scale, path and mounting are put right before anything is compared, gains are "
-        "not: what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. Role check: nothing is fitted to the drive.",
+        "the road (below 0.2 Hz; none where it hardly bends). Clock, speed scale, path, mounting and the gain against gravity are put right before "
+        "anything is compared, the gain against bends is not: what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. "
+        "Role check: nothing is fitted to the drive.",
         *(f"{site.label}: {doubt}." for site in study.sites if (doubt := site.measured.attrs.get("distance_doubt"))),
     )
     return _table(study, "alignment", columns, rows, sources, notes, breaks[1:])
