@@ -100,6 +100,15 @@ def test_a_road_that_fits_better_when_it_is_interpolated_otherwise_comes_before_
     assert "next First set road: options: interpolation: linear in the site file" in words(diagnosed.tables(found)["verdict"])
 
 
+def test_the_sizes_that_effects_had_before_they_were_switched_on_are_told_again():
+    """The search fits what is uncertain of the vehicle beside them, which calibration holds."""
+    before = {"suspension_friction": {**made_up.VERDICT["effects"][0], "model": "base"}}
+    found = replace(made_up.diagnosis(made_up.nothing()), model="suspension_friction", switched_on=("suspension_friction",), told_before=before)
+    (row,) = (row for row in rows(diagnosed.tables(found)["verdict"]) if row["what"] == "suspension friction, switched on")
+    size = made_up.VERDICT["effects"][0]["sizes"][0]
+    assert row["in_words"].startswith(f"The verdict on the model base: front {size['size']:.3g} N (") and "prefer this" in row["in_words"]
+
+
 def test_what_comes_next_keeps_the_order_of_what_is_switched_on():
     """In another order the models of the error ladder would be others, and calibrated anew."""
     on = ("tyre_relaxation", "damper_knee")

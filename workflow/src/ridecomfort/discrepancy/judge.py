@@ -85,7 +85,7 @@ def judge(
         return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
     if is_little and effects and not (was_material or balance.is_left):
         names = ", ".join(effect.name for effect in effects)
-        reasons.append(f"{names} would help, but removes too little to be what is missing: {_percent(balance.share)} of the explainable error")
+        reasons.append(f"{names} would help, but {'removes' if len(effects) == 1 else 'remove'} too little to be what is missing: {_percent(balance.share)} of the explainable error")
         effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
     elif not is_vain:
         reasons += _removed(balance) if found else _unfound(selection)

@@ -95,7 +95,8 @@ class Diagnosis:
     """Which effects the model lacks: verdict.json and ranking.nc; ``standin`` labels the sites that are stand-ins, ``switched_on`` are the
     effects that the model has, in the order of the study's configuration.
 
-    ``score`` is what the hidden truth of stand-ins says of the verdict (``steps.standin_score``), None without it.
+    ``score`` is what the hidden truth of stand-ins says of the verdict (``steps.standin_score``), None without it. ``told_before``: what a
+    verdict on a ``model`` without them said of effects that are switched on, by name.
     """
 
     verdict: Mapping
@@ -106,6 +107,7 @@ class Diagnosis:
     standin: tuple[str, ...] = ()
     score: Mapping | None = None
     switched_on: tuple[str, ...] = ()
+    told_before: Mapping[str, Mapping] = field(default_factory=dict)
 
     def standin_note(self) -> str | None:
         """As of a Study."""

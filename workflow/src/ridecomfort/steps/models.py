@@ -70,6 +70,11 @@ def verdict_file(study: Study) -> str:
     return f"results/diagnosis/{study.model}/verdict.json"
 
 
+def effects_of(model: str) -> set[str]:
+    """The effects of a model, by its name."""
+    return set() if model == BASE else set(model.split(JOIN))
+
+
 def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
     """Configuration of the step ``ladder`` as JSON: models, titles, and whether each site's own drives were fitted.
 
@@ -77,7 +82,7 @@ def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
     speak of others.
     """
     models = list(dict.fromkeys(Path(file).parts[2] for file in comparisons))
-    sets = [set() if model == BASE else set(model.split(JOIN)) for model in models]
+    sets = [effects_of(model) for model in models]
     effects = [name for before, after in zip(sets, sets[1:]) for name in sorted(after - before)]
     file = Path(verdict_file(study))
     found = json.loads(file.read_text())["effects"] if file.is_file() else []

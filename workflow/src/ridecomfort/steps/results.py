@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from .. import store
 from ..report.catalogue import calibrated_on, label, of_another_study, with_drives
 from ..report.study import Compared, Diagnosis, Difference, Site, Study
+from ..study import JOIN
+from .models import FOLLOWED, effects_of
 
 
 def load(results: Path, config: dict, software: dict | None = None) -> Study:
@@ -79,7 +82,20 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
         sites=sites,
         standin=tuple(label(site) for site in sites if config["sites"][site]["standin"]),
         score=json.loads(files["score"].read_text(encoding="utf-8")) if "score" in files else None,
+        told_before=_told_before(results, config["switched_on"], sites[0]),
     )
+
+
+def _told_before(results: Path, switched_on: Sequence[str], site: str) -> dict[str, dict]:
+    """What verdicts on models with fewer effects, fitted on a ``site``, said of those that are ``switched_on`` by now, by name, each with the
+    ``model``; of several the one on the most effects."""
+    found: dict[str, dict] = {}
+    for file in sorted(results.glob("diagnosis/*/verdict.json"), key=lambda file: (file.parent.name.count(JOIN), file)):
+        model = file.parent.name
+        said = json.loads(file.read_text(encoding="utf-8")) if effects_of(model) < set(switched_on) else {}
+        if said.get("verdict") in FOLLOWED and said["sites"][0] == site:
+            found |= {effect["name"]: {**effect, "model": model} for effect in said["effects"] if effect["name"] in switched_on}
+    return found
 
 
 def drop_others(folder: Path, sites: dict) -> None:

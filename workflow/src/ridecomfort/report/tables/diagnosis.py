@@ -75,6 +75,7 @@ def verdict(found: Diagnosis) -> Table:
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [(words(effect["name"]), _found(effect)) for effect in told if said["verdict"] in NAMING]
     rows += [("reason", sentence(reason)) for reason in said["reasons"]]
+    rows += [(f"{words(name)}, switched on", _before(found.told_before[name])) for name in found.switched_on if name in found.told_before]
     comes_first = bool(beyond) and not beyond.get("is_instead")
     if comes_first:
         rows.append(("the vehicle", advice.farther(beyond)))
@@ -112,6 +113,12 @@ def _found(effect: Mapping) -> str:
     what = f"{literal(sentence(effect['sentence'].removesuffix('.')))} " if effect.get("is_of_measurement") else ""
     sizes = sentence(", ".join(map(_size, effect["sizes"])))
     return f"{what}{sizes} It takes {100 * effect['share']:.0f} % of the explainable error{_checked(effect)}."
+
+
+def _before(effect: Mapping) -> str:
+    """The sizes of an effect as a verdict told them before it was switched on."""
+    sizes = ", ".join(map(_size, effect["sizes"]))
+    return f"The verdict on the model {effect['model']}: {sizes}. Where calibrated.md has another value, prefer this: what is uncertain of the vehicle was fitted beside it."
 
 
 def _size(size: Mapping) -> str:

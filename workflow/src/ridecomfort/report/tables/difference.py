@@ -47,7 +47,7 @@ def alignment(study: Difference) -> Table:
         "over recorded speed. Mounting: rotation of the instrument against the body. Gains: against gravity, and against the bends of "
         "the road (below 0.2 Hz; none where it hardly bends). Clock, speed scale, path, mounting and the gain against gravity are put right before "
         "anything is compared, the gain against bends is not: what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. "
-        "Role check: nothing is fitted to the drive.",
+        "Role check: nothing is fitted to the drive; nor is it to any of a site whose vehicle is calibrated on another.",
         *(f"{site.label}: {doubt}." for site in study.sites if (doubt := site.measured.attrs.get("distance_doubt"))),
     )
     return _table(study, "alignment", columns, rows, sources, notes, breaks[1:])

@@ -75,7 +75,7 @@ def error_ladder(study: Difference) -> Table:
         "Every model is calibrated anew on the fitted drives; nothing is ever fitted to the others. All signals: each weighs as "
         f"much as there was to explain of its own error. Fall: from the row above, and in how many of the stretches of {STRETCH:g} m that "
         f"these drives have. A model helps where chance makes it fall so in at most one of {1 / rungs.LEVEL:.0f} cases (Wilcoxon's signed ranks of "
-        f"the stretches), little where it falls by less than {100 * rungs.WORTHWHILE:g} %. What does not help drives held out is to be taken out "
+        f"the stretches), little where it falls by less than {100 * rungs.WORTHWHILE:g} %. What helps drives held out on no site is to be taken out "
         f"again. Drives of less than {rungs.FEWEST} stretches do not tell. The lowest floor is the least that any rung shown reaches, so it lies below that "
         "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it, a signal perhaps nothing, "
         "which does not count among all then. The diagnosis tells other shares: it takes all sites together and aligns their drives for every model.",
