@@ -80,7 +80,7 @@ def dataset(experiment: Experiment, selection: Selection) -> xr.Dataset:
         },
     )  # fmt: skip
     return result.assign_attrs(
-        floor=REPEATS if selection.has_repeats or selection.is_floor_known else ASSUMED if selection.floor_squares.any() else NIL,
+        floor=REPEATS if selection.is_floor_known else ASSUMED if selection.floor_squares.any() else NIL,
         remaining_band=str(selection.remaining.band or ""),
     )
 
