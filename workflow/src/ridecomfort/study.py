@@ -71,7 +71,7 @@ class Study:
         configured = self._configured()
         if model is None:
             return dict(sorted(configured.items()))
-        return {} if model == BASE else {name: configured.get(name, {}) for name in model.split(JOIN)}
+        return {name: configured.get(name, {}) for name in effects_of(model)}
 
     @property
     def switched_on(self) -> list[str]:
@@ -196,6 +196,11 @@ class Study:
         """Folder with effects of the user's own, None without one."""
         named = self.settings["effects_folder"]
         return None if named is None else self.folder / named
+
+
+def effects_of(model: str) -> list[str]:
+    """The effects of a model, by its name."""
+    return [] if model == BASE else model.split(JOIN)
 
 
 def effect_files(folder: Path | None = None) -> dict[str, Path]:

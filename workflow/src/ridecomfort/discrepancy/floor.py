@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
@@ -53,19 +53,23 @@ def _rising(place: np.ndarray, residual: np.ndarray) -> tuple[np.ndarray, np.nda
     return place[kept], residual[:, kept].T
 
 
+def repeats(experiment: Experiment, indices: Iterable[int]) -> dict[str, list[int]]:
+    """Those of these records that repeat one another, by condition: at least two in each list."""
+    driven: dict[str, list[int]] = {}
+    for index in sorted(indices):
+        driven.setdefault(experiment.records[index].condition, []).append(index)
+    return {condition: own for condition, own in driven.items() if len(own) > 1}
+
+
 def floor(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> dict[str, Spectrum]:
     """Spectrum of the noise of every condition that was driven at least twice, from its residuals less nuisances."""
-    repeats: dict[str, list[int]] = {}
-    for index in sorted(cleaned):
-        repeats.setdefault(experiment.records[index].condition, []).append(index)
     return {
         condition: cross_spectrum(
             deviations([experiment.records[i] for i in own], [cleaned[i] for i in own]),
             experiment.records[own[0]].rate,
             experiment.records[own[0]].lowest,
         )
-        for condition, own in repeats.items()
-        if len(own) > 1
+        for condition, own in repeats(experiment, cleaned).items()
     }
 
 

@@ -225,7 +225,7 @@ def _of_drives(selection: Selection, is_found: bool) -> list[str]:
     said = [_floor(selection)]
     noise = [floor.assumed(selection.frame.experiment.records[index]) for index in selection.frame.indices]
     times = float(np.sqrt(np.median([known / left for known, left in zip(noise, selection.states[-1].squares)])))
-    if times > TOO_NOISY and not selection.has_repeats:
+    if times > TOO_NOISY and not selection.is_floor_known:
         said.append(f"the noise that is told of the instruments is {times:.1f} times the error that is left: is its unit right?")
     if is_found and selection.check_frame is None:
         said.append("no drive is held out: this rests on the fitted drives alone")

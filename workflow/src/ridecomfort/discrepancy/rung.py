@@ -80,11 +80,12 @@ def climb(
     check, check_frame = {}, None
     if held_out:
         check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out)
-    repeated, floor_squares, held_out_floor_squares = _floor_squares(experiment, frame, fit, check, check_frame)
+    has_repeats = bool(floor.repeats(experiment, frame.indices))
+    is_floor_known, floor_squares, held_out_floor_squares = _floor_squares(experiment, frame, fit, check, check_frame)
     if before is not None:
         floor_squares = np.minimum(before.floor_squares, floor_squares)
         held_out_floor_squares = np.minimum(before.held_out_floor_squares, held_out_floor_squares)
-    return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, *repeated)
+    return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, has_repeats, is_floor_known)
 
 
 @dataclass(frozen=True)
@@ -216,13 +217,12 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Ex
     return experiment, frame, fit, raw
 
 
-def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[tuple[bool, bool], np.ndarray, np.ndarray]:
-    """Whether fitted drives were repeated by one another, and whether any were; and mean squares of the floor on fitted and held-out records,
-    of a condition without repeats the mean of the others. Repeats differ in their path, so what the model lacks differs too: the floor sinks
-    as the model improves."""
+def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
+    """Whether the floor is known from repeats, and its mean squares on fitted and held-out records; of a condition without repeats, the mean
+    of the others. Repeats differ in their path, so what the model lacks differs too: the floor sinks as the model improves."""
     cleaned = frame.all_cleaned(fit.residuals)
     held_out = check_frame.all_cleaned(check) if check else {}
-    has_repeats, known = bool(floor.floor(experiment, cleaned)), floor.floor(experiment, {**cleaned, **held_out})
+    known = floor.floor(experiment, {**cleaned, **held_out})
     floors = []
     for indices in roles(experiment):
         rows = np.zeros((len(indices), len(experiment.channels)))
@@ -235,4 +235,4 @@ def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tu
     floor_squares, held_out_floor_squares = np.minimum(floors[0], floor.squares(experiment, cleaned)), floors[1]
     if check:
         held_out_floor_squares = np.minimum(held_out_floor_squares, floor.squares(experiment, held_out))
-    return (has_repeats, bool(known)), floor_squares, held_out_floor_squares
+    return bool(known), floor_squares, held_out_floor_squares

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.signal.windows import tukey
 
 from .experiment import Frame, Record
-from .floor import denser
+from .floor import denser, repeats
 from .judged import band
 
 FINER = 10.0
@@ -106,10 +106,7 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
 
 def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:
     """Every two records of a condition, as far as both were driven: the first, and the series (channel, sample) of both at its places."""
-    groups: dict[str, list[int]] = {}
-    for index in frame.indices:
-        groups.setdefault(frame.experiment.records[index].condition, []).append(index)
-    for own in groups.values():
+    for own in repeats(frame.experiment, frame.indices).values():
         records = [frame.experiment.records[i] for i in own]
         place, finer = zip(*(denser(record.place, series[i]) for record, i in zip(records, own)))
         for a in range(len(own)):

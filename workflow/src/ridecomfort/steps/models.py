@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..study import BASE, JOIN, Study, effect_files
+from ..study import BASE, JOIN, Study, effect_files, effects_of
 
 FOLLOWED = ("named", "cluster")
 """Verdicts whose effects are added; of a cluster the first of each, called by all of its names."""
@@ -70,11 +70,6 @@ def verdict_file(study: Study) -> str:
     return f"results/diagnosis/{study.model}/verdict.json"
 
 
-def effects_of(model: str) -> set[str]:
-    """The effects of a model, by its name."""
-    return set() if model == BASE else set(model.split(JOIN))
-
-
 def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
     """Configuration of the step ``ladder`` as JSON: models, titles, and whether each site's own drives were fitted.
 
@@ -82,7 +77,7 @@ def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
     speak of others.
     """
     models = list(dict.fromkeys(Path(file).parts[2] for file in comparisons))
-    sets = [effects_of(model) for model in models]
+    sets = [set(effects_of(model)) for model in models]
     effects = [name for before, after in zip(sets, sets[1:]) for name in sorted(after - before)]
     file = Path(verdict_file(study))
     found = json.loads(file.read_text())["effects"] if file.is_file() else []

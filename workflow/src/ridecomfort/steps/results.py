@@ -10,8 +10,8 @@ from pathlib import Path
 from .. import store
 from ..report.catalogue import calibrated_on, label, of_another_study, with_drives
 from ..report.study import Compared, Diagnosis, Difference, Site, Study
-from ..study import JOIN
-from .models import FOLLOWED, effects_of
+from ..study import effects_of
+from .models import FOLLOWED
 
 
 def load(results: Path, config: dict, software: dict | None = None) -> Study:
@@ -90,9 +90,9 @@ def _told_before(results: Path, switched_on: Sequence[str], site: str) -> dict[s
     """What verdicts on models with fewer effects, fitted on a ``site``, said of those that are ``switched_on`` by now, by name, each with the
     ``model``; of several the one on the most effects."""
     found: dict[str, dict] = {}
-    for file in sorted(results.glob("diagnosis/*/verdict.json"), key=lambda file: (file.parent.name.count(JOIN), file)):
+    for file in sorted(results.glob("diagnosis/*/verdict.json"), key=lambda file: (len(effects_of(file.parent.name)), file)):
         model = file.parent.name
-        said = json.loads(file.read_text(encoding="utf-8")) if effects_of(model) < set(switched_on) else {}
+        said = json.loads(file.read_text(encoding="utf-8")) if set(effects_of(model)) < set(switched_on) else {}
         if said.get("verdict") in FOLLOWED and said["sites"][0] == site:
             found |= {effect["name"]: {**effect, "model": model} for effect in said["effects"] if effect["name"] in switched_on}
     return found

@@ -117,9 +117,14 @@ def library_helps(verdict: Mapping) -> bool:
     return verdict["verdict"] == "outside" and bool(verdict["effects"]) and helps
 
 
+def told_beyond(beyond: Mapping) -> list[Mapping]:
+    """All parameters of the vehicle that a verdict tells beyond their bounds."""
+    return [*beyond["parameters"], *beyond.get("less_sure", ())]
+
+
 def farther(beyond: Mapping) -> str:
     """What to do where parameters of the vehicle want to lie beyond their bounds."""
-    those = [*beyond["parameters"], *beyond.get("less_sure", ())]
+    those = told_beyond(beyond)
     names = ", ".join(one["parameter"] for one in those)
     bounds = ", ".join("{}: [{}, {}]".format(one["parameter"], *map(as_written, _farther(one))) for one in those)
     begin = "In place of that" if beyond.get("is_instead") else "First of all"

@@ -104,8 +104,8 @@ def verdict(found: Diagnosis) -> Table:
 
 def _other(beyond: Mapping) -> str:
     """Parameters of the vehicle beyond their bounds that are not told from the effects of a verdict, in words; empty without any."""
-    those = [*beyond.get("parameters", ()), *beyond.get("less_sure", ())]
-    return other_name([one["parameter"] for one in those]) if beyond.get("is_as_good") and not beyond.get("effects") else ""
+    is_other = beyond.get("is_as_good") and not beyond.get("effects")
+    return other_name([one["parameter"] for one in advice.told_beyond(beyond)]) if is_other else ""
 
 
 def _found(effect: Mapping) -> str:
