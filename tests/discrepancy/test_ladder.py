@@ -156,7 +156,7 @@ def test_a_model_that_makes_one_signal_worse_while_all_together_fall_may_stand_i
     assert worsened(found) == [
         (
             "ts1",
-            "calibrated: on drives held out more is left of a_y (50 to 100 %), though less of all signals: "
+            "calibrated: on drives held out the error grows in a_y (100 % left after 50 %), though it falls over all signals: "
             "what was fitted may stand in for something that is missing",
         )
     ]

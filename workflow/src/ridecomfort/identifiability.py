@@ -106,9 +106,8 @@ def remarks(names: list[str], places: np.ndarray, knowledge: Knowledge) -> list[
     for name, place, width in zip(names, places, knowledge.half_width):
         words = verdict(place, width)
         if words.startswith("not identified"):
-            sentences.append(
-                f"{name} is {words}: its 90 % interval reaches {width:.2g} of the bounds' width to either side"
-            )
+            how = f"its 90 % interval is {2 * width:.2g} times as wide as its bounds" if np.isfinite(width) else "they hold nothing of it"
+            sentences.append(f"{name} is {words}: these drives leave open where in its bounds it lies ({how})")
         elif words != "identified":
             of_effect = ", or for none of it where that is nil" if "." in name else ""
             sentences.append(f"{name} is {words}: the data ask for more than the bounds allow{of_effect}")

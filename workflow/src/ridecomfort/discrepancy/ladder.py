@@ -164,8 +164,8 @@ def worsened(found: xr.Dataset) -> list[tuple[str, str]]:
             lower, higher = (chosen["left"].sel(rung=rung).values for rung in (before, now))
             rises = np.flatnonzero(higher > lower + WORSE)
             if rises.size and chosen["left_overall"].sel(rung=now) < chosen["left_overall"].sel(rung=before):
-                signals = (f"{chosen['signal'].values[k]} ({100 * lower[k]:.0f} to {100 * higher[k]:.0f} %)" for k in rises)
-                told = f"{now}: on drives {groups[0]} more is left of {', '.join(signals)}, though less of all signals"
+                signals = (f"{chosen['signal'].values[k]} ({100 * higher[k]:.0f} % left after {100 * lower[k]:.0f} %)" for k in rises)
+                told = f"{now}: on drives {groups[0]} the error grows in {', '.join(signals)}, though it falls over all signals"
                 said.append((str(site), f"{told}: what was fitted may stand in for something that is missing"))
     return said
 

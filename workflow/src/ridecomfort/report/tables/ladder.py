@@ -76,9 +76,9 @@ def error_ladder(study: Difference) -> Table:
         f"much as there was to explain of its own error. Fall: from the row above, and in how many of the stretches of {STRETCH:g} m that "
         f"these drives have. A model helps where chance makes it fall so in at most one of {1 / rungs.LEVEL:.0f} cases (Wilcoxon's signed ranks of "
         f"the stretches), little where it falls by less than {100 * rungs.WORTHWHILE:g} %. What helps drives held out on no site is to be taken out "
-        f"again. Drives of less than {rungs.FEWEST} stretches do not tell. The lowest floor is the least that any rung shown reaches, so it lies below that "
-        "of a single model (explainable); beside fewer rungs it lies higher, and the same model leaves less above it, a signal perhaps nothing, "
-        "which does not count among all then. The diagnosis tells other shares: it takes all sites together and aligns their drives for every model.",
+        f"again. Drives of less than {rungs.FEWEST} stretches do not tell. Every comparison has a floor of its own; all "
+        "models are measured against the lowest floor, the least of the models shown. With fewer models it may lie higher, so that the same model "
+        "leaves less above it, a signal perhaps nothing, which does not count among all then. The diagnosis tells other shares: it takes all sites together and aligns their drives for every model.",
         *_of_reference(study),
         "; ".join(floors) + ".",
         *(f"{catalogue.label(site)}: {words}." for site, words in _remarks(titled)),
