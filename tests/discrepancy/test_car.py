@@ -83,7 +83,6 @@ def test_drives_on_other_stretches_are_no_repeats_of_one_another(made):
     [
         (1.0, 30.0, 6.0),  # 22 m/s: the run-in of 54 m ends after 2.5 s, when its driver has not yet found the path
         (3.0, 30.0, 1.5 + 3 * 2.5),  # long under way at the end of the run-in
-        (1.0, 6.0, 2.5 + 0.25 * 3.5),  # three quarters of what a short drive has are left
     ],
 )
 def test_a_drive_is_judged_from_when_it_is_under_way(made, slower, seconds, begins):
@@ -93,6 +92,36 @@ def test_a_drive_is_judged_from_when_it_is_under_way(made, slower, seconds, begi
     road = whole.sel(u=slice(float(drive["s"][0]), None))
     (again,) = opening.car(opening.sites_of({"trial": (road, [drive])}), made.vehicle, library_names=["crosswind"]).replays
     assert again.time[again.compared][0] - again.time[0] == pytest.approx(begins, abs=0.15 * slower)
+
+
+def cut(drive, seconds):
+    """The first so many seconds of a drive."""
+    return drive.isel(time=(drive["time"] - drive["time"][0]).values < seconds)
+
+
+def test_a_drive_that_is_too_short_to_be_asked_is_set_aside_and_said_to_be(made):
+    drive, road = made.replays[0].drive, made.replays[0].road
+    short = cut(drive, 9.0).assign_attrs(name="short", role="check")
+    found = opening.car([opening.Site("trial", road, [short, drive])], made.vehicle, library_names=["crosswind"])
+    assert [record.name for record in found.records] == [drive.attrs["name"]] and len(found.replays) == 1
+    (said,) = found.set_aside
+    assert said.startswith("trial short is judged for 4.") and said.endswith("too short to be asked (less than 10 s)")
+    with pytest.raises(InputError, match="drive_1 is judged for 4.* s only .expected at least 10 s"):
+        opening.car([opening.Site("trial", road, [cut(drive, 9.0)])], made.vehicle, library_names=["crosswind"])
+
+
+def test_drives_that_are_sampled_otherwise_than_one_another_are_refused(made):
+    drive, road = made.replays[0].drive, made.replays[0].road
+    slower = drive.isel(time=slice(None, None, 2)).assign_attrs(name="slower")
+    with pytest.raises(InputError, match="^drive slower: is sampled at 50 Hz, drive drive_1 at 100 Hz"):
+        opening.car([opening.Site("trial", road, [drive, slower])], made.vehicle, library_names=["crosswind"])
+
+
+@pytest.mark.parametrize("given", [{"library_names": ["no_such"]}, {"uncertain": {"no_such": 0.1}}, {"bounds": {"no_such": (0, 1)}}])
+def test_a_name_that_nobody_knows_is_refused(made, given):
+    site = opening.Site("trial", made.replays[0].road, [made.replays[0].drive])
+    with pytest.raises(InputError, match="unknown 'no_such' .expected of "):
+        opening.car([site], made.vehicle, **{"library_names": ["crosswind"], **given})
 
 
 def test_a_driver_makes_up_for_a_wind_that_pushes_the_model_aside(made):

@@ -26,6 +26,10 @@ def test_samples_that_are_not_compared_count_in_neither():
     assert compare.nrmse(residual, measured) == pytest.approx(2.0 / np.ptp(measured[50:]))
 
 
+def test_a_signal_that_is_constant_has_no_range_to_be_compared_with():
+    assert np.isnan(compare.nrmse(np.ones((1, 10)), np.full((1, 10), 3.0))).all()
+
+
 @pytest.fixture(scope="module")
 def road():
     return quarter_cars.road(length=400.0)

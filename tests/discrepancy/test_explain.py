@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy.explain import HIGHEST, explain, joined
+from ridecomfort.discrepancy.explain import HIGHEST, explain, joined, repeats
 from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, band, judged
 from ridecomfort.drive.sampling import low_pass
 
@@ -105,6 +105,29 @@ def test_on_another_road_the_floor_is_that_of_the_repeats_on_which_the_vehicle_i
     assert "assumed from the noise densities" in known.attrs["floor"]
     assert explain(compared, elsewhere=("alpha", there)).attrs["floor"] == "from repeats"
     assert "nil" in explain(here, elsewhere=("alpha", explain(here))).attrs["floor"]
+
+
+def test_densities_of_no_drive_that_is_compared_are_not_known():
+    compared = comparison(repeats=1)[1].isel(signal=[0]).assign_coords(drive=["one"], signal=["a_z"])
+    assert "nil" in explain(compared, {"another": {"accelerometer": 0.01}}).attrs["floor"]
+
+
+def test_what_lies_before_the_run_in_makes_no_repeats():
+    """From 0 to 600 m and from 500 to 1,100 m, of the second of which the first 100 m are not compared."""
+    compared = comparison(repeats=2)[1].isel(time=slice(0, 3000)).copy(deep=True)
+    compared["s"] = compared["s"] + xr.DataArray([0.0, 290.0], dims="drive")
+    assert repeats(compared) == [[0, 1]]
+    compared["residual"] = compared["residual"].where((compared["s"] < 300) | (compared["s"] > 600))
+    assert repeats(compared) == []
+
+
+def test_drives_that_differ_in_speed_elsewhere_repeat_one_another_where_both_drove():
+    """Both at 20 m/s for 600 m; one goes on at 10 m/s."""
+    compared = comparison(repeats=2)[1].copy(deep=True)
+    slower = compared["s"].values.copy()
+    slower[1, 3000:] = slower[1, 3000] + 10.0 * (compared["time"].values[3000:] - 30.0)
+    kept = compared["residual"].where((xr.DataArray([0, 1], dims="drive") == 1) | (compared["s"] < 600))
+    assert repeats(compared.assign(s=(("drive", "time"), slower), residual=kept)) == [[0, 1]]
 
 
 def test_repeats_know_better_than_a_data_sheet():

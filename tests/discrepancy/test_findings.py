@@ -89,6 +89,17 @@ def test_tyre_velocities_are_named_only_where_they_tell_more_than_those_of_the_s
     assert "tyre velocities above" in findings.findings(rough)[0].when
 
 
+def test_tyre_velocities_are_held_against_those_of_the_suspension_alone(located):
+    """Above an edge of the tyre's the error is 1.1 times as large as above one of the speed; there is nothing of the suspension."""
+    both = located.isel(condition=[0, 0]).assign_coords(condition=["speed", "tyre_velocity"]).copy(deep=True)
+    both["condition_measured"][:] = 1.0
+    known = np.flatnonzero(both["condition_share"].values[0] > 0)
+    for condition, ratio in (("speed", 3.0), ("tyre_velocity", 3.3)):
+        both["condition_error"].loc[{"condition": condition}] = 1.0
+        both["condition_error"].loc[{"condition": condition}][known[-1]] = ratio
+    assert "tyre velocities above" in findings.findings(both)[0].when
+
+
 def test_bands_of_one_signal_do_not_crowd_out_the_others(located):
     many = located.copy(deep=True)
     many["power_share"].loc[dict(signal="yaw_rate")] = 10.0

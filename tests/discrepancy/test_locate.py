@@ -51,12 +51,29 @@ def test_the_map_integrates_to_the_mean_square_and_peaks_where_the_error_is(loca
 def test_an_error_that_is_even_along_a_drive_is_as_large_at_its_ends_in_the_map():
     """White noise of unit variance at 100 Hz has a density of 0.02; a window reaches 1 s, 25 m, to either side."""
     noise = np.random.default_rng(7).standard_normal((60, 6000))
-    places, _, density = locate._map([(0.25 * np.arange(6000), noise)], 100.0)
+    places, _, density = locate._map([(0.25 * np.arange(6000), noise)], 100.0, 200)
     mean = density.mean(axis=(0, 2))
     known = np.flatnonzero(np.isfinite(mean))
     assert (places[known[0]], places[known[-1]]) == (40.0, 1460.0)
     np.testing.assert_allclose(mean[known[[0, -1]]], 0.02, rtol=0.05)
     np.testing.assert_allclose(mean[known[1:-1]].mean(), 0.02, rtol=0.02)
+
+
+def test_a_drive_of_a_few_seconds_beside_repeats_is_located_with_them(comparison):
+    three = xr.concat([comparison, comparison.isel(drive=[0]).assign_coords(drive=["short"])], "drive")
+    three["s"] = three["s"].where(three["drive"] != "short", three["s"] + 3000.0)
+    three["residual"] = three["residual"].where((three["drive"] != "short") | (three["time"] < 3.5))
+    found = locate.locate(three)
+    assert found.attrs["floor"] and np.isfinite(found["floor_density"]).all()
+    assert np.isfinite(found["error_map"]).any("s_map").all()
+
+
+def test_a_signal_that_is_constant_has_no_share_of_power_and_hides_none_of_the_others(comparison):
+    dead = comparison.copy(deep=True)
+    dead["measured"].loc[{"signal": "a_x"}] = 0.123456
+    found = locate.locate(dead)
+    assert found["power_share"].sel(signal="a_x").isnull().all()
+    assert [one.words() for one in findings.findings(found)] == [one.words() for one in findings.findings(locate.locate(comparison))]
 
 
 def test_the_floor_is_what_a_drive_has_of_its_own(comparison):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from copy import copy
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -43,6 +44,19 @@ def test_it_is_so_before_the_next_effect_is_looked_for():
     rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes)
     assert awake(rung, sizes, model.free) is rung  # of other sizes none sleeps
     assert awake(rung, sizes, model.candidates[2].sizes).fit.values[KEY] == pytest.approx(2.5, abs=0.05)
+
+
+def test_noise_that_is_told_of_some_instruments_is_assumed_of_the_others():
+    model = Linear(3, {})
+    for told in ({0}, {0, len(model.records) - 1}, {len(model.records) - 1}):
+        alone = [replace(record, condition=str(k), noise=(0.05,) * 4 if k in told else ()) for k, record in enumerate(model.records)]
+        one = copy(model)
+        one.records = alone
+        rung = climb(one, {"stiffness": 0.0}, model.free)
+        assert not rung.is_floor_known
+        floors = np.concatenate([rung.floor_squares, rung.held_out_floor_squares])
+        np.testing.assert_allclose(floors, floors[:1].repeat(len(floors), axis=0))
+        assert (floors > 0).all()
 
 
 def test_where_nil_is_best_it_stays():

@@ -228,6 +228,22 @@ def test_a_speed_that_is_exact_has_no_scale_where_the_place_was_measured_on_hill
         assert place.speed_scale(recorded, place.way(recorded, told)) == pytest.approx(1.0, abs=5e-5)
 
 
+def test_a_sample_of_the_distance_that_is_wrong_changes_no_scale(drive, road):
+    recorded = quarter_cars.recorded(drive)
+    along = place.way(recorded, road)
+    wrong = recorded["s"].values.copy()
+    wrong[-1] -= 2.5
+    assert place.speed_scale(recorded.assign(s=("time", wrong)), along) == pytest.approx(place.speed_scale(recorded, along), abs=5e-5)
+
+
+def test_a_clock_is_looked_for_no_farther_than_a_drive_lasts_behind_the_run_in(drive, road, nominal):
+    recorded = quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL)
+    short = recorded.isel(time=(recorded["time"] < 5.0).values)
+    again = replay.replay(short, road, quarter_cars.run)
+    found = place.coarse_clock(again, again(nominal), search=10.0)
+    assert again.compared.sum() < 1000 and abs(found) < 0.02
+
+
 def test_a_place_on_the_road_and_the_way_to_it_are_each_others_inverse(hills):
     road, drive = hills
     way = place.way(quarter_cars.recorded(drive, lateral_position=0.6), road, start=100.0)
@@ -281,7 +297,8 @@ def test_a_drive_against_the_reference_line_is_called_that(drive, road, nominal)
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda d: d.assign(v_x=d["v_x"].where(d["time"] < 10, 0.2)), "expected above 1 m/s"),
+        (lambda d: d.assign(v_x=d["v_x"].where(d["time"] < 10, 0.2)), "by v_x at (9|10).* expected above 1 m/s"),
+        (lambda d: d.assign(s=d["s"].where(d["time"] < 10, d["s"].values[1000])), r"by s, \d+\.\d+ m/s by v_x at (9|10).* \(expected above 1 m/s"),
         (lambda d: d.assign(s=d["s"] + 300), "within the road"),
         (lambda d: d.assign(s=600 - d["s"]), "s falls from 5.* to .* m: driven against the reference line, which is not supported"),
     ],

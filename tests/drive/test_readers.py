@@ -191,6 +191,17 @@ def test_places_at_the_car_become_places_about_its_centre_of_gravity(tmp_path, c
     assert drive.attrs["role"] == "check" and drive.attrs["road_friction"] == 0.8
 
 
+def test_the_path_of_the_front_axle_becomes_that_of_the_body_which_follows_it(tmp_path, car):
+    aside = lambda s: 0.3 * np.sin(2 * np.pi * s / 100)
+    path = write(tmp_path, table().assign(**{"offset [m]": lambda frame: aside(1e3 * frame["way [km]"])}))
+    entry = {"columns": COLUMNS | {"e": {"column": "offset [m]", "unit": "m"}}, "distance_of": "front_axle"}
+    drive = configured.read(path, entry, car)
+    ahead = car["cg_to_front_axle"]
+    inside = drive["s"].values > 0  # the axle was there already
+    np.testing.assert_allclose(drive["e"].values[inside], aside(drive["s"].values)[inside], atol=1e-4)
+    assert np.abs(aside(drive["s"].values + ahead) - drive["e"].values).max() > 0.02
+
+
 def broken(column, row, value):
     frame = table().astype({column: object})
     frame.loc[row, column] = value

@@ -162,6 +162,12 @@ def test_quantities_with_clocks_of_their_own_meet_on_one():
     np.testing.assert_allclose(np.gradient(drive["s"], drive["time"]), drive["v_x"], atol=2e-3)
 
 
+def test_a_distance_that_jumps_by_a_metre_or_is_told_beside_a_speed_in_another_unit_is_not_refused():
+    jitter = np.random.default_rng(3).uniform(-0.7, 0.7, TIME[::10].size)
+    record.from_arrays(quantities(s=(TIME[::10], 20 * TIME[::10] + jitter)))
+    record.from_arrays(quantities(s=(TIME[::10], 20 * TIME[::10]), v_x=(TIME, 72 + 0 * TIME)))
+
+
 def spoilt(name, row, value):
     time, values = quantities()[name]
     values = values.copy()
@@ -193,6 +199,8 @@ def irregular():
         ({k: v for k, v in quantities().items() if k not in ("s", "v_x")}, ("neither v_x nor s",)),
         (quantities(speed=(TIME, TIME)), ("unknown quantity 'speed'",)),
         (quantities(s=(TIME[:-1], TIME)), ("s has shape (2000,)", "(1999,)")),
+        (spoilt("s", -1, 394.0), ("s: sample 2000", "19.99 s", "-5.6 m", "v_x drives 0.2 m", "within 3 m")),
+        (quantities(s=(TIME, 20 * TIME + 5 * (TIME >= 8))), ("s: sample 801", "8 s", "+5.2 m")),
         (quantities(v_x=(TIME + 100, 20 + 0 * TIME)), ("overlap",)),
         (quantities(v_x=(np.delete(TIME, slice(300, 400)), np.full(1900, 20.0))), ("pause of 1.01 s", "2.99 s")),
     ],

@@ -47,6 +47,9 @@ class Car:
     driven: Mapping[int, tuple[Mapping[str, float], Simulated]] = field(default_factory=dict)
     """By record, the values at which its replay was driven last, and what the model did."""
 
+    set_aside: tuple[str, ...] = ()
+    """Words on drives that were left out, since they are too short."""
+
     def looking_for(self, candidates: Sequence[Candidate], folder) -> Car:
         """The same with these candidates, whose effects are in the files of a folder."""
         known = library.find(folder)

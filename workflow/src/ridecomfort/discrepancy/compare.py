@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from ..drive.record import unstack
+from ..drive.record import require_one_rate, unstack
 from ..drive.replay import CLOCK_LEFT, Replay, replay
 from ..drive.sampling import rate_of
 from ..vocabulary import SIGNALS
@@ -32,9 +32,10 @@ def rmse(residual: np.ndarray) -> np.ndarray:
 
 
 def nrmse(residual: np.ndarray, measured: np.ndarray) -> np.ndarray:
-    """RMSE over the range of the measured signal, along the last axis; NaN residuals do not count in either."""
+    """RMSE over the range of the measured signal, along the last axis; NaN residuals do not count in either. NaN of a constant signal."""
     measured = np.where(np.isfinite(residual), measured, np.nan)
-    return rmse(residual) / (np.nanmax(measured, axis=-1) - np.nanmin(measured, axis=-1))
+    span = np.nanmax(measured, axis=-1) - np.nanmin(measured, axis=-1)
+    return rmse(residual) / np.where(span > 0, span, np.nan)
 
 
 def compare(
@@ -63,6 +64,7 @@ def compare(
     (``map``, or that of threads).
     """
     drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
+    require_one_rate(drives)
     length = max(drive.sizes["time"] for drive in drives)
     shape = len(drives), len(SIGNALS), length
     measured = np.full(shape, np.nan)

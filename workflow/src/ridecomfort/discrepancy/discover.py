@@ -81,7 +81,9 @@ class Discovery:
     """Those of the fitted drives, as they were aligned for the model that was diagnosed, with it and what stands beside it."""
 
     def words(self) -> str:
-        """Where it acts, what usually makes such a force, and what it removes, as two sentences."""
+        """Where it acts, what usually makes such a force, and what it removes, as two sentences; that there is none where none was found."""
+        if not self.place:
+            return "no form of a force was found."
         shares = {"on the fitted drives": self.share, "on drives held out": self.held_out_share}
         removed = ", ".join(f"{100 * share:.0f} % {where}" for where, share in shares.items() if np.isfinite(share))
         removes = f"Together with {', '.join(self.names_beside())} it removes" if self.beside else "It removes"

@@ -24,15 +24,11 @@ SEEN = 1e-3
 
 @dataclass(frozen=True)
 class Evidence:
-    """Per candidate column: ``statistic`` (studentised score), ``gain`` (fall of the white sum of squares), ``size``
-    in units of the column with its standard ``error``, and the share ``absorbed`` by what is free anyway.
-    Per group: ``p_value`` over the whole library by blocks, ``white_p_value`` were the noise white, and ``group_gain`` of all its
-    columns together."""
+    """Per candidate column: ``statistic`` (studentised score), and the share ``absorbed`` by what is free anyway.
+    Per group: ``p_value`` over the whole library by blocks, ``white_p_value`` were the noise white, and ``group_gain``, the fall of the white
+    sum of squares by all its columns together."""
 
     statistic: np.ndarray
-    gain: np.ndarray
-    size: np.ndarray
-    error: np.ndarray
     absorbed: np.ndarray
     p_value: np.ndarray
     white_p_value: np.ndarray
@@ -93,13 +89,11 @@ def score_test(
     power = np.einsum("ij,ij->i", columns, columns)
     columns = without(columns, directions)
     residual = without(residual, directions).astype(columns.dtype)
-    squares, products = columns**2, columns * residual
-    left = np.sum(squares, axis=1)
+    products = columns * residual
+    left = np.einsum("ij,ij->i", columns, columns)
     seen = left > SEEN**2 * power
     safe = np.where(seen, left, 1.0)
     score = np.where(seen, -np.sum(products, axis=1), 0.0)
-    size = score / safe
-    size = np.where((sign > 0) & (size < 0), 0.0, size)
     statistics, p_value = [], []
     numbers = [np.unique(block, return_inverse=True)[1] for block in blocks]
     by_block = [_block_sums(products, labels) for labels in numbers]
@@ -112,15 +106,10 @@ def score_test(
     white = np.where(seen, score / np.sqrt(safe), 0.0)
     alike = _correlation(columns, np.where(seen, left, np.inf))
     of_white = _white_test(white, alike, group, sign, resamples, np.random.default_rng([*seed, len(blocks)]))
-    deviations = by_block[0] + size[:, None] * _block_sums(squares, numbers[0])
-    spread = np.sqrt(np.sum(deviations**2, axis=1))
     number = group.max() + 1
     gains = np.array([_group_gain(columns, residual, np.flatnonzero((group == g) & seen), sign) for g in range(number)])
     return Evidence(
         statistic=statistics[0],
-        gain=size**2 * left * seen,
-        size=size,
-        error=np.where(seen, spread / safe, np.inf),
         absorbed=1 - left / np.where(power > 0, power, 1.0),
         p_value=np.minimum(len(blocks) * np.min(p_value, axis=0), 1.0),
         white_p_value=of_white,

@@ -16,8 +16,8 @@ from .floor import deviations
 from .judged import band, judged, lowest
 
 SAME_SPEED, COMMON, SAME_PATH = 0.05, 0.5, 0.3
-"""Relative difference of mean speeds within which drives repeat one another, share of the shorter that both must have driven, and m (rms)
-that their paths may lie apart. On other tracks wheels meet another road, so that errors of the model differ, too, and pass for noise: up to
+"""Relative difference of mean speeds, where both drove, within which drives repeat one another, share of the shorter that both must have driven,
+and m (rms) that their paths may lie apart. On other tracks wheels meet another road, so that errors of the model differ, too, and pass for noise: up to
 15 % of them at 0.3 m, half at 0.6 m."""
 
 REPEATS = "from repeats"
@@ -43,13 +43,18 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 
 class Passage(NamedTuple):
-    """What drives that repeat one another drove: the mean ``speed`` of the first (m/s), ``start`` and ``end`` (m), and its ``path``, lateral
-    position over place (m)."""
+    """What drives that repeat one another drove: the mean ``speed`` of the first (m/s), ``start`` and ``end`` (m), its ``path``, lateral
+    position over place (m), and its ``clock``, time (s) over place."""
 
     speed: float
     start: float
     end: float
     path: tuple[np.ndarray, np.ndarray]
+    clock: tuple[np.ndarray, np.ndarray]
+
+    def pace(self, start: float, end: float) -> float:
+        """Mean speed (m/s) between two places."""
+        return (end - start) / float(np.ptp(np.interp((start, end), *self.clock)))
 
     def apart(self, other: Passage) -> float:
         """rms distance (m) of the paths where both were driven."""
@@ -87,8 +92,8 @@ def explain(
     square, by_stretch = _squares(comparison)
     if np.isfinite(floors).any():
         floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
-    elif noise_density:
-        floor_squares, known_from = _filled(_of_instruments(comparison, noise_density)), ASSUMED
+    elif noise_density and np.isfinite(of_instruments := _of_instruments(comparison, noise_density)).any():
+        floor_squares, known_from = _filled(of_instruments), ASSUMED
     elif elsewhere is not None and elsewhere[1].attrs["floor"] == REPEATS:
         site, repeated = elsewhere
         one = (repeated["floor_rmse"] ** 2).mean("drive").sel(signal=comparison["signal"]).values
@@ -134,11 +139,12 @@ def _known_to_all(cut_offs: np.ndarray) -> float:
 
 
 def repeats(comparison: xr.Dataset) -> list[list[int]]:
-    """Numbers of the drives that repeat one another, at least two in each list."""
+    """Numbers of the drives that repeat one another where they are compared, at least two in each list."""
     passages: list[Passage] = []
     groups: list[list[int]] = []
+    compared = np.isfinite(comparison["residual"].isel(state=-1)).all("signal").transpose("drive", "time").values
     for number, place in enumerate(comparison["s"].transpose("drive", "time").values):
-        known = np.isfinite(place)
+        known = np.isfinite(place) & compared[number]
         aside = comparison["e"].isel(drive=number).values[known]
         group = joined(passages, place[known], comparison["time"].values[known], aside)
         groups += [[]] * (len(passages) - len(groups))
@@ -149,12 +155,13 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
 def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral: np.ndarray) -> int:
     """Number of the first of ``passages`` that a drive (place and lateral position in m over time in s) repeats, which is cut to what they
     have in common; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
-    own = Passage(float(np.ptp(place) / np.ptp(time)), float(np.min(place)), float(np.max(place)), (place, np.nan_to_num(lateral)))
+    speed, path, clock = float(np.ptp(place) / np.ptp(time)), (place, np.nan_to_num(lateral)), (place, time)
+    own = Passage(speed, float(np.min(place)), float(np.max(place)), path, clock)
     for number, known in enumerate(passages):
         start, end = max(own.start, known.start), min(own.end, known.end)
-        enough = COMMON * min(own.end - own.start, known.end - known.start)
-        is_along = abs(known.speed - own.speed) < SAME_SPEED * known.speed and end - start > enough
-        if is_along and known.apart(own) < SAME_PATH:
+        is_along = end - start > COMMON * min(own.end - own.start, known.end - known.start)
+        is_alike = is_along and abs(own.pace(start, end) / known.pace(start, end) - 1.0) < SAME_SPEED
+        if is_alike and known.apart(own) < SAME_PATH:
             passages[number] = known._replace(start=start, end=end)
             return number
     passages.append(own)

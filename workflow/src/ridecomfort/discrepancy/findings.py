@@ -103,8 +103,9 @@ def findings(located: xr.Dataset, count: int = 5) -> list[Finding]:
     whole = share.sum(axis=1)
     explainable = located["explainable_share"].values.sum(axis=1)
     found = []
-    for signal, band in sorted(np.ndindex(whole.shape), key=lambda key: -whole[key]):
-        if not whole[signal, band] >= (NAMED if found else LEAST_NAMED) or len(found) == count:
+    largest = np.nan_to_num(whole, nan=-np.inf)  # nothing is said of a signal that has no power
+    for signal, band in sorted(np.ndindex(whole.shape), key=lambda key: -largest[key]):
+        if largest[signal, band] < (NAMED if found else LEAST_NAMED) or len(found) == count:
             break
         name = str(located["signal"].values[signal])
         if sum(finding.signal == name for finding in found) == OF_A_SIGNAL:
@@ -180,8 +181,10 @@ def _when(located: xr.Dataset, signal: int, band: int) -> str:
     below, signal_below = (each[:, :-1] for each in parts)
     sides = [(1.0 - below, 1.0 - signal_below), (below, signal_below)]
     ratios = np.stack([_times(*own, *other) for own, other in (sides, sides[::-1])])
-    chosen = ratios / np.where(located["condition"].values == "tyre_velocity", CLEARLY, 1.0)[:, None]
-    side, condition, edge = np.unravel_index(int(chosen.argmax()), chosen.shape)
+    suspension, tyre = (np.flatnonzero(located["condition"].values == f"{of}_velocity") for of in ("suspension", "tyre"))
+    if suspension.size and ratios[:, tyre].max(initial=0.0) < CLEARLY * ratios[:, suspension].max():
+        ratios[:, tyre] = 0.0
+    side, condition, edge = np.unravel_index(int(ratios.argmax()), ratios.shape)
     if ratios[side, condition, edge] < PREVAILING:
         return ""
     return CONDITIONS[str(located["condition"].values[condition])][side](float(located["condition_edge"][condition, edge + 1]))

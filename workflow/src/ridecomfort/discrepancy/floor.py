@@ -74,7 +74,7 @@ def floor(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> dict[str
 
 
 def assumed(record: Record) -> np.ndarray:
-    """Mean square (channel,) within the band of the noise that is known of a record beforehand; nil where none is."""
+    """Mean square (channel,) within the band of the noise that is known of a record beforehand; nil, (1,), where none is."""
     if not record.noise:
         return np.zeros(1)
     lowest = np.maximum(record.band[0], record.lowest or 0.0)

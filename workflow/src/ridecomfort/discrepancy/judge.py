@@ -179,7 +179,8 @@ def _unfound(selection: Selection) -> list[str]:
     """Why no candidate was accepted, in words."""
     first = selection.rounds[0] if selection.rounds else None
     if first is None or not first.names:
-        return ["no candidate changes what these drives tell"]
+        is_asked = bool(selection.frame.experiment.candidates)
+        return ["no candidate changes what these drives tell" if is_asked else "no candidate was tested: the library that was looked among is empty"]
     best = float(np.min(first.p_value))
     if best > LEVEL:
         return [f"the best of the {len(first.names)} candidates that were tested has p = {best:.2g} over the whole library"]

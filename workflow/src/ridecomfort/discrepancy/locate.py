@@ -25,6 +25,9 @@ STEP = 20.0
 WINDOW = 2.0
 """s of a spectrum of that map."""
 
+CONSTANT = 1e-12
+"""Share of its mean square below which the power of a signal is that of rounding."""
+
 
 @dataclass(frozen=True)
 class Drive:
@@ -69,10 +72,11 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     bands = [band for band in BANDS if band[0] < 0.4 * rate]
     white_floor = _white_floor(rows, bands)
     edges = _stretches(drives)
-    power, seconds = _by_stretch([(d.place, d.error) for d in drives], edges, bands, rate)
+    errors, own_noises = [(d.place, d.error) for d in drives], [(d.own.place, d.own.noise) for d in drives if d.own]
+    power, seconds = _by_stretch(errors, edges, bands, rate)
     floor = np.broadcast_to(white_floor[:, None, :], power.shape).copy()
     if noise:
-        own, length = _by_stretch([(d.own.place, d.own.noise) for d in drives if d.own], edges, bands, rate)
+        own, length = _by_stretch(own_noises, edges, bands, rate)
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
         floor = np.where(length[:, None] > 0, own, mean)
     powers = [[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives]
@@ -80,9 +84,10 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     above = (power - floor) * (seconds / seconds.sum())[:, None]
     whole = np.maximum(above.sum(axis=1, keepdims=True), 0.0).sum(axis=2, keepdims=True)  # bands below the floor take nothing off
     by_condition = classes.by_condition(drives, bands)
-    places, frequency, density = _map([(d.place, d.error) for d in drives], rate)
+    window = min(int(WINDOW * rate), min(len(place) for place, _ in (*errors, *own_noises)) // 2)
+    places, frequency, density = _map(errors, rate, window)
     if noise:
-        floor_density = np.nanmean(_map([(d.own.place, d.own.noise) for d in drives if d.own], rate)[2], axis=1)
+        floor_density = np.nanmean(_map(own_noises, rate, window)[2], axis=1)
     else:
         floor_density = np.where(frequency <= explain.highest(rows).mean(), _density(rows)[:, None], 0.0)
     joined = lambda part: np.concatenate([getattr(drive, part) for drive in drives], axis=1)
@@ -94,7 +99,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
             "error_power": (("signal", "stretch", "band"), power),
             "floor_power": (("signal", "stretch", "band"), floor),
             "measured_power": (("signal", "band"), measured),
-            "power_share": (("signal", "stretch", "band"), above / _positive(measured.sum(axis=1))[:, None, None]),
+            "power_share": (("signal", "stretch", "band"), above / _power(measured.sum(axis=1), recorded)[:, None, None]),
             "explainable_share": (("signal", "stretch", "band"), above / np.where(whole > 0, whole, np.nan)),
             "error_map": (("signal", "s_map", "frequency_map"), density),
             "floor_density": (("signal", "frequency_map"), floor_density),
@@ -166,15 +171,14 @@ def _white_floor(rows: xr.Dataset, bands) -> np.ndarray:
     return _density(rows)[:, None] * np.maximum(widths, 0.0)
 
 
-def _map(parts, rate: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places in m, frequencies in Hz, and one-sided power density (signal, place, frequency), mean over parts; nan nearer to an end than half
-    a window."""
+def _map(parts, rate: float, window: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places in m, frequencies in Hz, and one-sided power density (signal, place, frequency) in windows of so many samples, mean over parts;
+    nan nearer to an end than half a window."""
     start, end = min(place.min() for place, _ in parts), max(place.max() for place, _ in parts)
     grid = np.arange(start, end, STEP)
-    length = min(int(WINDOW * rate), min(len(place) for place, _ in parts) // 2)
     rows = []
     for place, series in parts:
-        frequency, time, bins = stft(series, rate, nperseg=length, scaling="psd", boundary=None, padded=False)
+        frequency, time, bins = stft(series, rate, nperseg=window, scaling="psd", boundary=None, padded=False)
         at = np.interp(time, np.arange(len(place)) / rate, place)
         density = 2.0 * np.abs(bins) ** 2
         one = [[np.interp(grid, at, line, np.nan, np.nan) for line in signal] for signal in density]
@@ -185,5 +189,6 @@ def _map(parts, rate: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return grid, frequency[inside], np.where(known.any(axis=0), total, np.nan)[:, :, inside]
 
 
-def _positive(values: np.ndarray) -> np.ndarray:
-    return np.where(values > 0, values, np.nan)
+def _power(power: np.ndarray, recorded: np.ndarray) -> np.ndarray:
+    """The power (signal,) of recorded signals, nan of one that is constant but for rounding."""
+    return np.where(power > CONSTANT * np.mean(recorded**2, axis=1), power, np.nan)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,12 +11,13 @@ import xarray as xr
 from .. import calibrate, pool
 from .. import simulate as simulator
 from ..calibrated import apply
-from ..drive.record import unstack
+from ..drive.record import require_one_rate, unstack
 from ..drive.replay import Replay, replay
 from ..drive.sampling import rate_of
 from ..drive.steered import steered
 from ..effects import library
 from ..effects.contract import COMPILED
+from ..errors import InputError
 from ..vehicle.parameters import PARAMETERS
 from ..vocabulary import SIGNALS, VARIABLES
 from .candidates import candidate
@@ -36,8 +37,8 @@ SETTLING, UNDER_WAY = (1.5, 4.0), 6.0
 ground a vehicle with an effect stands otherwise, and a driver who has not yet found the measured path rolls it, which imitates a
 cross-wind or bump steer."""
 
-SPARED = 0.75
-"""Share of what is compared that settling leaves of a short drive."""
+SHORTEST = 10.0
+"""s of a drive that are judged at least: one of less holds too few spectra of 4 s to tell how the errors of six signals go together."""
 
 RUN_OUT = 0.5
 """s at the end that are left out: low-pass filters of records and of simulations end there without knowing what comes."""
@@ -83,7 +84,7 @@ def car(
     """The experiment of these drives. ``vehicle`` and ``effects`` are the calibrated ones.
 
     Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, the others of those sites and, of drives that
-    repeat one another, one on the other sites are held out.
+    repeat one another, one on the other sites are held out. One of less than SHORTEST is set aside.
     ``bounds``: of the parameters that are calibrated (default tab:constraints). ``uncertain``: share by which further
     parameters of the vehicle may be wrong (default UNCERTAIN). ``noise_density``: of the instruments by site and drive, as for
     ``explain.explain``. ``library_names``: the effects to look
@@ -99,8 +100,12 @@ def car(
         site, drive = job
         return _settled(replay(drive, site.course, simulate, options=options).tuned(vehicle, effects))
 
-    replays = list(each_record(tuned, [(site, drive) for site in sites for drive in site.drives]))
+    require_one_rate([drive for site in sites for drive in site.drives])
+    sites, replays, set_aside = _long_enough(sites, each_record(tuned, [(site, drive) for site in sites for drive in site.drives]))
     known = library.find(effects_folder)
+    _known(library_names or (), known, "among")
+    _known(uncertain or (), PARAMETERS, "uncertain")
+    _known((name for name in bounds or () if "." not in name), PARAMETERS, "bounds")
     chosen = [entry.effect for entry, _ in library.choose(effects, effects_folder)]
     effects |= {effect.name: effect.values(effects[effect.name]) for effect in chosen}
     free = _parameters(vehicle, calibrate.BOUNDS if bounds is None else bounds, UNCERTAIN if uncertain is None else uncertain)
@@ -113,7 +118,7 @@ def car(
     answers = each_record(lambda again: steered(again, vehicle, {**quiet, **effects}), replays)
     return Car(
         _records(sites, fitted_on, replays, noise_density or {}), replays, vehicle, effects, tuple(free),
-        tuple(c for c in candidates if c.sizes), quiet, each_record=each_record, steered=dict(enumerate(answers)),
+        tuple(c for c in candidates if c.sizes), quiet, each_record=each_record, steered=dict(enumerate(answers)), set_aside=set_aside,
     )  # fmt: skip
 
 
@@ -141,6 +146,33 @@ def _calibrated_bounds(calibration: xr.Dataset | None, given: Mapping[str, Seque
     names = map(str, calibration["parameter"].values)
     own = {name: pair for name, *pair in zip(names, calibration["lower"].values, calibration["upper"].values)}
     return {name: given.get(name, pair) for name, pair in own.items() if "." not in name}
+
+
+def _long_enough(sites: Sequence[Site], replays: Iterable[Replay]) -> tuple[list[Site], list[Replay], tuple[str, ...]]:
+    """Sites with those of their drives that are judged for SHORTEST, the replays of these, and words on the others. Raises InputError where
+    this leaves none to fit."""
+    rest, kept, long, aside = iter(replays), [], [], []
+    for site in sites:
+        own = []
+        for drive in site.drives:
+            again = next(rest)
+            judged_for = float(np.ptp(again.time[again.compared]))
+            if judged_for >= SHORTEST:
+                own.append(drive)
+                long.append(again)
+            else:
+                aside.append(f"{site.name} {drive.attrs['name']} is judged for {judged_for:.1f} s only")
+        kept.append(replace(site, drives=own))
+    if aside and not any(drive.attrs.get("role", "fit") == "fit" for site in kept for drive in site.drives):
+        raise InputError(f"{'; '.join(aside)} (expected at least {SHORTEST:g} s behind the run-in: a longer record, or road)", place="drives")
+    return kept, long, tuple(f"{words}: too short to be asked (less than {SHORTEST:g} s)" for words in aside)
+
+
+def _known(names: Iterable[str], known: Collection[str], place: str) -> None:
+    """Raise InputError for the first of these names that is not known."""
+    for name in names:
+        if name not in known:
+            raise InputError(f"unknown {name!r} (expected of {', '.join(sorted(known))})", place=place)
 
 
 def _not_repeated(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
@@ -172,8 +204,7 @@ def start_values(experiment: Car) -> dict[str, float]:
 def _settled(again: Replay) -> Replay:
     """The same without its first and last instants."""
     begins, ends = again.time[again.compared][[0, -1]]
-    settled = np.clip(again.time[0] + UNDER_WAY - begins, *SETTLING)
-    first, last = begins + min(settled, (1 - SPARED) * (ends - begins)), ends - RUN_OUT
+    first, last = begins + np.clip(again.time[0] + UNDER_WAY - begins, *SETTLING), ends - RUN_OUT
     return replace(again, compared=again.compared & (again.time >= first) & (again.time <= last))
 
 

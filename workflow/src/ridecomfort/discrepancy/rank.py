@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -78,6 +79,7 @@ def ranked(
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered)
     verdict = with_remainder(verdict, *_left_by(selection, measured, (-1, 0)))
+    verdict = replace(verdict, reasons=(*verdict.reasons, *experiment.set_aside))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
     line = turns.left_by(selection)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
 import xarray as xr
 
 from ..errors import InputError
@@ -33,8 +34,19 @@ def read(path, entry: Mapping, vehicle, *, rate: float = 100.0) -> xr.Dataset:
         attributes["sensor"] = sensor_place(vehicle, **place)
     drive = readers.read(path, entry.get("columns"), rate=rate, **attributes)
     if entry.get("distance_of", "body") == "front_axle":
-        drive["s"] = drive["s"].copy(data=drive["s"].values - vehicle["cg_to_front_axle"])
+        drive = _of_the_body(drive, vehicle["cg_to_front_axle"])
     return drive.assign_attrs({name: float(vehicle[name]) for name in TOLD_OF})
+
+
+def _of_the_body(drive: xr.Dataset, ahead: float) -> xr.Dataset:
+    """A drive told of an axle so many m ahead, told of the centre of gravity, which comes where the axle was.
+
+    In a bend it runs some millimetres farther inside, which is left out.
+    """
+    front = drive["s"].values
+    place = front - ahead
+    aside = np.interp(place, np.maximum.accumulate(front), drive["e"].values)
+    return drive.assign(s=drive["s"].copy(data=place), e=drive["e"].copy(data=aside))
 
 
 def check_speed(aligned: xr.Dataset, path) -> xr.Dataset:

@@ -12,6 +12,7 @@ from scipy.stats import theilslopes
 
 from ..vocabulary import CALIBRATED, SIGNALS
 from .replay import Replay, Simulated, replay
+from .sampling import integral
 
 NUISANCE = (*CALIBRATED[:2], *CALIBRATED[3:], "damping_front", "damping_rear")
 """Parameters of the vehicle whose error must not pass for a clock offset."""
@@ -75,7 +76,7 @@ def way(drive: xr.Dataset, road, start: float = 0.0) -> Way:
     stretch = np.sqrt(1 + _slope(road, aside) ** 2)
     if "curvature" in road:
         stretch *= 1 - road["curvature"].values * aside
-    driven = np.concatenate([[0.0], np.cumsum(0.5 * (stretch[1:] + stretch[:-1]) * np.diff(u))])
+    driven = integral(stretch, u)
     return Way(u, driven - np.interp(start, u, driven - u))
 
 
@@ -116,16 +117,15 @@ def driven(work: xr.Dataset, recorded: xr.Dataset, along: Way, scale: float, off
 
 
 def speed_scale(drive: xr.Dataset, along: Way) -> float:
-    """True over recorded v_x: the way driven over the integral of the recorded speed."""
-    first, last = along(drive["s"].values[[0, -1]])
-    return float((last - first) / np.trapezoid(drive["v_x"].values, drive["time"].values))
+    """True over recorded v_x: the slope of the way driven over the integral of the recorded speed, of all samples."""
+    return float(np.polyfit(integral(drive["v_x"].values, drive["time"].values), along(drive["s"].values), 1)[0])
 
 
 def coarse_clock(again: Replay, simulated: Simulated, search: float) -> float:
     """s that the inertial signals lag behind the place, to a sample, within ``search`` (s)."""
     interval = again.time[1] - again.time[0]
-    reach = int(round(search / interval))
     measured, model = again.measured()[:, again.compared], simulated.signals[:, again.compared]
+    reach = min(int(round(search / interval)), measured.shape[1] - 1)
     return interval * (int(np.argmax(_agreement(measured, model, reach))) - reach)
 
 

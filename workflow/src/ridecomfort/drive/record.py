@@ -7,7 +7,7 @@ an accelerometer reads (+9.8 m/s2 along z at rest); 0 stands for acceleration.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -37,6 +37,13 @@ FEWEST = 3
 
 FASTEST = {"roll_rate": 0.5, "pitch_rate": 0.5, "yaw_rate": 1.5}
 """rad/s (rms); what turns faster all along a drive is in degrees a second, not a road vehicle."""
+
+JUMP, FASTER = 3.0, 0.2
+"""m, and share of what the recorded speed drives, by which the distance may change otherwise from one sample to the next: the fix of a
+receiver jumps by a metre or two."""
+
+SAME_RATE = 1e-4
+"""Relative difference up to which rates are the same, each told from the times of its drive."""
 
 ROLES = ("fit", "check")
 """A drive is fitted, or kept for checking and never fitted."""
@@ -87,6 +94,8 @@ def from_arrays(
         sampling.check_clock(time, file=file, place=f"time of {quantity}")
         _check_values(quantity, time, values, file=file)
         arrays[quantity] = time, values
+    if "s" in arrays and "v_x" in arrays:
+        _check_way(*arrays["s"], *arrays["v_x"], file=file)
     first = max(time[0] for time, _ in arrays.values())
     last = min(time[-1] for time, _ in arrays.values())
     start, interval, _ = sampling.uniform_clock(arrays["a_z"][0])
@@ -102,8 +111,7 @@ def from_arrays(
             columns[quantity] = sampling.resample_slow(clock, values, time, file=file, place=f"time of {quantity}")
     place_measured = "s" in columns
     if not place_measured:
-        travelled = np.concatenate([[0.0], np.cumsum(0.5 * (columns["v_x"][1:] + columns["v_x"][:-1]) / rate)])
-        columns["s"] = distance_start + travelled
+        columns["s"] = distance_start + sampling.integral(columns["v_x"], time)
         treatment.append("s integrated from v_x")
     if "v_x" not in columns:
         columns["v_x"] = np.gradient(columns["s"], 1 / rate)
@@ -192,6 +200,22 @@ def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> N
             f"(expected {lower:g} to {upper:g}; is its unit right?)",
             file=file,
             place=name,
+        )
+
+
+def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np.ndarray, *, file) -> None:
+    """InputError where the distance jumps from one sample to the next as no drive at the recorded speed goes."""
+    driven = np.interp(time, clock, sampling.integral(speed, clock))
+    scale = np.polyfit(driven, place, 1)[0] if np.ptp(driven) > JUMP else 1.0  # v_x may be in another unit: alignment says so
+    step, expected = np.diff(place), scale * np.diff(driven)
+    bad = np.flatnonzero(np.abs(step - expected) > JUMP + FASTER * np.abs(expected))
+    if bad.size:
+        i = bad[0] + 1
+        raise InputError(
+            f"sample {i + 1} ({time[i]:.6g} s) lies {step[i - 1]:+.4g} m from the one before it, while v_x drives {expected[i - 1]:.4g} m "
+            f"(expected within {JUMP:g} m of that; cut the record there, or leave s out, which is then integrated from v_x)",
+            file=file,
+            place="s",
         )
 
 
@@ -305,11 +329,22 @@ def _derivative(values: np.ndarray, interval: float) -> np.ndarray:
     return derivative
 
 
+def require_one_rate(drives: Sequence[xr.Dataset]) -> None:
+    """Raise InputError unless drives are sampled at one rate, as what lays them side by side takes for granted."""
+    rates = {str(drive.attrs.get("name", "drive")): sampling.rate_of(drive["time"].values) for drive in drives}
+    names = list(rates)
+    for name in names[1:]:
+        if abs(rates[name] / rates[names[0]] - 1.0) > SAME_RATE:
+            said = f"is sampled at {rates[name]:.6g} Hz, drive {names[0]} at {rates[names[0]]:.6g} Hz (expected one rate for all)"
+            raise InputError(said, place=f"drive {name}")
+
+
 def stack(drives: list[xr.Dataset]) -> xr.Dataset:
-    """Drives on one dataset of dims drive, time, padded with NaN at the end.
+    """Drives of one rate on one dataset of dims drive, time, padded with NaN at the end.
 
     Their numeric and text attributes become variables over ``drive``.
     """
+    require_one_rate(drives)
     length = max(drive.sizes["time"] for drive in drives)
     longest = max(drives, key=lambda drive: drive.sizes["time"])
     rows = {}

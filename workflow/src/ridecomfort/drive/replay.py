@@ -18,7 +18,7 @@ from ..errors import InputError
 from ..vehicle.driver import path_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from .record import upward
-from .sampling import rate_of, resampled, resampled_slopes
+from .sampling import integral, rate_of, resampled, resampled_slopes
 from .sensor import displacement
 
 RUN_IN = 50.0
@@ -273,13 +273,12 @@ def replay(
             "(expected s that rises)",
             place=label,
         )
-    slow = np.flatnonzero((speed < SLOWEST) | (np.gradient(place, time) < 0.3 * SLOWEST))
+    advance = np.gradient(place, time)
+    slow = np.flatnonzero((speed < SLOWEST) | (advance < 0.3 * SLOWEST))
     if slow.size:
-        i = slow[0]
-        raise InputError(
-            f"{speed[i]:.2f} m/s at {time[i]:.2f} s (expected above {SLOWEST:g} m/s throughout: cut the record)",
-            place=label,
-        )
+        i, begin = slow[0], float(drive.attrs.get("start_time", 0.0))
+        found = f"{speed[i]:.2f} m/s by v_x" if speed[i] < SLOWEST else f"{advance[i]:.2f} m/s by s, {speed[i]:.2f} m/s by v_x"
+        raise InputError(f"{found} at {begin + time[i]:.2f} s (expected above {SLOWEST:g} m/s throughout: cut the record)", place=label)
     first, last = float(surface["u"][0]), float(surface["u"][-1])
     if place[0] < first - SPACING or place[-1] > last + SPACING:
         raise InputError(
@@ -363,5 +362,5 @@ def fused_place(drive: xr.Dataset, rate: float, road: xr.Dataset) -> np.ndarray:
     aside = np.nan_to_num(drive["e"].values)
     curvature = np.interp(drive["s"].values, road["u"].values, road["curvature"].values)
     speed = drive["v_x"].values / (1 - curvature * smooth(aside, rate))
-    travelled = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) / rate)])
+    travelled = integral(speed, drive["time"].values)
     return travelled + smooth(drive["s"].values - travelled, rate, bandwidth=0.2)

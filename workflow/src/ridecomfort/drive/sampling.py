@@ -33,6 +33,11 @@ def rate_of(time: np.ndarray) -> float:
     return float((len(time) - 1) / (time[-1] - time[0]))
 
 
+def integral(values: np.ndarray, over: np.ndarray) -> np.ndarray:
+    """Integral of values over what they stand at, from the first on, by the trapezoidal rule."""
+    return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(over))])
+
+
 def check_clock(time: np.ndarray, *, file=None, place: str = "time") -> None:
     """Raise InputError unless the time stamps are finite and strictly increasing (samples count from 1)."""
     if time.ndim != 1 or len(time) < 2:
