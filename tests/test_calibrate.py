@@ -249,6 +249,13 @@ def test_bad_settings_are_refused(road, nominal):
         calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, profiles=["damping_front"])
     with pytest.raises(InputError, match="tyre_friction: bounds 1.4 to 0.7"):
         calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, bounds={"tyre_friction": (1.4, 0.7)})
+    for given, words in (
+        (dict(bounds={"tyre_radial_stifness": (1.0, 2.0)}), "bounds: unknown parameter 'tyre_radial_stifness'"),
+        (dict(signals=["a_q"]), "signals: unknown signal 'a_q'"),
+        (dict(parameters=[]), "parameters: nothing is calibrated"),
+    ):
+        with pytest.raises(InputError, match=words):
+            calibrate.problem(drives, road, nominal, simulate=quarter_cars.run, **given)
     for start, words in (
         ({"damping_front": 1.0}, "start: 'damping_front' is not calibrated"),
         ({"tyre_friction": 2.0}, "start: tyre_friction: 2 .expected within the bounds 0.7 to 1.4"),

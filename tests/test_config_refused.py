@@ -73,6 +73,8 @@ STUDY_MISTAKES = [
     ({"calibration": {"bounds": {"damping_front": [0, 9000]}}}, "calibration: bounds: 'damping_front' is not calibrated"),
     ({"calibration": {"bounds": {"tyre_friction": [1.4, 0.7]}}}, "tyre_friction: [1.4, 0.7], expected the lower value first"),
     ({"calibration": {"profiles": ["damping_front"]}}, "calibration: profiles: 'damping_front' is not calibrated"),
+    ({"calibration": {"profiles": ["damper_knee.nee"]}}, "calibration: profiles: 'damper_knee.nee': effect 'damper_knee' has no parameter 'nee'"),
+    ({"calibration": {"profiles": ["nope.nope"]}}, "calibration: profiles: 'nope.nope': unknown effect 'nope'"),
     ({"calibration": {"start": [{"damping_front": 1500}]}}, "calibration: start: 'damping_front' is not calibrated"),
     ({"calibration": {"start": [{"tyre_friction": 2}]}}, "start: tyre_friction: 2, expected within the bounds 0.7 to 1.4"),
     ({"calibration": {"start": {"tyre_friction": 1}}}, "calibration: start: {'tyre_friction': 1}, expected a list"),
@@ -124,6 +126,12 @@ def test_mistake_in_the_study(project, change, said):
 def test_mistake_on_the_command_line(project, change, said):
     with pytest.raises(InputError, match="--config: runs"):
         config.load({"sites": ["own"], **change}, project, given=["runs"])
+
+
+def test_a_bracket_on_the_command_line_that_is_not_closed_is_one_line(project):
+    with pytest.raises(InputError, match="--config: '.damper_knee' is not valid YAML") as problem:
+        config.load({"sites": ["own"], "effects": "[damper_knee"}, project, given=["effects"])
+    assert "\n" not in str(problem.value)
 
 
 def test_a_vehicle_outside_of_the_bounds_it_would_be_calibrated_in_is_refused_with_bounds_that_are_taken(project):

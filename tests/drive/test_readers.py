@@ -73,6 +73,30 @@ def test_a_place_of_the_sensor_that_lacks_a_direction_is_refused(tmp_path):
         readers.read(tmp_path / "drive.nc")
 
 
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda drive: drive.assign_attrs(sensor_y="left"), "attribute sensor_y: holds 'left' .expected a number"),
+        (lambda drive: drive.assign_attrs(lateral_position="unknown"), "attribute lateral_position: holds 'unknown'"),
+        (lambda drive: drive.assign(a_x=("time", np.array(["1.0"] * drive.sizes["time"]))), "a_x: holds .'1.0'. for a_x .expected numbers"),
+    ],
+)
+def test_text_in_a_netcdf_file_where_a_number_belongs_is_refused(tmp_path, change, words):
+    drive = change(readers.read(write(tmp_path, table()), COLUMNS, sensor=(0.1, 0.2, 0.3)))
+    drive.to_netcdf(tmp_path / "drive.nc")
+    with pytest.raises(InputError, match=rf"drive.nc: {words}"):
+        readers.read(tmp_path / "drive.nc")
+
+
+def test_a_column_whose_name_stands_twice_is_refused(tmp_path):
+    path = write(tmp_path, table())
+    head, _, rest = path.read_text().partition("\n")
+    path.write_text(f"{head},ax [g]\n" + "".join(f"{line},9.9\n" for line in rest.splitlines()))
+    for read in (readers.read, readers.check):
+        with pytest.raises(InputError, match=r"line 1: 2 columns are called 'ax \[g\]' .expected one, for a_x"):
+            read(path, COLUMNS)
+
+
 def test_a_netcdf_file_of_the_drive_schema_comes_back_as_it_was(tmp_path):
     drive = readers.read(write(tmp_path, table()), COLUMNS, role="check", sensor=(0.1, 0.2, 0.3), lateral_position=0.4)
     store.write(drive, tmp_path / "drive.nc", title="a drive")

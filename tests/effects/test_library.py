@@ -126,3 +126,46 @@ def test_command_prints_a_table(capsys):
 def test_command_prints_those_that_are_asked_for(capsys):
     main(["effects", "payload"])
     assert "bump_stop" not in capsys.readouterr().out
+
+
+COMPILED = (
+    "from ridecomfort.effects.contract import Effect, Parameter\n"
+    "effect = Effect('{name}', 'A sentence.', 'a source', 'suspension', {parameters})\n"
+    "def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y{taken}):\n    return 0.5 * damping * velocity\n"
+)
+SHARE = "Parameter('share', '1', 0.0, 0.5, (0.0, 1.0), 'a share')"
+
+
+@pytest.mark.parametrize("name", ["base", "lambda"])
+def test_a_name_that_means_something_else_is_no_name_of_an_effect(tmp_path, name):
+    put(tmp_path, name)
+    with pytest.raises(InputError, match=rf"{name}.py: '{name}' is no name of an effect"):
+        library.find(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "words"),
+    [
+        (f"({SHARE})", "a tuple of Parameter: one alone needs a comma"),
+        (f"({SHARE.replace('(0.0, 1.0)', '1.0')},)", r"share: plausible is 1.0 \(expected two numbers"),
+        (f"({SHARE.replace('(0.0, 1.0)', '(1.0, 0.0)')},)", "the lower one first"),
+        (f"({SHARE},), 'state'", "states are 'state' .expected a tuple of str"),
+    ],
+)
+def test_what_is_wrong_of_parameters_and_states_is_one_line(tmp_path, parameters, words):
+    (tmp_path / "mine.py").write_text(COMPILED.format(name="mine", parameters=parameters, taken=", share"))
+    with pytest.raises(InputError, match=words) as problem:
+        library.find(tmp_path)
+    assert "\n" not in str(problem.value) and "mine.py" in str(problem.value)
+
+
+def test_an_effect_without_parameters_has_its_place_in_the_list_of_effects(tmp_path):
+    (tmp_path / "mine.py").write_text(COMPILED.format(name="mine", parameters="()", taken=""))
+    assert "mine\n" in table.text(library.find(tmp_path))
+
+
+@pytest.mark.slow
+def test_an_effect_may_be_called_as_what_its_port_sees(tmp_path, car):
+    (tmp_path / "damping.py").write_text(COMPILED.format(name="damping", parameters=f"({SHARE},)", taken=", share"))
+    drive = lambda effects: simulate.run(road(120.0), car, speed=15.0, effects=effects, effects_folder=tmp_path)
+    assert float(drive({"damping": {}})["a_z"].std()) < 0.99 * float(drive({})["a_z"].std())

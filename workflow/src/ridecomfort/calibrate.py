@@ -85,6 +85,9 @@ def problem(
     replays = list(each(lambda pair: replay(*pair, simulate, options=options).tuned(vehicle, effects or {}), fitted))
     if not replays:
         raise InputError("no drive has the role 'fit' (expected at least one)", place="drives")
+    for name in signals:
+        if name not in SIGNALS:
+            raise InputError(f"unknown signal {name!r} (expected of {', '.join(SIGNALS)})", place="signals")
     bounds = _bounds(vehicle, parameters, bounds or {})
     for name, (lower, upper) in bounds.items():
         if not (np.isfinite([lower, upper]).all() and lower < upper):
@@ -395,7 +398,13 @@ def _bounds(vehicle, parameters: Sequence[str], given: Mapping[str, Sequence[flo
         if name not in PARAMETERS:
             raise InputError(f"unknown parameter {name!r}; known are {', '.join(PARAMETERS)}", place="parameters")
         bounds[name] = given.get(name, BOUNDS.get(name, vehicle.about(name)))
-    return {**bounds, **{name: pair for name, pair in given.items() if "." in name}}
+    for name in given:
+        if "." not in name and name not in PARAMETERS:
+            raise InputError(f"unknown parameter {name!r}; known are {', '.join(PARAMETERS)}", place="bounds")
+    found = {**bounds, **{name: pair for name, pair in given.items() if "." in name}}
+    if not found:
+        raise InputError("nothing is calibrated (expected at least one parameter)", place="parameters")
+    return found
 
 
 def _started(task: Problem, nominal: Mapping[str, float], given: Mapping[str, float]) -> np.ndarray:

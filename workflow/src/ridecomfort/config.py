@@ -76,7 +76,10 @@ def _typed(value):
         return {key: _typed(part) for key, part in value.items()}
     if isinstance(value, list):
         return [_typed(part) for part in value]
-    return yaml.safe_load(value) if isinstance(value, str) else value
+    try:
+        return yaml.safe_load(value) if isinstance(value, str) else value
+    except yaml.YAMLError:
+        raise InputError(f"{value!r} is not valid YAML (expected a value as in {STUDY.as_posix()}; is a bracket or a quote not closed?)", file="--config") from None
 
 
 def _source(key: str, given: Iterable[str]):
@@ -177,11 +180,25 @@ def _check_effects(study: Study, given: list[str]) -> None:
     named = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
     for twice in {name for name in named if named.count(name) > 1}:
         raise InputError(f"{twice!r} stands twice, expected each effect once", file=_source("effects", given), place="effects")
+    _check_profiles(study.settings["calibration"]["profiles"], folder, _source("calibration", given))
     if study.effects():
         try:
             library.check_plausible(library.choose(study.effects(), folder))
         except InputError as problem:
             raise InputError(str(problem), file=_source("effects", given), place="effects") from None
+
+
+def _check_profiles(profiles: Sequence[str], folder: Path | None, source) -> None:
+    """Sizes of effects whose profile is asked for are those of effects that there are, if not of every model."""
+    known = library.find(folder)
+    for name in profiles:
+        effect, dot, size = name.partition(".")
+        if not dot:
+            continue
+        sizes = [parameter.name for parameter in known[effect].effect.parameters] if effect in known else []
+        if size not in sizes:
+            what = f"effect {effect!r} has no parameter {size!r}; it has {', '.join(sizes)}" if sizes else f"unknown effect {effect!r}"
+            raise InputError(f"{name!r}: {what}", file=source, place="calibration: profiles")
 
 
 def _check_parameters(calibration: Mapping, source) -> None:

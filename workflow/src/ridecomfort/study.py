@@ -15,8 +15,7 @@ from .effects import library
 VEHICLES = Path("config/vehicles")
 DATA = Path("data")
 
-BASE = "base"
-"""Name of the model without effects."""
+BASE = library.BASE
 
 JOIN = "+"
 """Between the names of effects in the name of a model."""

@@ -87,7 +87,7 @@ def parameters(chosen: Sequence[tuple[Entry, Mapping[str, float]]]) -> np.ndarra
 def refusal(entries: Sequence[Entry], problem: Exception) -> InputError:
     """What to say to a user whose effect numba does not compile, in one line that names its file."""
     text = str(problem)
-    named = [entry for entry in entries if f"_{entry.effect.name}.py" in text or f"= {entry.effect.name}(" in text]
+    named = [entry for entry in entries if f"_{entry.effect.name}.py" in text or f"= act_{entry.effect.name}(" in text]
     own = [entry for entry in entries if entry.path.parent != FOLDER]
     guilty = next((entry for entry in own if entry in named), next(iter(own or entries)))
     said = (line.strip() for line in text.splitlines() if line.strip() and not line.startswith("Failed in nopython mode"))
@@ -142,9 +142,9 @@ def ports_source(effects: Sequence[Effect]) -> tuple[str, int]:
     lines = ['"""Ports of the vehicle with these effects connected: ' + (", ".join(e.name for e in effects) or "none")]
     lines += ['"""', "", "from numba import njit", ""]
     for effect in effects:
-        lines.append(f"from {{kernel}}_{effect.name} import act as {effect.name}")
+        lines.append(f"from {{kernel}}_{effect.name} import act as act_{effect.name}")
     lines += ["", 'PHYSICS = {"error_model": "numpy", "_nrt": False}', ""]
-    lines += [f'{effect.name} = njit(forceinline=True, **PHYSICS)({effect.name})' for effect in effects]
+    lines += [f'act_{effect.name} = njit(forceinline=True, **PHYSICS)(act_{effect.name})' for effect in effects]
     first_parameter, first_state, places = 0, 0, []
     first_switch = sum(len(effect.parameters) for effect in effects)
     for number, effect in enumerate(effects):
@@ -173,7 +173,7 @@ def _port_source(name: str, any_switch: int, places) -> list[str]:
         results = [f"new_{result}" for result in port.returns]
         targets = ", ".join(results + [f"slopes[{offset} + {k}]" for k in range(count)])
         lines.append(f"    if parameters[{switch}] != 0.0:")
-        lines.append(f"        {targets} = {effect.name}({', '.join(arguments)})")
+        lines.append(f"        {targets} = act_{effect.name}({', '.join(arguments)})")
         for result in port.returns:
             lines.append(f"        {result} {'=' if result in port.sees else '+='} new_{result}")
     lines.append(f"    return {', '.join(port.returns)}")

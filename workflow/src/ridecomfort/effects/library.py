@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import importlib.util
 import inspect
+import keyword
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -12,12 +13,17 @@ from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
 
+import numpy as np
+
 from ..errors import InputError
-from .contract import PORTS, Effect
+from .contract import PORTS, Effect, Parameter
 
 FOLDER = Path(__file__).parent
 HOUSE = {"__init__", "compose", "contract", "lag", "library", "neutral", "swing", "table", "wave"}
 """Files of this folder that are not effects."""
+
+BASE = "base"
+"""Name of the model without effects, which no effect may have."""
 
 
 @dataclass(frozen=True, eq=False)  # each is loaded once, and to compare all that they hold takes a millisecond of each drive
@@ -108,6 +114,9 @@ def _load(path: Path, changed: int) -> Entry:
     """The effect of a file; read again only once it has ``changed``."""
     if not (path.stem.isidentifier() and path.stem.isascii()):  # the name of a model, of its files and of the kernel's modules
         raise InputError(f"{path.stem!r} is no name of an effect (expected letters without accents, digits and _, no digit first)", file=path)
+    if path.stem == BASE or keyword.iskeyword(path.stem):
+        taken = "the model without effects has that name" if path.stem == BASE else "Python has a meaning for it"
+        raise InputError(f"{path.stem!r} is no name of an effect ({taken})", file=path)
     spec = importlib.util.spec_from_file_location(f"ridecomfort_effect_{path.stem}", path)
     module = importlib.util.module_from_spec(spec)
     try:
@@ -121,8 +130,24 @@ def _load(path: Path, changed: int) -> Entry:
         raise InputError(f"holds effect {effect.name!r}, expected the name of the file", file=path)
     if effect.port not in PORTS:
         raise InputError(f"unknown port {effect.port!r}; known are {', '.join(PORTS)}", file=path)
+    _check_parameters(effect, path)
     _check_arguments(effect, act, path)
     return Entry(effect, act, path)
+
+
+def _check_parameters(effect: Effect, path: Path) -> None:
+    """Raise InputError unless the parameters of an effect are Parameters with a range each, and its states names."""
+    for what, kind in (("parameters", Parameter), ("states", str)):
+        found = getattr(effect, what)
+        if not isinstance(found, tuple) or not all(isinstance(one, kind) for one in found):
+            raise InputError(f"{what} are {found!r:.60} (expected a tuple of {kind.__name__}: one alone needs a comma behind it)", file=path)
+    for parameter in effect.parameters:
+        try:
+            low, high = map(float, parameter.plausible)
+        except (TypeError, ValueError):
+            low, high = np.nan, np.nan
+        if not low < high:
+            raise InputError(f"plausible is {parameter.plausible!r} (expected two numbers, the lower one first)", file=path, place=parameter.name)
 
 
 def _check_arguments(effect: Effect, act: Callable, path: Path) -> None:

@@ -35,7 +35,7 @@ def text(entries: Mapping[str, Entry], width: int = 110) -> str:
             port = effect.port
             lines += [f"Port {port}", *_filled(PORTS[port].meaning, width, "  "), ""]
         lines += [effect.name, *_filled(effect.sentence, width, "  ")]
-        widest = max(len(parameter.name) for parameter in effect.parameters)
+        widest = max((len(parameter.name) for parameter in effect.parameters), default=0)
         for parameter in effect.parameters:
             low, high = parameter.plausible
             sizes = f"{low:g} to {high:g}, typically {parameter.typical:g}"

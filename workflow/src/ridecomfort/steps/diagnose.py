@@ -36,7 +36,9 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     table, found, proposal = discrepancy.diagnose(drives, car, **told, **settings)
     if settings["calibration"] is not None:
         table.attrs["calibrated"] = ", ".join(settings["calibration"]["parameter"].values.tolist())
-    content = {"sites": config["sites"], **found.json()}
+    # By these it is known later whether another verdict speaks of the same drives.
+    digests = {site: store.digest(drive, vehicle) for site, drive in zip(config["sites"], measured, strict=True)}
+    content = {"sites": config["sites"], "digests": digests, **found.json()}
     for old in Path(verdict).parent.glob(f"{DISCOVERED}*.py"):  # of drives or of a model before
         old.unlink()
     conclusions = [found.words()]

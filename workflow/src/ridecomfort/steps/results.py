@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -73,8 +73,9 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
     if not config["scored"]:
         del files["score"]
     sites = tuple(config["diagnosed"])
+    verdict = json.loads(files["verdict"].read_text(encoding="utf-8"))
     return Diagnosis(
-        json.loads(files["verdict"].read_text(encoding="utf-8")),
+        verdict,
         store.read(files["ranking"]),
         files={key: file.as_posix() for key, file in files.items()},
         model=config["model"],
@@ -82,18 +83,19 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
         sites=sites,
         standin=tuple(label(site) for site in sites if config["sites"][site]["standin"]),
         score=json.loads(files["score"].read_text(encoding="utf-8")) if "score" in files else None,
-        told_before=_told_before(results, config["switched_on"], sites[0]),
+        told_before=_told_before(results, config["switched_on"], verdict),
     )
 
 
-def _told_before(results: Path, switched_on: Sequence[str], site: str) -> dict[str, dict]:
-    """What verdicts on models with fewer effects, fitted on a ``site``, said of those that are ``switched_on`` by now, by name, each with the
-    ``model``; of several the one on the most effects."""
+def _told_before(results: Path, switched_on: Sequence[str], verdict: Mapping) -> dict[str, dict]:
+    """What verdicts on models with fewer effects, fitted to the same drives of the same vehicle as this one, said of those that are ``switched_on`` by now, by name,
+    each with the ``model``; of several the one on the most effects."""
     found: dict[str, dict] = {}
+    fitted = lambda said: said["digests"][said["sites"][0]] if "digests" in said else None
     for file in sorted(results.glob("diagnosis/*/verdict.json"), key=lambda file: (len(effects_of(file.parent.name)), file)):
         model = file.parent.name
         said = json.loads(file.read_text(encoding="utf-8")) if set(effects_of(model)) < set(switched_on) else {}
-        if said.get("verdict") in FOLLOWED and said["sites"][0] == site:
+        if said.get("verdict") in FOLLOWED and fitted(said) == fitted(verdict):
             found |= {effect["name"]: {**effect, "model": model} for effect in said["effects"] if effect["name"] in switched_on}
     return found
 

@@ -30,10 +30,10 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     point the other way, ``factor: -1``. Without it the columns are named as in the
     vocabulary and hold SI units. Raises InputError naming line and column.
     """
-    table = csvtable.read(path)
+    table, found = csvtable.read(path), csvtable.names(path)
     if columns is None:
-        columns = _named(table.columns)
-    _check_names(list(map(str, table.columns)), columns, path)
+        columns = _named(found)
+    _check_names(found, columns, path)
     values = {}
     for quantity, entry in columns.items():
         column = entry["column"]
@@ -68,6 +68,8 @@ def _check_names(found: Sequence[str], columns: Mapping[str, Mapping], path) -> 
         if quantity not in ("time", *DRIVE):
             expected = ", ".join(("time", *DRIVE))
             raise InputError(f"unknown quantity {quantity!r} (expected {expected})", file=path, place="columns")
+        if found.count(entry["column"]) > 1:
+            raise InputError(f"{found.count(entry['column'])} columns are called {entry['column']!r} (expected one, for {quantity})", file=path, place="line 1")
         if entry["column"] not in found:
             names = shorten(", ".join(found), LONGEST, placeholder=" ...")
             raise InputError(f"no column {entry['column']!r} for {quantity} (found {names})", file=path)

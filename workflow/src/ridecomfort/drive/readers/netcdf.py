@@ -48,6 +48,8 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
             raise InputError(f"{variable} has dims {series.dims} (expected time alone)", file=path)
         if quantity == "e" and series.isnull().all():
             continue
+        if series.dtype.kind not in "fiu":
+            raise InputError(f"holds {series.values.ravel()[:1]} for {quantity} (expected numbers)", file=path, place=str(series.name))
         quantities[quantity] = time, entry.get("factor", 1.0) * _scale(quantity, series, entry, path) * series.values
     attributes = {"gravity": bool(dataset.attrs.get("gravity", 0))}
     for name in ("name", "role", "lateral_position"):
@@ -58,8 +60,18 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     if len(lacking) < len(place):
         if lacking:
             raise InputError(f"has no attribute {lacking[0]!r} (expected all of {', '.join(place)}, or none)", file=path)
-        attributes["sensor"] = tuple(map(float, place.values()))
+        attributes["sensor"] = tuple(_number(name, value, path) for name, value in place.items())
+    if "lateral_position" in attributes:
+        attributes["lateral_position"] = _number("lateral_position", attributes["lateral_position"], path)
     return quantities, attributes
+
+
+def _number(name: str, value, path) -> float:
+    """The number that an attribute of a file holds."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"holds {value!r} (expected a number)", file=path, place=f"attribute {name}") from None
 
 
 def check(path, columns: Mapping[str, Mapping] | None) -> None:
