@@ -146,13 +146,6 @@ def test_what_cannot_be_simulated_is_said_in_a_line(course, car, given, named):
         simulate.run(course, car, **given)
 
 
-def test_a_car_that_is_asked_for_more_than_its_tyres_give_is_said_to_be_too_slow(car):
-    ground = road(400.0)
-    faster = xr.DataArray(np.linspace(5.0, 30.0, ground.u.size), {"u": ground.u.values}, "u")
-    with pytest.raises(InputError, match=r"the drive was too slow: after \d+ s, .* it was at \d+.* m of \d+.* m; is the friction too low"):
-        simulate.run(ground, car, speed=faster, friction=0.02)
-
-
 def test_the_golden_car_on_four_corners_is_the_quarter_car(repository):
     """Sayers (1995): acceleration of the body above a wheel against the quarter-car solved by scipy."""
     from scipy.signal import StateSpace, lsim
