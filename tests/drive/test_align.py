@@ -297,8 +297,8 @@ def test_a_drive_against_the_reference_line_is_called_that(drive, road, nominal)
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda d: d.assign(v_x=d["v_x"].where(d["time"] < 10, 0.2)), "by v_x at (9|10).* expected above 1 m/s"),
-        (lambda d: d.assign(s=d["s"].where(d["time"] < 10, d["s"].values[1000])), r"by s, \d+\.\d+ m/s by v_x at (9|10).* \(expected above 1 m/s"),
+        (lambda d: d.assign(v_x=d["v_x"].where(d["time"] < 10, 0.2)), r"by v_x at (9|10).* \(expected above 1 m/s"),
+        (lambda d: d.assign(s=d["s"].where(d["time"] < 10, d["s"].values[1000])), r"by s, \d+\.\d+ m/s by v_x at 1[01].* \(expected above 1 m/s"),
         (lambda d: d.assign(s=d["s"] + 300), "within the road"),
         (lambda d: d.assign(s=600 - d["s"]), "s falls from 5.* to .* m: driven against the reference line, which is not supported"),
     ],
