@@ -94,6 +94,24 @@ REFUSALS = {
         "handmade_curved", lambda text: text.replace("$ROAD_CRG ", "$ROAD_CRG_MODS\nscale_z_grid = 1e9\n$\n$ROAD_CRG "),
         "modifiers: take heights out of reason",
     ),
+    "a heading in degrees": (
+        "handmade_curved", lambda text: text.replace("phi,rad", "phi,deg"), "'reference line phi' in 'deg', expected in rad",
+    ),
+    "a heading in gradians": (
+        "handmade_curved", lambda text: text.replace("phi,rad", "phi,grad"), "'reference line phi' in 'grad', expected in rad",
+    ),
+    "a bank in percent": (
+        "handmade_banked", lambda text: text.replace("banking,m/m", "banking,%"), "'reference line banking' in '%', expected in m/m",
+    ),
+    "heights in mm": (
+        "handmade_sloped", lambda text: text.replace("v = -1.250,m", "v = -1.250,mm"), "'long section at v = -1.250' in 'mm', expected in m",
+    ),
+    "a channel without a unit": (
+        "handmade_banked", lambda text: text.replace("banking,m/m", "banking"), "'reference line banking' without a unit, expected in m/m",
+    ),
+    "a channel of the reference line that the library does not know": (
+        "handmade_banked", lambda text: text.replace("line banking", "line camber"), "decodeDefined: unknown definition",
+    ),
     "no OpenCRG at all": ("handmade_straight", lambda text: "nothing of the kind\n", "not an OpenCRG file"),
     "an unknown format": ("handmade_straight", lambda text: text.replace("#:LRFI", "#:XRFI"), "road.crg"),
 }  # fmt: skip
@@ -199,8 +217,8 @@ def test_unsorted_long_sections_are_refused_or_sorted(tmp_path):
 
 
 def test_channels_that_are_left_out_are_named(shared, tmp_path):
-    path = edited(shared / "data/opencrg/handmade_banked.crg", tmp_path / "road.crg", ("line banking", "line camber"))
-    assert "left out: 'reference line camber'" in crg.read(path).treatment
+    path = edited(shared / "data/opencrg/handmade_banked.crg", tmp_path / "road.crg", ("reference line banking", "camber of the road"))
+    assert "left out: 'camber of the road'" in crg.read(path).treatment
 
 
 def test_missing_files_and_missing_includes_are_named(shared, tmp_path):

@@ -21,6 +21,9 @@ TURN_LIMIT = 1e4
 STEP_LIMIT = 10.0
 """m that a height may lie above or below the median of its cross section."""
 
+_UNITS = {"phi": "rad", "slope": "m/m", "banking": "m/m"}
+"""Of the channels of the reference line that are not in m, as all others and the long sections are (OpenCRG 1.2)."""
+
 _TEXT_FIELD = {"LRFI": (10, 8), "LDFI": (20, 4)}
 """Characters a value and values a line (OpenCRG 1.2, data formats)."""
 
@@ -41,6 +44,12 @@ _BINARY_BLOCK = 80
 
 _MAGNITUDES = 1e-30, 1e9
 """Between which numbers of a road lie that are not zero, of all channels."""
+
+_CHANNEL = re.compile(r"long section|reference line (u|x|y|z|phi|slope|banking)\b", re.IGNORECASE)
+"""The names of OpenCRG's data channels."""
+
+_NOT_UNDERSTOOD = "Error parsing"
+"""What the library says of a line of the header that it goes on without."""
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d.*")
 
@@ -128,6 +137,29 @@ def extent(head: pycrg.CrgHeader) -> None:
     for low, high in (("reference_line_start_u", "reference_line_end_u"), ("long_section_v_right", "long_section_v_left")):
         if high in road and road[high] <= road.get(low, 0.0 if low.endswith("u") else -np.inf):
             raise InputError(f"{road[high]:g} m, expected more than {road.get(low, 0.0):g} m", file=head.path, place=high)
+
+
+def units(head: pycrg.CrgHeader) -> None:
+    """InputError for a data channel that is not in the unit of the standard.
+
+    The library takes mm for m and grad for rad, and goes on without a channel in deg or without a unit.
+    """
+    for channel in head.channels:
+        if channel.kind == "D" and (match := _CHANNEL.match(channel.name)):
+            wanted = _UNITS.get((match[1] or "").lower(), "m")
+            if channel.unit.lower() != wanted:
+                found = f"in {channel.unit!r}" if channel.unit else "without a unit"
+                raise InputError(f"{channel.name!r} {found}, expected in {wanted}", file=head.path, place="$KD_DEFINITION")
+
+
+def understood(head: pycrg.CrgHeader, warnings: list[str]) -> None:
+    """InputError where the library warns of a line that it goes on without: a channel less, and all behind it are shifted by one."""
+    if any(_NOT_UNDERSTOOD in warning for warning in warnings):
+        raise InputError(
+            f"{'; '.join(warnings).rstrip('.')}; expected lines that ASAM's library understands: without a channel it shifts those behind",
+            file=head.path,
+            place="header",
+        )
 
 
 def payload(head: pycrg.CrgHeader, cross_sections: int) -> None:
@@ -325,8 +357,7 @@ def lateral_range(path: Path) -> tuple[float, float] | None:
 def strange(head: pycrg.CrgHeader) -> list[str]:
     """Names of data channels that are neither of the reference line nor a long section: the library leaves them out."""
     names = [channel.name for channel in head.channels if channel.kind == "D"]
-    known = re.compile(r"long section|reference line (u|x|y|z|phi|slope|banking)\b", re.IGNORECASE)
-    return [name for name in names if not known.match(name)]
+    return [name for name in names if not _CHANNEL.match(name)]
 
 
 def order(head: pycrg.CrgHeader) -> None:

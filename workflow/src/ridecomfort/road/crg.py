@@ -87,6 +87,7 @@ def read(path, **options: str) -> xr.Dataset:
     checks.numbers(headers)
     head = headers[-1]
     checks.extent(head)
+    checks.units(head)
     stated = any(found.modifiers is not None for found in headers)
     names = " by way of ".join(Path(found.path).name for found in headers[::-1])
     treatment = [f"read from {names} ({head.data_format})"]
@@ -98,6 +99,7 @@ def read(path, **options: str) -> xr.Dataset:
         treatment.append("long sections sorted from right to left")
     try:
         with _warnings() as warnings, pycrg.DataSet.open(path, apply_modifiers=False) as data:
+            checks.understood(head, warnings)
             stored = data.grid()
             checks.payload(head, len(stored.u))
             checks.size(head, stored.u, stored.v)
