@@ -138,6 +138,27 @@ def test_binary_files_that_were_cut_off_or_grew_are_refused(tmp_path):
             crg.read(path)
 
 
+@pytest.mark.parametrize(("format", "width", "per_line"), [("LRFI", 10, 8), ("LDFI", 20, 4)])
+def test_blanks_behind_the_values_of_a_line_are_refused_where_its_cross_section_goes_on(tmp_path, format, width, per_line):
+    """The library took a field of them for a height of 0 m, and put every height behind it a column too far to the left."""
+    path = small(tmp_path / "road.crg", z=np.full((30, 11), 0.5), v=np.linspace(-2, 2, 11), fmt=format)
+    header, end, data = re.split(r"(\n\${4}.*\n)", path.read_text())
+    lines_each, lines = -(-11 // per_line), data.splitlines()
+
+    def changed(change, last):
+        whole = [change(line) if (k % lines_each == lines_each - 1) == last else line for k, line in enumerate(lines)]
+        path.write_text(f"{header}{end}" + "\n".join(whole) + "\n")
+        return path
+
+    for blanks in (1, width - 2, width):
+        said = f"data line 1 of {len(lines)}: blanks at the end of the line: {80 + blanks} characters, expected 80"
+        with pytest.raises(InputError, match=said):
+            crg.read(changed(lambda line: line + " " * blanks, last=False))
+        np.testing.assert_array_equal(crg.read(changed(lambda line: line + " " * blanks, last=True)).elevation, 0.5)
+    with pytest.raises(InputError, match=f"data line 1 of {len(lines)}: .* values, expected {per_line}"):
+        crg.read(changed(lambda line: line[:-1], last=False))
+
+
 @pytest.mark.parametrize("height", [None, 0.5])
 @pytest.mark.parametrize("format", ["KRBI", "KDBI"])
 def test_numbers_with_their_bytes_the_wrong_way_round_are_called_so(tmp_path, format, height):

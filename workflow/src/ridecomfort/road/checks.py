@@ -203,16 +203,27 @@ def _data(head: pycrg.CrgHeader) -> bytes:
 
 
 def _text(head: pycrg.CrgHeader, cross_sections: int, channels: int, width: int, per_line: int) -> None:
-    """Every cross section begins on a line of its own; its values fill fields of equal width."""
-    lines = [line for line in map(bytes.rstrip, _data(head).splitlines()) if line]
+    """Every cross section begins on a line of its own; its values fill fields of equal width.
+
+    The library counts characters on from one line of a cross section to its next: only its last line may have blanks behind its values.
+    """
+    lines = [line for line in _data(head).rstrip().splitlines() if line]
     lines_each = -(-channels // per_line)
-    for number, line in enumerate(lines):
-        in_section = number % lines_each
+    for number, whole in enumerate(lines):
+        in_section, line = number % lines_each, whole.rstrip()
         wanted = per_line if in_section < lines_each - 1 else channels - per_line * (lines_each - 1)
-        cut = number == len(lines) - 1 and len(line) < len(lines[in_section])
-        if cut or -(-len(line) // width) != wanted:
+        cut = number == len(lines) - 1 and len(line) < len(lines[in_section].rstrip())
+        too_long = len(whole) - width * per_line if in_section < lines_each - 1 else 0
+        if cut or too_long < 0 or -(-len(line) // width) != wanted:
             raise InputError(
                 f"{len(line) / width:g} values, expected {wanted} ({channels} channels): cut off or misaligned",
+                file=head.path,
+                place=f"data line {number + 1} of {len(lines)}",
+            )
+        if too_long > 0:
+            raise InputError(
+                f"blanks at the end of the line: {len(whole)} characters, expected {width * per_line} before the next line of its"
+                " cross section",
                 file=head.path,
                 place=f"data line {number + 1} of {len(lines)}",
             )
