@@ -8,6 +8,7 @@ import xarray as xr
 
 from ridecomfort.comfort import sections
 from ridecomfort.errors import InputError
+from ridecomfort.space import places
 
 S = 50.0 + 0.25 * np.arange(400)
 
@@ -19,6 +20,15 @@ def test_windows_follow_upon_each_other():
     # 605 windows of 5 m are 3025 m (docs/method.md, site lengths).
     assert len(sections.windows(np.arange(0, 3025.01, 0.25))) == 605
     assert len(sections.windows(np.arange(0, 3024.9, 0.1))) == 604
+
+
+@pytest.mark.parametrize("sliding", [False, True])
+def test_a_road_without_room_for_one_section_is_refused(sliding):
+    """Of 78 m a run-in of 50 m and a run-out of 25 m leave 3 m; the study compared methods over no section at all."""
+    s = places(0, 78, spacing=0.25, run_in=50, run_out=25)
+    with pytest.raises(InputError, match="s: 3.25 m of road from 50 m on, expected room for one section of 5 m"):
+        sections.windows(s, sliding=sliding)
+    assert len(sections.windows(places(0, 80, spacing=0.25, run_in=50, run_out=25))) == 1
 
 
 def test_a_window_is_critical_only_where_its_whole_length_is():

@@ -82,6 +82,16 @@ def test_a_step_writes_the_comfort_dataset_of_its_method(files, step, dims, vari
     assert all("units" in variable.attrs for variable in numbers)
 
 
+@pytest.mark.parametrize("step", [thresholds_step, iso2631, iri])
+def test_a_road_with_less_than_one_section_left_is_refused_by_the_first_step_that_knows_its_length(files, step):
+    folder, shards = files
+    for shard in shards:
+        store.write(store.read(shard).isel(s=slice(12)), shard, title="shard")
+    inputs = {"road": folder / "road.nc"} if step is iri else {}
+    with pytest.raises(InputError, match="3 m of road from 50 m on, expected room for one section of 5 m"):
+        step.main(shards=shards, config=CONFIG, output=folder / "out.nc", **inputs)
+
+
 def test_a_truncated_shard_is_named_and_nothing_written(files):
     folder, shards = files
     shards[1].write_bytes(shards[1].read_bytes()[:4000])

@@ -28,8 +28,6 @@ class Windows:
 
     def whole(self, condition: np.ndarray) -> np.ndarray:
         """Whether a condition (..., s) holds at every sample of each window, (..., window)."""
-        if not len(self):
-            return np.zeros(condition.shape[:-1] + (0,), bool)
         size = self.behind[0] - self.first[0]
         if np.array_equal(self.first, self.first[0] + size * np.arange(len(self))) and np.all(
             self.behind - self.first == size
@@ -55,7 +53,7 @@ def windows(s, length: float = LENGTH, *, sliding: bool = False) -> Windows:
     Sequential from the first place on, or with ``sliding`` one that begins at
     every place. A window holds the places from its start up to, without, its end;
     what is left behind the last whole window is not evaluated.
-    Raises InputError where ``s`` does not ascend or is too coarse for the length.
+    Raises InputError where ``s`` does not ascend, is too coarse for the length or shorter than it.
     """
     s = np.asarray(s, float)
     if s.ndim != 1 or len(s) < 2 or not np.all(np.diff(s) > 0.0):
@@ -69,6 +67,12 @@ def windows(s, length: float = LENGTH, *, sliding: bool = False) -> Windows:
         start = s[s + length <= end + slack]
     else:
         start = s[0] + length * np.arange(int((end - s[0] + slack) / length))
+    if not start.size:
+        raise InputError(
+            f"{end - s[0]:.4g} m of road from {s[0]:g} m on, expected room for one section of {length:g} m "
+            "(`space` and comfort: critical_length in config/study.yaml)",
+            place="s",
+        )
     first = np.searchsorted(s, start - slack)
     behind = np.searchsorted(s, start + length - slack)
     empty = np.flatnonzero(behind <= first)
