@@ -307,6 +307,25 @@ def test_what_means_nothing_for_a_profile_is_refused(tmp_path, arguments, messag
     main(["comfort", "--iri", str(file), "--local", "3", "--segment", "0.5"])
 
 
+@pytest.mark.parametrize(("every", "told"), [(1, False), (3, False), (5, True), (10, True)])
+def test_an_iri_of_samples_too_far_apart_is_told_to_be_too_low(tmp_path, every, told):
+    """A random walk: at 1 m its IRI is four fifths of that at 0.1 m."""
+    heights = 1e-3 * np.random.default_rng(1).standard_normal(S.size).cumsum()
+    file = write(tmp_path / "my.csv", s=S[::every], elevation=heights[::every])
+    remarks = alone.roughness(file, 100.0).remarks
+    said = f"samples up to {every / 10:g} m apart, expected 0.3 m or less (ASTM E1926)"
+    assert any(remark.startswith(said) for remark in remarks) == told
+
+
+@pytest.mark.parametrize("positions", [np.arange(0, 400, 1.25), np.delete(S, range(1000, 1015))])
+def test_a_profile_whose_samples_lie_more_than_1_m_apart_somewhere_is_refused(tmp_path, positions):
+    file = write(tmp_path / "my.csv", **{"s [m]": positions, "elevation": np.zeros(positions.size)})
+    with pytest.raises(InputError) as refusal:
+        alone.roughness(file, 100.0)
+    apart = f"{np.diff(positions).max():.4g}"
+    assert str(refusal.value).startswith(f"{file}: column 's [m]': samples up to {apart} m apart, expected 1 m or less")
+
+
 @pytest.mark.parametrize(
     ("content", "said"),
     [

@@ -70,6 +70,14 @@ def test_smoothing_says_what_it_does_to_the_iri(tmp_path, capsys):
     assert float(after) < float(before) and "found by cross-validation" in said
 
 
+@pytest.mark.parametrize(("spacing", "told"), [(0.25, False), (0.5, True)])
+def test_cross_sections_too_far_apart_for_the_iri_are_told(tmp_path, capsys, spacing, told):
+    pycrg.write(tmp_path / "road.crg", np.random.default_rng(1).normal(0, 3e-4, (100, 41)), spacing, np.linspace(-2, 2, 41))
+    road.main(tmp_path / "road.crg", {"options": {}}, tmp_path / "road.nc")
+    said = "IRI of the wheel tracks: samples up to 0.5 m apart, expected 0.3 m or less"
+    assert (said in capsys.readouterr().err) == (said in store.read(tmp_path / "road.nc").treatment) == told
+
+
 def test_warnings_of_the_library_do_not_litter_a_refusal(shared, tmp_path):
     done = run(shared / "data" / "opencrg" / "belgian_block_damaged.crg", tmp_path / "road.nc")
     assert done.returncode == 1 and done.stderr.count("\n") == 1 and "heights out of reason" in done.stderr

@@ -43,6 +43,9 @@ SHORTEST = 4.0
 LARGEST_IRI = 100.0
 """m/km; unpaved roads, eroded and slow, reach 20 (Sayers, Gillespie and Paterson 1986, WBTP 46, figure 2)."""
 
+COARSEST = 1.0
+"""m between the samples of a profile; of one at 1 m a fifth and more of the IRI is missing, of one at 5 m most."""
+
 TIME_CONSTANT = 1.0
 """s, of the running rms; it knows too little of the past before (ISO 2631-1:1997, 6.3.1)."""
 
@@ -307,7 +310,7 @@ def roughness(
 
     Columns are in m, or in the unit that stands in brackets behind the name: ``elevation [mm]``; ``columns`` gives other names
     (quantity to {"column": name}). ``local``: m/km; the stretches whose continuous IRI lies above are named (``iri.local_roughness``).
-    Raises InputError for a profile with gaps or out of order, a ``local`` that is no roughness, and a ``segment`` shorter than what
+    Raises InputError for a profile with gaps, coarser than COARSEST or out of order, a ``local`` that is no roughness, and a ``segment`` shorter than what
     the profile resolves: its samples, or the moving average.
     """
     if local is not None and not (np.isfinite(local) and local > 0.0):
@@ -321,7 +324,12 @@ def roughness(
     profiles = {name: _metres(table, "s" if name == "s" else "elevation", columns[name], file) for name in ("s", *names)}
     s = profiles.pop("s")
     _check_ascending(s, columns["s"]["column"], file)
-    resolved = max(MOVING_AVERAGE, float(np.diff(s).max(initial=0.0)))
+    spacing = float(np.diff(s).max(initial=0.0))
+    if spacing > COARSEST * (1 + 1e-6):
+        column = columns["s"]["column"]
+        problem = f"samples up to {spacing:.4g} m apart, expected {COARSEST:g} m or less: they hold no IRI"
+        raise InputError(problem, file=file, place=f"column {column!r}")
+    resolved = max(MOVING_AVERAGE, spacing)
     if segment < resolved:
         raise InputError(f"{segment:g} m, expected {resolved:.4g} m or more, what the profile resolves", file=file, place="--segment")
     settings = {"moving_average": None} if smoothed else {}
@@ -346,8 +354,7 @@ def roughness(
     rows = pd.DataFrame({"from [m]": start, "to [m]": stop, **{f"{name} [m/km]": each for name, each in found.items()}})
     signals = xr.Dataset({name: ("segment", each) for name, each in found.items()}, {"s": s})
     remarks = ["profile taken as averaged over 250 mm already" if smoothed else "moving average of 250 mm applied"]
-    unused = _unused(table.columns, columns)
-    remarks += [unused] if unused else []
+    remarks += [remark for remark in (iri.coarse(spacing), _unused(table.columns, columns)) if remark]
     for name, stretches in spots.items():
         remarks.append(f"{name}: {len(stretches)} stretch{'' if len(stretches) == 1 else 'es'} with more than {local:g} m/km over 7.62 m (25 ft)")
         remarks += [

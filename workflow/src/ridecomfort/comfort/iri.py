@@ -10,7 +10,10 @@ from .quartercar import MOVING_AVERAGE, SPEED, respond
 LEAST_SHARE = 0.5
 """A last segment counts when the profile covers at least this share of it."""
 
-__all__ = ["iri", "half_car", "local_roughness", "mean_of_tracks", "sliding", "survey"]
+WIDEST = 0.3
+"""m between samples; farther apart they miss waves that the quarter-car answers to (ASTM E1926)."""
+
+__all__ = ["coarse", "iri", "half_car", "local_roughness", "mean_of_tracks", "sliding", "survey"]
 
 
 def iri(
@@ -87,6 +90,13 @@ def survey(profile, spacing, at, resolution: float = 50.0, **settings) -> np.nda
     flat = rough.reshape(-1, rough.shape[-1])
     at = np.asarray(at, float)
     return np.array([np.interp(at, 0.5 * (start + stop), row) for row in flat]).reshape(rough.shape[:-1] + at.shape)
+
+
+def coarse(spacing: float) -> str:
+    """A sentence about the IRI of samples ``spacing`` m apart, or "" where they are no farther apart than ``WIDEST``."""
+    if spacing <= WIDEST * (1 + 1e-6):
+        return ""
+    return f"samples up to {spacing:.4g} m apart, expected {WIDEST:g} m or less (ASTM E1926): waves between them are missed, and the IRI is too low"
 
 
 def local_roughness(profile, spacing, threshold: float, length: float = 7.62, **settings) -> list[dict]:
