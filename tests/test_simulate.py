@@ -128,6 +128,22 @@ def test_wheels_stay_on_the_road(course, car, lateral, u, beyond, said):
     assert str(problem.value).startswith(f"road.nc: run 7: lateral position: {said}")
 
 
+@pytest.mark.parametrize(("length", "is_refused"), [(0.9, False), (5.0, True)])
+def test_wheels_stay_where_the_road_has_heights_but_for_notches_as_short_as_a_hole(car, length, is_refused):
+    """The left 0.5 m of 4 m of road hold no height from 60 m on: on 5 m of held heights a drive came out too smooth."""
+    narrowed = road(120.0, height=rough)
+    narrowed["elevation"] = narrowed.elevation.where((narrowed.v < 1.55) | (narrowed.u < 60.0) | (narrowed.u > 60.0 + length))
+    u = np.arange(50.0, 70.0, 0.25)
+    simulate.check_on_road(narrowed, car, np.full(u.size, 0.75), u)
+    simulate.check_on_road(narrowed, car, 1.25)
+    simulate.check_on_road(narrowed, car, np.where((u > 59.0) & (u < 66.0), 0.0, 1.25), u)
+    if not is_refused:
+        simulate.check_on_road(narrowed, car, np.full(u.size, 1.25), u)
+        return
+    with pytest.raises(InputError, match=r"1.25 m at u = 6[0-5]\.\d m, with wheels 0.75 m to either side, expected on the road, -2 to 1.5 m"):
+        simulate.check_on_road(narrowed, car, np.full(u.size, 1.25), u)
+
+
 @pytest.mark.parametrize(
     ("given", "named"),
     [

@@ -13,7 +13,7 @@ from numba.core.errors import NumbaError
 from .drive.sampling import HALF_WIDTH, KAISER
 from .effects import compose, library
 from .errors import InputError
-from .road import surface
+from .road import edges, surface
 from .vehicle import driver
 from .vehicle.constants import constants, wheel_table
 from .vehicle.ground import Surface
@@ -186,19 +186,23 @@ def runs(
 
 
 def check_on_road(road: xr.Dataset, vehicle: Vehicle, lateral, u=None, *, beyond: float = 0.0, file=None, place: str = "") -> None:
-    """Raise InputError where a wheel leaves the grid of the road: heights are only held there, and the drive comes out too smooth.
+    """Raise InputError where a wheel leaves the road: heights are only held there, and the drive comes out too smooth.
 
     ``lateral``: positions of the vehicle in m to the left of the reference line, a number or (n,), each at its ``u`` in m where it
-    is known. ``beyond``: m by which a wheel may. ``file`` and ``place`` are what the message names first.
+    is known: the road then ends with the heights there (`edges.sides`), else with its grid. ``beyond``: m by which a wheel may. ``file`` and ``place`` are what the message names first.
     """
     lateral, half = np.atleast_1d(lateral), max(vehicle["track_front"], vehicle["track_rear"]) / 2
-    right, left = float(road.v[0]), float(road.v[-1])
+    right, left = np.full(lateral.shape, float(road.v[0])), np.full(lateral.shape, float(road.v[-1]))
+    if u is not None:
+        ends = edges.sides(road.elevation.transpose("u", "v").values, road.u.values, road.v.values)
+        right, left = (np.interp(np.atleast_1d(u), road.u.values, end) for end in ends)
     over = np.maximum(lateral + half - left, right - (lateral - half))
     worst = int(np.argmax(over))
     if over[worst] > beyond + 1e-6:
         where = "" if u is None else f" at u = {np.atleast_1d(u)[worst]:.1f} m"
         raise InputError(
-            f"{lateral[worst]:.2f} m{where}, with wheels {half:.3g} m to either side, expected on the road, {right:g} to {left:g} m",
+            f"{lateral[worst]:.2f} m{where}, with wheels {half:.3g} m to either side, expected on the road, "
+            f"{right[worst]:g} to {left[worst]:g} m",
             file=file,
             place=": ".join(part for part in (place, "lateral position") if part),
         )

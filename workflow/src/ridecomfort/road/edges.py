@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy import ndimage
+
+
+NOTCH = 1.0
+"""m along the road; an edge is not told from notches no longer than a hole that may be filled."""
 
 
 def outside(elevation: np.ndarray) -> np.ndarray:
@@ -19,6 +24,17 @@ def outside(elevation: np.ndarray) -> np.ndarray:
 def holes(elevation: np.ndarray) -> np.ndarray:
     """True for cells (u, v) without a height that lie between heights of their cross section."""
     return ~np.isfinite(elevation) & ~outside(elevation)
+
+
+def sides(elevation: np.ndarray, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Right and left end in m of the heights of each cross section (u,), notches of up to ``NOTCH`` m along bridged."""
+    inside = ~outside(elevation)
+    some = inside.any(axis=1)
+    right = np.where(some, v[inside.argmax(axis=1)], v[-1])
+    left = np.where(some, v[len(v) - 1 - inside[:, ::-1].argmax(axis=1)], v[0])
+    # The middle of a notch of n cross sections sees a whole one at (n + 1) / 2 to either side.
+    size = 2 * int(0.5 * NOTCH / (u[1] - u[0]) + 0.5 + 1e-6) + 1
+    return ndimage.minimum_filter1d(right, size, mode="nearest"), ndimage.maximum_filter1d(left, size, mode="nearest")
 
 
 def extend(elevation: np.ndarray, v: np.ndarray, bank: np.ndarray, offset: float = 0.0) -> np.ndarray:
