@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from scipy import ndimage
 
-
 NOTCH = 1.0
 """m along the road; an edge is not told from notches no longer than a hole that may be filled."""
 
