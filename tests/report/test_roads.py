@@ -65,3 +65,13 @@ def test_a_road_too_short_for_a_spectrum_is_drawn_all_the_same(paper_like, site)
     assert any("too short" in text.get_text() for axes in drawn.axes for text in axes.texts)
     figures.draw(study, "smoothing")
     assert tables.roads.roughness(study).printed(0, 3) == "–"
+
+
+@pytest.mark.parametrize("tracks, said", [((1.0, 2.5), ["right: ", "left: "]), ((0.5,), ["0.5 m: "]), ((-1.5, -0.75, 0.75), ["-1.5 m: ", "-0.75 m: ", "0.75 m: "])])
+def test_every_wheel_track_has_its_spectrum_wherever_the_reference_line_lies(paper_like, site, tracks, said):
+    inspection = site.inspection.isel(track=np.arange(len(tracks)) % 2).assign_coords(track=list(tracks))
+    study = dataclasses.replace(paper_like, sites=(dataclasses.replace(site, inspection=inspection),))
+    density, common = figures.draw(study, f"spectrum_{site.name}").axes
+    labels = [text.get_text() for text in density.get_legend().get_texts() if "class" in text.get_text()]
+    assert [label[: label.index("class")] for label in labels] == said
+    assert bool(common.lines) == (len(tracks) > 1)

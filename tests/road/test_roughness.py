@@ -104,6 +104,18 @@ def test_a_road_is_analysed_in_its_wheel_tracks():
     assert found.unevenness.units == "m3"
 
 
+@pytest.mark.parametrize("beside", [-0.75, 3.75])
+def test_a_wheel_track_beside_the_road_is_refused_and_not_analysed_as_the_edge_that_is_held_there(beside):
+    u, v = np.arange(4000) * SPACING, np.linspace(0, 3.5, 8)
+    elevation = np.repeat(profile(64e-6, 2.0, 400.0, np.random.default_rng(8))[:, None], v.size, axis=1)
+    road = xr.Dataset(
+        {"elevation": (("u", "v"), elevation), "bank": ("u", np.zeros(u.size))}, coords={"u": u, "v": v}
+    )
+    with pytest.raises(ValueError, match=f"wheel track at {beside} m lies outside the road, 0 to 3.5 m"):
+        roughness.analyse(road, tracks=sorted([beside, 0.75]))
+    assert roughness.analyse(road, tracks=[0.0, 3.5])["v"].values.tolist() == [0.0, 3.5]
+
+
 def test_a_profile_too_short_for_a_fit_is_refused():
     with pytest.raises(ValueError, match="too short"):
         roughness.fit(*roughness.smooth(*roughness.spectrum(np.zeros(100), SPACING)))

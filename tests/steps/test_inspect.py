@@ -16,6 +16,8 @@ SETTINGS = {
     "site": "own",
     "speed": {"limit_km_h": 60, "lateral_acceleration": 3.0, "acceleration": 1.0, "deceleration": 1.5},
     "simulation": {"step": 0.001, "rate": 100},
+    "wheel_tracks": [-0.75, 0.75],
+    "lateral_position": 0.0,
 }
 
 
@@ -94,3 +96,34 @@ def test_a_scan_brings_what_was_done_before_the_file_was_written(road, repositor
     assert again.attrs["cells_repaired"] == 2
     assert again.attrs["largest_change"] == pytest.approx(found.attrs["largest_change"], abs=1e-4)
     xr.testing.assert_allclose(again["unevenness"], found["unevenness"], rtol=0.01)
+
+
+@pytest.fixture
+def lane(tmp_path):
+    """A file of a lane whose reference line is its right edge, smooth but for waves of 2 m and 3 cm around the middle of its right half."""
+    u, v = np.arange(round(LENGTH / 0.1) + 1) * 0.1, np.linspace(0, 3.5, 36)
+    waves = 0.03 * np.sin(np.pi * u[:, None]) * np.exp(-((v - 1.0) ** 2) / 0.1)
+    pycrg.write(tmp_path / "road.crg", waves + np.random.default_rng(3).normal(0, 3e-4, (u.size, v.size)), 0.1, v, mods={})
+    return tmp_path / "road.crg"
+
+
+def test_the_road_is_inspected_in_the_configured_wheel_tracks_and_driven_where_the_runs_are(lane, repository):
+    found = {}
+    for lateral in (1.75, 2.5):
+        settings = {**SETTINGS, "options": {}, "wheel_tracks": [1.0, 2.5], "lateral_position": lateral}
+        inspect.main(lane, repository / "config/vehicles/midsize.yaml", None, settings, lane.parent / f"{lateral}.nc")
+        found[lateral] = store.read(lane.parent / f"{lateral}.nc")
+    rough, smooth = found[1.75].sel(stage="repaired")["iri_track"].values
+    assert found[1.75]["track"].values.tolist() == [1.0, 2.5] and rough > 5.0 * smooth > 0.0
+    assert found[1.75]["displacement_psd"].notnull().all()
+    # The waves lie under the right wheels of the car in the middle of the lane, and beside those of one that keeps to the left.
+    shaken, still = (float(found[lateral]["a_z_rms"].sel(stage="repaired")) for lateral in (1.75, 2.5))
+    assert shaken > 2.0 * still
+
+
+def test_of_a_wheel_track_beside_the_road_nothing_is_said(lane, repository):
+    settings = {**SETTINGS, "options": {}, "wheel_tracks": [-0.75, 0.75, 1.5], "lateral_position": 1.75}
+    inspect.main(lane, repository / "config/vehicles/midsize.yaml", None, settings, lane.parent / "i.nc")
+    found = store.read(lane.parent / "i.nc")
+    assert found["track"].values.tolist() == [-0.75, 0.75, 1.5] and set(found["class"].values.ravel()) == {""}
+    assert all(found[name].isnull().all() for name in ("unevenness", "waviness", "iri_track"))

@@ -78,6 +78,16 @@ def test_cross_sections_too_far_apart_for_the_iri_are_told(tmp_path, capsys, spa
     assert (said in capsys.readouterr().err) == (said in store.read(tmp_path / "road.nc").treatment) == told
 
 
+@pytest.mark.parametrize("tracks, is_said", [([1.0, 2.5], True), ([-0.75, 0.75], False)])
+def test_the_iri_before_and_after_smoothing_is_that_of_the_configured_wheel_tracks_where_they_are_on_the_road(tmp_path, tracks, is_said):
+    noisy = np.random.default_rng(1).normal(0, 3e-4, (300, 36)) + 0.02 * np.sin(np.arange(300) / 20)[:, None]
+    pycrg.write(tmp_path / "road.crg", noisy, 0.1, np.linspace(0, 3.5, 36))
+    settings = {"options": {"smoothing": "cross-validation"}, "wheel_tracks": tracks}
+    road.main(tmp_path / "road.crg", settings, tmp_path / "road.nc")
+    said = store.read(tmp_path / "road.nc").treatment
+    assert "found by cross-validation" in said and ("IRI of the wheel tracks" in said) == is_said
+
+
 def test_warnings_of_the_library_do_not_litter_a_refusal(shared, tmp_path):
     done = run(shared / "data" / "opencrg" / "belgian_block_damaged.crg", tmp_path / "road.nc")
     assert done.returncode == 1 and done.stderr.count("\n") == 1 and "heights out of reason" in done.stderr

@@ -39,9 +39,16 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             grid = {key: own["road"]["scan"][key] for key in ("spacing", "width")}
             return {**at, **grid}
         case "road":
-            return {**at, "standin": own["standin"], "options": own["road"]["options"]}
+            return {**at, "standin": own["standin"], "options": own["road"]["options"], "wheel_tracks": comfort["iri"]["wheel_tracks"]}
         case "inspect":
-            return {**at, "options": own["road"]["options"], "speed": own["speed"], "simulation": simulation}
+            return {
+                **at,
+                "options": own["road"]["options"],
+                "wheel_tracks": comfort["iri"]["wheel_tracks"],
+                "speed": own["speed"],
+                "lateral_position": _mean(own["sampling"]["lateral_position"]),
+                "simulation": simulation,
+            }
         case "measured":
             drives = [{key: value for key, value in drive.items() if key != "noise_density"} for drive in own["drives"]]
             return {**at, "drives": drives, "alignment": chosen["alignment"], "simulation": simulation}
@@ -148,6 +155,12 @@ def _of_page(study: Study) -> dict:
 def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:
     """What tables and figures of measured drives say of these sites."""
     return {site: {key: _summary(study, site)[key] for key in ("title", "standin", "has_drives", "calibrated_on")} for site in sites}
+
+
+def _mean(distribution: Mapping) -> float:
+    """Mean of a configured distribution such as ``{"normal": [0, 0.2]}``."""
+    ((kind, (first, second)),) = distribution.items()
+    return float(first) if kind == "normal" else 0.5 * (first + second)
 
 
 def _noise_densities(drives: Iterable[Mapping]) -> dict[str, dict[str, float]]:

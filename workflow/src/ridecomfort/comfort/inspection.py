@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -24,50 +24,59 @@ SEGMENT = 1024
 """Records that spectra of the acceleration are averaged over: 10 s, 0.1 Hz."""
 
 
-def inspect(prepared: Prepared, vehicle: Vehicle, *, speed: Mapping[str, float], step: float, rate: float) -> xr.Dataset:
+def inspect(
+    prepared: Prepared,
+    vehicle: Vehicle,
+    *,
+    speed: Mapping[str, float],
+    step: float,
+    rate: float,
+    tracks: Sequence[float] = iriclass.WHEEL_TRACKS,
+    lateral: float = 0.0,
+) -> xr.Dataset:
     """Roughness, IRI and defects of a road (`prepare.prepare` with smoothing), and a drive with and without smoothing.
 
-    Over ``stage`` (`STAGES`) and the wheel tracks ``track``: what `roughness.analyse`
+    Over ``stage`` (`STAGES`) and the wheel tracks ``track`` (``tracks`` in m to the left of the reference line): what `roughness.analyse`
     gives, and ``iri_track`` in m/km of the whole length; NaN where the road is too
-    short or has holes in a track. Over ``stage``: root mean square ``a_z_rms`` and
+    short, or has holes or none of it in a track. Over ``stage``: root mean square ``a_z_rms`` and
     largest ``a_z_peak`` in m/s2, and ``acceleration_psd`` (stage, frequency) of the
-    vertical acceleration of one drive of the vehicle at the site's speed profile,
-    NaN as measured. Over ``wavelength``: the error ``held_out_error`` (direction,
+    vertical acceleration of one drive of the vehicle at the site's speed profile, ``lateral``
+    m to the left of the reference line, NaN as measured. Over ``wavelength``: the error ``held_out_error`` (direction,
     trial) against held-out points for each cut-off tried, and ``cutoff`` (direction) in m
     with its ``penalty`` in m4. Over ``defect``: `defects.find`. Attributes give
     counts and shares of treated cells, and the largest change.
     """
     stages = dict(zip(STAGES, (prepared.measured, prepared.repaired, prepared.smoothed)))
-    found = xr.concat([_roughness(road) for road in stages.values()], xr.Variable("stage", list(stages)))
-    found = xr.merge([found, _drives(stages, vehicle, speed, step, rate), _cutoffs(prepared.cutoffs)])
+    found = xr.concat([_roughness(road, tracks) for road in stages.values()], xr.Variable("stage", list(stages)))
+    found = xr.merge([found, _drives(stages, vehicle, speed, lateral, step, rate), _cutoffs(prepared.cutoffs)])
     found = found.merge(defects.find(prepared.repaired))
     found.attrs = {"standard": "ISO 8608:2016", "segment": roughness.SEGMENT, **_treated(prepared)}
     return describe(found)
 
 
-def _roughness(road: xr.Dataset) -> xr.Dataset:
+def _roughness(road: xr.Dataset, tracks: Sequence[float]) -> xr.Dataset:
     """Spectra, class and IRI of the wheel tracks; NaN and no class where they cannot be known."""
     try:
-        found = roughness.analyse(road).rename(v="track")
+        found = roughness.analyse(road, tracks=tracks).rename(v="track")
     except ValueError:
         found = xr.Dataset(
             {
-                **{name: ("track", np.full(2, np.nan)) for name in ("unevenness", "waviness")},
-                "class": ("track", ["", ""]),
+                **{name: ("track", np.full(len(tracks), np.nan)) for name in ("unevenness", "waviness")},
+                "class": ("track", [""] * len(tracks)),
             },
-            coords={"track": list(roughness.TRACKS)},
+            coords={"track": np.asarray(tracks, dtype=float)},
         )
     spacing = float(road.u[-1] - road.u[0]) / (road.sizes["u"] - 1)
     try:
-        values = iri.iri(iriclass.tracks(road), spacing)
+        values = iri.iri(iriclass.tracks(road, tracks), spacing)
     except InputError:
-        values = np.full(2, np.nan)
+        values = np.full(len(tracks), np.nan)
     found["iri_track"] = ("track", values)
     found.attrs = {}
     return found
 
 
-def _drives(stages: Mapping[str, xr.Dataset], vehicle, speed, step, rate) -> xr.Dataset:
+def _drives(stages: Mapping[str, xr.Dataset], vehicle, speed, lateral, step, rate) -> xr.Dataset:
     """One drive on the repaired and one on the smoothed road, at the same speed profile."""
     profile = driver.speed_profile(
         stages["repaired"],
@@ -75,7 +84,7 @@ def _drives(stages: Mapping[str, xr.Dataset], vehicle, speed, step, rate) -> xr.
         **{name: speed[name] for name in ("lateral_acceleration", "acceleration", "deceleration")},
     )
     driven = {
-        stage: simulate.run(stages[stage], vehicle, speed=profile, step=step, rate=rate)["a_z"].values
+        stage: simulate.run(stages[stage], vehicle, speed=profile, lateral=lateral, step=step, rate=rate)["a_z"].values
         for stage in ("repaired", "smoothed")
     }
     length = min(SEGMENT, *(a_z.size for a_z in driven.values()))

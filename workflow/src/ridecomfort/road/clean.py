@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,7 +61,7 @@ class Report:
     ``outliers`` and ``filled`` count cells; ``share_changed`` is that of the
     road's cells (0 to 1), ``largest_change`` in m that of a repaired outlier, at
     ``largest_at`` (u, v). ``spectra`` holds `roughness.analyse` before and after
-    (dim ``state``), or is None where the road is too short or has holes.
+    (dim ``state``), or is None where the road is too short, or has holes or none of it in a track.
     """
 
     outliers: int
@@ -139,7 +140,7 @@ def fill(
     return filled
 
 
-def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
+def clean(road: xr.Dataset, *, tracks: Sequence[float] = roughness.TRACKS, **options: str) -> tuple[xr.Dataset, Report]:
     """The road without the measurement failures that the options name, and what was done.
 
     outliers
@@ -153,6 +154,7 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
     line for each step. A road with the ``support`` of `survey.grid` is a scan: dips
     that `VOUCHED` points agree on are no outliers, and notches in its edge no longer
     than `LARGEST_HOLE` are holes, for the edge is that of the scanner's swath.
+    ``tracks`` in m to the left of the reference line are those of the report's spectra.
     Raises InputError for what is to be refused.
     """
     chosen = _choose(options)
@@ -196,7 +198,7 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
             "flag_meanings": "measured outlier_repaired hole_filled outlier_kept",
         },
     )
-    report = _report(road, cleaned, outlier, hole)
+    report = _report(road, cleaned, outlier, hole, tracks)
     if outlier.any() or hole.any():
         said += report.lines()
     elif coarse:
@@ -216,11 +218,11 @@ def _choose(options: dict) -> dict:
     return {name: options.get(name, values[0]) for name, values in CHOICES.items()}
 
 
-def _report(road, cleaned, outlier, hole) -> Report:
+def _report(road, cleaned, outlier, hole, tracks) -> Report:
     change = np.abs(np.where(outlier, cleaned.elevation.values - road.elevation.values, 0.0))
     i, j = np.unravel_index(change.argmax(), change.shape)
     try:
-        states = [roughness.analyse(state) for state in (road, cleaned)]
+        states = [roughness.analyse(state, tracks=tracks) for state in (road, cleaned)]
         spectra = xr.concat(states, xr.DataArray(["before", "after"], dims="state", name="state"))
     except ValueError:
         spectra = None

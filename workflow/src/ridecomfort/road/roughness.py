@@ -113,12 +113,17 @@ def analyse(road: xr.Dataset, *, tracks: Sequence[float] = TRACKS, segment: floa
 
     Returns a dataset with ``displacement_psd`` (v, wavenumber), ``smoothed_psd``
     (v, band), ``unevenness`` (v), ``waviness`` (v), ``class`` (v) and ``coherence``
-    (wavenumber) of the first and the last track. Raises ValueError where the road
-    has holes in a track or is too short.
+    (wavenumber) of the first and the last track. Raises ValueError where a track lies
+    beside the road or crosses a hole, or the road is too short.
     """
     u = road.u.values
     spacing = (u[-1] - u[0]) / (len(u) - 1)
     tracks = np.asarray(tracks, dtype=float)
+    right, left = float(road.v[0]), float(road.v[-1])
+    for track in tracks:
+        # Heights are held there: a spectrum of them would be that of another place.
+        if not right <= track <= left:
+            raise ValueError(f"wheel track at {track:g} m lies outside the road, {right:g} to {left:g} m")
     profiles = surface.height(road, u, tracks[:, None], interpolation="linear")
     if not np.isfinite(profiles).all():
         raise ValueError("a wheel track crosses a hole or leaves the road")

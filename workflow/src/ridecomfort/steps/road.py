@@ -4,22 +4,34 @@ import sys
 
 from ridecomfort import store
 from ridecomfort.comfort import iri, iriclass
+from ridecomfort.errors import InputError
 from ridecomfort.road import prepare
 from ridecomfort.steps.command import Command
 
 
 def main(road, config, output):
-    prepared = prepare.prepare(road, **config.get("options", {}))
+    tracks = config.get("wheel_tracks", iriclass.WHEEL_TRACKS)
+    prepared = prepare.prepare(road, tracks=tracks, **config.get("options", {}))
     used = prepared.used
-    spacing = float(used.u[1] - used.u[0])
-    if prepared.smoothed is not None:
-        before, after = (iri.iri(iriclass.tracks(state), spacing).mean() for state in (prepared.repaired, used))
-        used.attrs["treatment"] += f"\nsmoothing took the IRI of the wheel tracks from {before:.3f} to {after:.3f} m/km"
-    if remark := iri.coarse(spacing):
+    if prepared.smoothed is not None and (said := _smoothed(prepared, tracks)):
+        used.attrs["treatment"] += f"\n{said}"
+    if remark := iri.coarse(float(used.u[1] - used.u[0])):
         used.attrs["treatment"] += f"\nIRI of the wheel tracks: {remark}"
     print(used.treatment, file=sys.stderr)
     used.attrs["standin"] = int(config.get("standin", False))
     store.write(used, output, title=f"Road of {config.get('site', road.stem)}", configuration=config)
+
+
+def _smoothed(prepared, tracks) -> str:
+    """What smoothing did to the IRI of the wheel tracks; nothing where one of them is not on the road."""
+    states = prepared.repaired, prepared.smoothed
+    try:
+        profiles = [iriclass.tracks(state, tracks) for state in states]
+    except InputError:
+        return ""
+    spacing = float(prepared.used.u[1] - prepared.used.u[0])
+    before, after = (iri.iri(each, spacing).mean() for each in profiles)
+    return f"smoothing took the IRI of the wheel tracks from {before:.3f} to {after:.3f} m/km"
 
 
 if __name__ == "__main__":

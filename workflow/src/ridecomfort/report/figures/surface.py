@@ -11,8 +11,11 @@ from .. import style
 from ..study import Study
 from ..tables.roads import used
 
-TRACK_COLOURS = (style.LINES[0][0], style.LINES[5][0])
-"""Of the right and the left wheel track."""
+TRACK_COLOURS = tuple(style.LINES[place][0] for place in (0, 5, 2, 3))
+"""Of the right and the left wheel track, or of as many as are configured from the right to the left."""
+
+TRACK_WIDTHS = (2.0, 0.9, 0.9, 0.9)
+"""Points; the second line is narrower, so that tracks that are alike show both."""
 
 WAVENUMBERS = (0.005, 5.0)
 """cycles/m shown."""
@@ -28,10 +31,13 @@ def spectrum(study: Study, name: str) -> Figure:
     _classes(density, n)
     if "displacement_psd" in found:
         _tracks(density, site.inspection, found)
-        _coherence(common, found)
+        if found.sizes["track"] > 1:
+            _coherence(common, found)
+        else:
+            common.text(0.5, 0.5, "one wheel track only", transform=common.transAxes, ha="center")
     else:
         for axes in (density, common):
-            axes.text(0.5, 0.5, "the road is too short for a spectrum", transform=axes.transAxes, ha="center")
+            axes.text(0.5, 0.5, "the road is too short,\nor a wheel track is not on it", transform=axes.transAxes, ha="center")
     density.set(xscale="log", yscale="log", xlim=n, ylim=(1e-10, 10.0))
     density.set_xlabel("wavenumber $n$ [cycles/m]")
     density.set_ylabel("displacement spectral density $G_d$ [m³]")
@@ -59,10 +65,11 @@ def _classes(axes, n) -> None:
 def _tracks(axes, stages, found) -> None:
     before = stages["smoothed_psd"].sel(stage="measured")
     changed = bool(np.isfinite(before).all()) and not np.array_equal(before, found["smoothed_psd"])
-    # The second line is narrower, so that tracks that are alike show both.
-    for colour, width, track in zip(TRACK_COLOURS, (2.0, 0.9), found["track"].values):
+    tracks = found["track"].values
+    # Of two tracks the right one stands first, wherever the reference line lies.
+    sides = ("right", "left") if len(tracks) == 2 else [f"{track:g} m" for track in tracks]
+    for colour, width, side, track in zip(TRACK_COLOURS, TRACK_WIDTHS, sides, tracks):
         one = found.sel(track=track)
-        side = "left" if track > 0 else "right"
         level, waviness = one["unevenness"].item(), one["waviness"].item()
         text = f"{side}: class {one['class'].item()}, $G_d(n_0)$ = {1e6 * level:.1f} cm³, w = {waviness:.2f}"
         axes.plot(found["wavenumber"], one["displacement_psd"], color=colour, linewidth=0.3, alpha=0.35)
