@@ -91,6 +91,14 @@ def test_published_improvements_follow_from_published_errors():
             assert entry["improvement_pct"][signal] == pytest.approx(100 * (before - after) / before, abs=rounding)
 
 
+def test_a_slope_that_is_taken_from_the_heights_is_said_to_be(own_site):
+    said = lambda study: next(source for source in tables.inputs.sites(study).sources if source.cells.endswith("mean slope"))
+    site = own_site.sites[0]
+    level = dataclasses.replace(site, road=site.road.assign(slope=0.0 * site.road["slope"]))
+    assert said(own_site).variable == "slope"
+    assert said(dataclasses.replace(own_site, sites=(level,))).variable == "elevation"
+
+
 def test_sites_are_measured_on_the_reference_line():
     rng = np.random.default_rng(1)
     road = synthetic.road(rng).isel(u=slice(0, 1001))
@@ -100,6 +108,11 @@ def test_sites_are_measured_on_the_reference_line():
     inputs = tables.inputs
     assert inputs.length(road) == pytest.approx(100.0)
     assert inputs.mean_slope(road) == pytest.approx(0.02)
+    # A file may hold its climb in the heights instead, on waves that are shorter than a hill.
+    climb = 0.06 * road["u"] + 0.01 * np.sin(2 * np.pi * road["u"] / 5.0)
+    raised = road.assign(slope=0.0 * road["slope"], elevation=climb + 0.0 * road["elevation"])
+    assert inputs.mean_slope(raised) == pytest.approx(0.06, rel=0.02)
+    assert inputs.mean_slope(raised.drop_vars("slope")) == inputs.mean_slope(raised)
     # A bend of radius 100 m turns by 1 gon in 1.5708 m: 636.62 gon/km.
     assert 1000 * inputs.GON_PER_RAD * inputs.mean_curvature(road) == pytest.approx(636.62, abs=0.01)
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from ...road import crossslope, defects
 from .. import style
 from ..study import Study
-from ..tables.inputs import GON_PER_RAD, length, mean_curvature, mean_slope
+from ..tables.inputs import GON_PER_RAD, length, mean_curvature, mean_slope, slope
 
 
 def testsection_figs(study: Study) -> Figure:
@@ -82,7 +82,7 @@ def views(study: Study, name: str) -> Figure:
     line = road["elevation"].sel(v=0.0, method="nearest").values
     rows = (
         ("height [m]", line),
-        ("slope [%]", 100 * road["slope"].values),
+        ("slope [%]", 100 * slope(road)),
         ("curvature\n[gon/km]", 1000 * GON_PER_RAD * road["curvature"].values),
         ("cross slope\n[%]", 100 * crossslope.cross_slope(road)),
     )

@@ -15,6 +15,10 @@ from .comfort import OURS, PAPER, windows
 
 GON_PER_RAD = 200.0 / np.pi
 ERRATUM = "†"
+
+SLOPE_BASE = 20.0
+"""m over which heights tell a slope: a hill is longer, and what shakes a car is shorter."""
+
 FAMILIES = {"normal": "Gaussian", "uniform": "uniform"}
 
 
@@ -67,7 +71,7 @@ def sites(study: Study) -> Table:
         road, iri = site.files.get("road", ""), site.files.get("iri", "")
         sources += [
             Source(f"{site.label}, length", road, "u", "last − first"),
-            Source(f"{site.label}, mean slope", road, "slope", "mean of the absolute value along u"),
+            Source(f"{site.label}, mean slope", road, *_slope_source(site.road)),
             Source(f"{site.label}, curvature", road, "curvature", "mean of the absolute value along u; 200/π gon/rad"),
             Source(f"{site.label}, limit", "configuration", f"sites.{site.name}.speed", "as configured"),
             Source(f"{site.label}, sections, IRI classes", iri, "window, critical_share", "number; as in the file"),
@@ -267,8 +271,30 @@ def length(road: xr.Dataset) -> float:
 
 
 def mean_slope(road: xr.Dataset) -> float:
-    """Mean absolute slope of the reference line (1)."""
-    return float(np.nanmean(np.abs(road["slope"].values)))
+    """Mean absolute `slope` (1)."""
+    return float(np.nanmean(np.abs(slope(road))))
+
+
+def slope(road: xr.Dataset) -> np.ndarray:
+    """Slope (u) of the reference line (1); of a road whose line is level that of its heights at the v nearest 0, over `SLOPE_BASE`."""
+    if not _is_level(road):
+        return road["slope"].values
+    u, heights = road["u"].values, road["elevation"].sel(v=0.0, method="nearest").values
+    known = np.isfinite(heights)
+    before, after = (np.clip(u + aside, u[0], u[-1]) for aside in (-0.5 * SLOPE_BASE, 0.5 * SLOPE_BASE))
+    begun, ended = (np.interp(place, u[known], heights[known]) for place in (before, after))
+    return (ended - begun) / (after - before)
+
+
+def _is_level(road: xr.Dataset) -> bool:
+    """Whether the climb of a road, if it has any, is in its heights alone: files may hold it there or as slope of their line."""
+    return "slope" not in road or not np.nan_to_num(road["slope"].values).any()
+
+
+def _slope_source(road: xr.Dataset) -> tuple[str, str]:
+    if _is_level(road):
+        return "elevation", f"mean of the absolute value along u of the slope over {SLOPE_BASE:g} m at the v nearest 0: slope is nil"
+    return "slope", "mean of the absolute value along u"
 
 
 def mean_curvature(road: xr.Dataset) -> float:
