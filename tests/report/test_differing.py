@@ -297,3 +297,27 @@ def test_a_site_that_nothing_is_calibrated_on_has_its_first_rung_only():
     assert found.attrs["reference"] == "uncalibrated"
     left = found["left_overall"].sel(site="home", group="held out").values
     assert left[0] == pytest.approx(1.0) and np.isnan(left[1])
+
+
+@pytest.mark.parametrize("sites, effects", [(2, 8), (3, 4), (3, 8)])
+def test_names_and_numbers_of_many_rungs_do_not_overlap(sites, effects):
+    switched = ["suspension_friction", "damper_asymmetry", "cornering_degression", "tyre_local_slope",
+                "roll_centre_height", "steering_compliance", "powertrain_mounts", "wheel_compliance"][:effects]  # fmt: skip
+    errors = [made_up.comparison((0.5, 0.4 * 0.7**k)) for k in range(effects + 1)]
+    models = {"+".join(switched[:k]) or "base": each for k, each in enumerate(errors)}
+    names = [f"ts{k}" for k in range(1, sites + 1)]
+    aligned = made_up.aligned()
+    study = Difference(
+        tuple(Compared(name, aligned, errors[0]) for name in names),
+        made_up.rungs({name: models for name in names}, (True,) + (False,) * (sites - 1)),
+    )
+    with style.styled():
+        figure = differing.figures(study)["error_ladder"]()
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        figure.draw_without_rendering()
+        for axes in figure.axes:
+            names = [label for label in axes.get_xticklabels() if label.get_text()]
+            numbers = [text for text in axes.texts if text.get_fontweight() == "bold"]
+            for printed in (names, numbers):
+                boxes = [text.get_window_extent(renderer) for text in printed]
+                assert all(one.x1 < other.x0 for one, other in zip(boxes, boxes[1:]))

@@ -42,6 +42,9 @@ NUMBERS = 3.5
 LONGEST = 16
 """Letters in a line under a rung."""
 
+CROWDED, SMALL = 0.45, 5.0
+"""Inches a rung below which its name stands upright in one line, and points of the print of such names and numbers."""
+
 
 def error_ladder(study: Difference) -> Figure:
     """Explainable error left on every rung, fitted and held out, a column a site; below, sections graded unlike measured."""
@@ -49,7 +52,8 @@ def error_ladder(study: Difference) -> Figure:
     sites = [str(site) for site in found["site"].values]
     groups = [str(group) for group in found["group"].values if np.isfinite(found["rmse"].sel(group=group)).any()]
     rows = len(groups) + 1
-    drawn = style.figure(style.DOUBLE, 1.1 + 2.0 * rows)
+    is_crowded = style.DOUBLE < CROWDED * len(sites) * found.sizes["rung"]
+    drawn = style.figure(style.DOUBLE, 1.1 + 2.0 * rows + (0.4 if is_crowded else 0.0))
     panels = drawn.subplots(rows, len(sites), sharex=True, sharey="row", squeeze=False)
     places, blank = np.arange(found.sizes["rung"]), []
     for column, site in enumerate(sites):
@@ -57,14 +61,17 @@ def error_ladder(study: Difference) -> Figure:
             chosen = found.sel(site=site, group=group)
             if np.isfinite(chosen["rmse"]).any():
                 axes.set_title(f"{catalogue.label(site)}, {TITLES[group]}", pad=13)
-                _left(axes, chosen, places)
+                _left(axes, chosen, places, SMALL if is_crowded else 6.0)
             else:
                 axes.set_axis_off()
                 blank.append(axes)
         _sections(panels[-1, column], found.sel(site=site), groups, places)
         panels[-1, column].set_title(f"{catalogue.label(site)}, all drives")
-        titles = [_wrapped(rung_title(str(name))) for name in found["rung"].values]
-        panels[-1, column].set_xticks(places, titles, rotation=30, ha="right", rotation_mode="anchor")
+        titles = [rung_title(str(name)) for name in found["rung"].values]
+        if is_crowded:
+            panels[-1, column].set_xticks(places, titles, rotation=90, fontsize=SMALL)
+        else:
+            panels[-1, column].set_xticks(places, map(_wrapped, titles), rotation=30, ha="right", rotation_mode="anchor")
         panels[-1, column].set_xlim(-0.3, places[-1] + 0.3)
     for row in panels[:-1]:
         first = next(axes for axes in row if axes.axison)
@@ -92,7 +99,7 @@ def error_ladder(study: Difference) -> Figure:
     return drawn
 
 
-def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
+def _left(axes, chosen: xr.Dataset, places: np.ndarray, size: float) -> None:
     """Lines of what each signal, and all of them, leave on every rung, in percent of the reference."""
     for signal in SIGNALS:
         colour, marker = style.SIGNAL_LINES[signal]
@@ -103,7 +110,7 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray) -> None:
     at = offset_copy(axes.get_xaxis_transform(), axes.figure, y=NUMBERS, units="points")
     for place, value in zip(*overall):
         number = f"{value:.0f}" if value >= LINEAR else f"{value:.1f}"
-        axes.text(place, 1.0, number, transform=at, ha="center", va="bottom", fontsize=6, fontweight="bold")
+        axes.text(place, 1.0, number, transform=at, ha="center", va="bottom", fontsize=size, fontweight="bold")
     _above(axes, chosen, places)
     most = 100 * np.nan_to_num(chosen["left"].values).max(axis=chosen["left"].dims.index("rung"))
     beyond = [f"{notation.signal(str(chosen['signal'].values[k]))} {most[k]:,.0f} %" for k in np.argsort(-most) if most[k] > HIGHEST]
