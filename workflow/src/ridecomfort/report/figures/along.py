@@ -19,6 +19,9 @@ LIKELY = 0.5
 COARSE = 8
 """Every how many places the edges of the IRI classes are drawn: they are smooth, and their polygons weigh."""
 
+COLUMNS = 500
+"""Columns of the strips of sections at most, so that each is as wide as a pixel and none is skipped."""
+
 DISTANCE = "distance along the road $s$ [m]"
 
 
@@ -139,17 +142,21 @@ def _strip(strip: Axes, dataset, dimension: str, classes) -> None:
     step = float(start[1] - start[0]) if start.size > 1 else length
     # Of sliding sections many lie over one place; the strip shows the strongest.
     size = max(1, round(length / step))
-    image = np.ones((len(classes), start.size + size - 1, 3))
+    # Nor do all fit beside each other on a long road.
+    block = -(-(start.size + size - 1) // COLUMNS)
+    columns = -(-(start.size + size - 1) // block)
+    image = np.ones((len(classes), columns, 3))
     for row, name in enumerate(classes):
         chosen = dataset.sel({dimension: name})
         probability = np.nan_to_num(chosen["exceedance_probability"].values)
         strength = np.where(chosen["critical"].values > 0, 1.0, LIKELY * probability)
         strength = np.pad(strength, size - 1)
         strength = np.lib.stride_tricks.sliding_window_view(strength, size).max(axis=1)
+        strength = np.pad(strength, (0, columns * block - strength.size)).reshape(columns, block).max(axis=1)
         image[row] += strength[:, None] * (np.array(to_rgb(style.SEVERITY[name])) - 1.0)
     strip.imshow(
         image,
-        extent=(start[0], start[-1] + length, len(classes) - 0.5, -0.5),
+        extent=(start[0], start[0] + columns * block * step, len(classes) - 0.5, -0.5),
         aspect="auto",
         interpolation="nearest",
     )
