@@ -78,6 +78,13 @@ def test_a_method_of_one_grade_says_nothing_of_agreement():
     smooth["iri"] = smooth["iri"].assign(iri=0.0 * smooth["iri"]["iri"])
     found = methods.agree({"a": methods.site(**smooth)}, repetitions=20)
     assert np.isnan(found["kappa"].sel(pair="iso2631 - iri")).all() and found.attrs["verdict"] == "cannot be said"
+    assert "one grade only" in found.attrs["reason"] and "By site: a none" in found.attrs["reason"] and "nan" not in found.attrs["reason"]
+
+
+def test_a_kappa_without_interval_is_told_as_such():
+    alone = agreement.Estimate(0.5, np.nan, np.nan)
+    answer, reason = agreement.substantially_similar({"a": alone, "pooled": alone})
+    assert answer == "cannot be said" and "kappa 0.50 without an interval" in reason and "nan" not in reason
 
 
 def test_resamples_stay_within_their_site():

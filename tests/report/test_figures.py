@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
@@ -150,3 +151,32 @@ def test_sample_is_measured_where_drives_are_and_the_mean_of_the_runs_elsewhere(
     assert origin == "measured on Ts1" and np.isfinite(measured).all()
     mean, origin = sample_signal(own_site)
     assert origin == "mean of the runs on home" and mean.size == measured.size == 2200
+
+
+def test_a_sample_is_no_longer_than_its_drive(own_site):
+    """200 m at some 22 m/s: no second is made up behind them, and the margins shrink with it."""
+    site = own_site.sites[0]
+    short = {name: getattr(site, name).sel(s=slice(None, 250.0)) for name in ("thresholds", "iri")}
+    study = dataclasses.replace(own_site, sites=(dataclasses.replace(site, **short),))
+    seconds = np.sum(0.25 / short["iri"]["v_x"].values)
+    sample, _ = sample_signal(study)
+    assert sample.size / 100.0 == pytest.approx(seconds, abs=0.05) and seconds < 10.0
+    raw = figures.draw(study, "validation_iso").axes[0]
+    assert raw.get_xlim()[1] == pytest.approx(0.5 * sample.size / 100.0, abs=0.02) == len(raw.lines[0].get_xdata()) / 100.0
+
+
+@pytest.mark.parametrize("count, columns", [(320, 320), (2400, 480), (2399, 480)])
+def test_every_critical_section_of_a_long_road_is_in_its_strip(own_site, count, columns):
+    site = own_site.sites[0]
+    start, critical = 5.0 * np.arange(count), np.arange(count) % 97 == 3
+    probability = xr.DataArray(np.zeros((3, 3, count)), dims=("axis", "style", "window"))
+    found = site.thresholds.drop_dims("window").assign(
+        window_start=("window", start), exceedance_probability=probability, critical=probability + critical
+    )
+    study = dataclasses.replace(own_site, sites=(dataclasses.replace(site, thresholds=found),))
+    image = figures.draw(study, "thresholding_results_2").axes[1].images[0]
+    marked = image.get_array()[0].min(axis=-1) < 0.9
+    assert marked.size == columns and marked.sum() == critical.sum()
+    left, right = image.get_extent()[:2]
+    middles = left + (np.flatnonzero(marked) + 0.5) * (right - left) / columns
+    assert np.abs(middles - start[critical] - 2.5).max() <= 0.5 * (right - left) / columns

@@ -180,9 +180,14 @@ def substantially_similar(estimates: Mapping[str, Estimate]) -> tuple[str, str]:
     """Verdict on "ISO 2631 and IRI are substantially similar" and its reason, from kappas by site and "pooled"."""
     pooled = estimates["pooled"]
     answer = verdict(pooled)
-    reason = (
-        f"pooled weighted kappa {pooled.value:.2f} ({pooled.lower:.2f} to {pooled.upper:.2f}); substantial from "
-        f"{SUBSTANTIAL:.2f} (Landis and Koch 1977). By site: "
-        + ", ".join(f"{site} {each.value:.2f}" for site, each in estimates.items() if site != "pooled")
+    told = lambda each: f"{each.value:.2f}" if np.isfinite(each.value) else "none"  # noqa: E731
+    if not np.isfinite(pooled.value):
+        said = "no pooled weighted kappa, for a method knows one grade only"
+    elif not np.isfinite(pooled.lower):
+        said = f"pooled weighted kappa {told(pooled)} without an interval, for a road is too short"
+    else:
+        said = f"pooled weighted kappa {told(pooled)} ({pooled.lower:.2f} to {pooled.upper:.2f})"
+    reason = f"{said}; substantial from {SUBSTANTIAL:.2f} (Landis and Koch 1977). By site: " + ", ".join(
+        f"{site} {told(each)}" for site, each in estimates.items() if site != "pooled"
     )
     return answer, reason

@@ -13,7 +13,7 @@ SECONDS = 16.0
 """Length of the sample signal (sec:ride_comfort_results)."""
 
 MARGIN = 3.0
-"""Seconds before and after the sample that are weighted too, so that no transient is shown."""
+"""Seconds before and after the sample that are weighted too, so that no transient is shown; a quarter of a signal that is short."""
 
 RATE = 100.0
 WEIGHTING = "Wk"
@@ -22,7 +22,8 @@ WEIGHTING = "Wk"
 def validation_iso(study: Study) -> Figure:
     """A sample of vertical acceleration, weighted exactly and the paper's way; both against the analogue filter."""
     sample, origin = sample_signal(study)
-    shown = slice(int(MARGIN * RATE), int((MARGIN + SECONDS) * RATE))
+    margin = int(min(MARGIN * RATE, 0.25 * sample.size))
+    shown = slice(margin, min(margin + int(SECONDS * RATE), sample.size - margin))
     exact = weighting.weight(sample, RATE, WEIGHTING)[shown]
     papers = streaming.bilinear(WEIGHTING, RATE)
     bilinear = papers.filter(sample)[shown]
@@ -51,7 +52,7 @@ def validation_iso(study: Study) -> Figure:
     difference.set_title(f"(c) bilinear − this study: rms {ratio:.1f} % of the weighted signal")
     difference.set_xlabel("time [s]")
     for axes in (raw, weighted, difference):
-        axes.set_xlim(0, SECONDS)
+        axes.set_xlim(0, sample.size / RATE)
     for axes in (raw, weighted):
         axes.tick_params(labelbottom=False)
     drawn.align_ylabels([raw, weighted, difference])
@@ -91,7 +92,7 @@ def sampled(study: Study) -> Site:
 
 
 def sample_signal(study: Study) -> tuple[np.ndarray, str]:
-    """16 s of vertical acceleration in m/s2 at 100 Hz, with 3 s before and after, and where they come from.
+    """16 s of vertical acceleration in m/s2 at 100 Hz, with 3 s before and after or what there is of it, and where they come from.
 
     The middle of the first measured drive; without drives, of the mean over the runs at its mean speed.
     """
@@ -109,7 +110,8 @@ def sample_signal(study: Study) -> tuple[np.ndarray, str]:
     time, values = time[present], values[present]
     length = SECONDS + 2 * MARGIN
     start = time[0] + max(0.0, 0.5 * (time[-1] - time[0] - length))
-    return np.interp(start + np.arange(int(length * RATE)) / RATE, time, values), origin
+    count = min(int(length * RATE), int((time[-1] - start) * RATE) + 1)
+    return np.interp(start + np.arange(count) / RATE, time, values), origin
 
 
 def response_of_weight(name: str, rate: float, count: int = 24) -> tuple[np.ndarray, np.ndarray]:
