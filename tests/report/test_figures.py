@@ -180,3 +180,23 @@ def test_every_critical_section_of_a_long_road_is_in_its_strip(own_site, count, 
     left, right = image.get_extent()[:2]
     middles = left + (np.flatnonzero(marked) + 0.5) * (right - left) / columns
     assert np.abs(middles - start[critical] - 2.5).max() <= 0.5 * (right - left) / columns
+
+
+@pytest.mark.parametrize("names", [[f"motorway_A2_northbound_{k}" for k in range(3)], [f"s{k}" for k in range(7)], [f"landesstrasse_L1023_abschnitt_{k}" for k in range(10)]])
+@pytest.mark.parametrize("figure", ["influence", "number_of_runs", "critical_shares"])
+def test_figures_of_long_names_and_of_many_sites_hold_their_words_and_panels_that_can_be_read(paper_like, figure, names):
+    sites = tuple(dataclasses.replace(paper_like.sites[k % 3], name=name) for k, name in enumerate(names))
+    places = {"place": np.arange(len(names)) % 3}
+    assessment = paper_like.assessment.isel(places).assign_coords(place=names)
+    study = dataclasses.replace(paper_like, sites=sites, assessment=assessment)
+    with style.styled():
+        each = figures.draw(study, figure)
+        each.draw_without_rendering()
+        renderer = FigureCanvasAgg(each).get_renderer()
+        legend = each.legends[0].get_window_extent(renderer)
+        shown = [axes for axes in each.axes if axes.axison]
+        titles = [axes._left_title.get_window_extent(renderer) for axes in shown]
+    assert legend.x0 >= 0 and legend.x1 <= each.bbox.x1 and legend.y1 <= each.bbox.y1
+    assert min(axes.bbox.width for axes in shown) / each.dpi > 1.0
+    assert all(one.x1 <= other.x0 for one, other in zip(titles, titles[1:]) if one.x0 < other.x0)
+    assert len(shown) == (3 if figure == "influence" else len(names))

@@ -116,6 +116,45 @@ def styled():
     return matplotlib.rc_context({**defaults, **SETTINGS})
 
 
+PER_ROW = 4
+"""Panels beside each other at most in a figure of as many as there are sites."""
+
+
+def panels(count: int, width: float, height: float, *, margin: float) -> tuple[Figure, list[Axes]]:
+    """A figure of ``count`` equal panels in rows as even as can be, and these panels from the upper left to the lower right.
+
+    ``width`` of one and ``height`` of a row in inches, ``margin`` the width that the labels left of a row take. All share their axes.
+    """
+    rows = -(-count // PER_ROW)
+    columns = -(-count // rows)
+    drawn = figure(max(SINGLE, min(DOUBLE, margin + width * columns)), height * rows)
+    every = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    for axes in every[:count]:
+        axes.tick_params(labelbottom=True)
+    for axes in every[count:]:
+        axes.set_axis_off()
+    return drawn, list(every[:count])
+
+
+def panel_title(axes: Axes, text: str, *, margin: float = 0.0) -> None:
+    """A title over as many lines as a panel is wide for; ``margin`` in inches is what a figure needs beside its panels."""
+    columns = axes.get_subplotspec().get_gridspec().ncols
+    room = (axes.figure.get_size_inches()[0] - margin) / columns
+    axes.set_title(textwrap.fill(text, int(room / (LETTER * SETTINGS["axes.titlesize"]))))
+
+
+LETTER = 0.0085
+"""Inches of width that a letter takes by the point of its size, on average of mixed text."""
+
+
+def legend_columns(handles, width: float) -> int:
+    """How many entries of a legend fit beside each other in a width in inches."""
+    size = SETTINGS["legend.fontsize"]
+    # Handle, gap to its text and gap to the next entry are 4.8 times as wide as the print is high.
+    longest = (4.8 / 72 + LETTER * max(len(handle.get_label()) for handle in handles)) * size
+    return max(1, min(len(handles), int(width / longest)))
+
+
 def axis_label(name: str) -> str:
     """Symbol and unit of a variable for an axis."""
     return f"{notation.symbol(name)} [{notation.unit(VARIABLES[name].unit)}]"

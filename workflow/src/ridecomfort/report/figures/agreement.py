@@ -82,20 +82,21 @@ def influence(study: Study) -> Figure:
         Line2D([], [], color="#555555", marker=marker, linestyle="", markersize=3.5, label=word)
         for marker, word in directions.items()
     ]
-    drawn.legend(handles=handles, loc="outside upper center", ncols=len(handles))
+    columns = style.legend_columns(handles, style.DOUBLE)
+    drawn.set_figheight(drawn.get_figheight() + 0.15 * (-(-len(handles) // columns) - 1))
+    drawn.legend(handles=handles, loc="outside upper center", ncols=columns)
     return drawn
 
 
 def number_of_runs(study: Study) -> Figure:
     """Width of the interval of a probability against the number of runs, by sampling scheme, on each site."""
     found = study.assessment
-    drawn = style.figure(max(style.SINGLE, min(style.DOUBLE, 0.8 + 2.1 * len(study.sites))), 2.6)
-    panels = drawn.subplots(1, len(study.sites), sharex=True, sharey=True, squeeze=False)[0]
+    drawn, panels = style.panels(len(study.sites), 2.1, 2.6, margin=0.8)
     for axes, site in zip(panels, study.sites):
         chosen = found.sel(place=site.name)
         chosen = chosen.isel(size=np.flatnonzero(chosen["designs"].values))
         sizes, runs = chosen["size"].values, site.samples.sizes["run"]
-        axes.set_title(site.label)
+        style.panel_title(axes, site.label, margin=0.8)
         axes.set_xlabel("number of runs [-]")
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -112,7 +113,9 @@ def number_of_runs(study: Study) -> Figure:
         axes.plot(sizes, chosen["wilson"].values, color=style.FAINT, dashes=(3, 2))
         axes.set_xticks([tick for tick in RUNS if sizes[0] <= tick <= runs])
         axes.axvline(runs, color=style.MEASURED, linewidth=0.6, dashes=(1, 1.5))
-    panels[0].set_ylabel("width of the 95 % interval [-]")
+    for axes in panels:
+        if axes.get_subplotspec().is_first_col():
+            axes.set_ylabel("width of the 95 % interval [-]")
     panels[0].set_yticks([tick for tick in WIDTHS if panels[0].get_ylim()[0] <= tick <= panels[0].get_ylim()[1]])
     for axes in panels:
         for axis in (axes.xaxis, axes.yaxis):

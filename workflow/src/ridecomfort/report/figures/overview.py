@@ -28,9 +28,8 @@ _DIMENSIONS = {"thresholds": ("axis", "style"), "iso2631": ("band",), "iri": ("q
 
 def critical_shares(study: Study) -> Figure:
     """Share of critical sections R_c by method and class: bars of this study, diamonds of the paper."""
-    columns = len(study.sites)
-    drawn = style.figure(max(style.SINGLE, min(style.DOUBLE, 0.9 + 2.1 * columns)), 4.3)
-    panels = drawn.subplots(1, columns, sharex=True, sharey=True, squeeze=False)[0]
+    drawn, panels = style.panels(len(study.sites), 2.1, 4.3, margin=0.9)
+    columns = panels[0].get_subplotspec().get_gridspec().ncols
     places = _places()
     names = [f"{_TITLES.get(table, symbol(row[0]))} {row[-1]}" for table, _, row in _CLASSES]
     with_paper = False
@@ -43,7 +42,7 @@ def critical_shares(study: Study) -> Figure:
             if printed:
                 with_paper = True
                 axes.plot(printed[1], place, **_DIAMOND, clip_on=False, zorder=3)
-        axes.set_title(site.label)
+        style.panel_title(axes, site.label, margin=0.9)
         axes.set_xlabel("share of critical sections $R_c$ [%]" if columns < 4 else "share $R_c$ [%]")
         axes.xaxis.grid(True)
         axes.set_axisbelow(True)
