@@ -30,11 +30,11 @@ def test_thresholds_may_name_their_source(project):
     assert told["thresholds"]["a_x"]["PT"] == [-1.0, 1.0, "our own"] and told["jerk"] == jerk
 
 
-def test_a_road_is_told_where_the_wheel_tracks_lie_and_its_inspection_where_the_runs_drive(project):
+def test_the_inspection_of_a_road_is_told_where_the_wheel_tracks_lie_and_where_the_runs_drive(project):
     write(project, "own", {"road": {"file": "road.crg"}, "sampling": {"lateral_position": {"uniform": [0.1, 0.4]}}})
     study = config.load({"sites": ["own"], "comfort": {"iri": {"wheel_tracks": [-0.5, 1.0]}}}, project)
-    road, inspection = (stepsettings.of_step(study, step, "own") for step in ("road", "inspect"))
-    assert road["wheel_tracks"] == inspection["wheel_tracks"] == [-0.5, 1.0]
+    inspection = stepsettings.of_step(study, "inspect", "own")
+    assert inspection["wheel_tracks"] == [-0.5, 1.0]
     assert inspection["lateral_position"] == pytest.approx(0.25)
 
 

@@ -39,7 +39,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             grid = {key: own["road"]["scan"][key] for key in ("spacing", "width")}
             return {**at, **grid}
         case "road":
-            return {**at, "standin": own["standin"], "options": own["road"]["options"], "wheel_tracks": comfort["iri"]["wheel_tracks"]}
+            return {**at, "standin": own["standin"], "options": own["road"]["options"]}
         case "inspect":
             return {
                 **at,

@@ -10,10 +10,9 @@ from ridecomfort.steps.command import Command
 
 
 def main(road, config, output):
-    tracks = config.get("wheel_tracks", iriclass.WHEEL_TRACKS)
-    prepared = prepare.prepare(road, tracks=tracks, **config.get("options", {}))
+    prepared = prepare.prepare(road, **config.get("options", {}))
     used = prepared.used
-    if prepared.smoothed is not None and (said := _smoothed(prepared, tracks)):
+    if prepared.smoothed is not None and (said := _smoothed(prepared)):
         used.attrs["treatment"] += f"\n{said}"
     if remark := iri.coarse(float(used.u[1] - used.u[0])):
         used.attrs["treatment"] += f"\nIRI of the wheel tracks: {remark}"
@@ -22,16 +21,17 @@ def main(road, config, output):
     store.write(used, output, title=f"Road of {config.get('site', road.stem)}", configuration=config)
 
 
-def _smoothed(prepared, tracks) -> str:
-    """What smoothing did to the IRI of the wheel tracks; nothing where one of them is not on the road."""
+def _smoothed(prepared) -> str:
+    """What smoothing did to the IRI of the usual wheel tracks; nothing where one of them is not on the road."""
     states = prepared.repaired, prepared.smoothed
     try:
-        profiles = [iriclass.tracks(state, tracks) for state in states]
+        profiles = [iriclass.tracks(state) for state in states]
     except InputError:
         return ""
     spacing = float(prepared.used.u[1] - prepared.used.u[0])
     before, after = (iri.iri(each, spacing).mean() for each in profiles)
-    return f"smoothing took the IRI of the wheel tracks from {before:.3f} to {after:.3f} m/km"
+    places = " and ".join(f"{track:g}" for track in iriclass.WHEEL_TRACKS)
+    return f"smoothing took the IRI of the wheel tracks at {places} m from {before:.3f} to {after:.3f} m/km"
 
 
 if __name__ == "__main__":
