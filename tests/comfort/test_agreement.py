@@ -62,15 +62,22 @@ def test_block_bootstrap_respects_correlation_along_the_road():
     assert (single.upper - single.lower) < 0.4 * (found.upper - found.lower)
 
 
-def test_a_road_of_less_than_two_blocks_has_no_interval():
-    series = np.random.default_rng(3).standard_normal(150)
+def test_a_road_of_less_than_five_blocks_has_no_interval():
+    series = np.random.default_rng(3).standard_normal(450)
     found = agreement.bootstrap(np.mean, [(series,)], 1.0, block=100.0)
     assert found.value == pytest.approx(series.mean()) and np.isnan([found.lower, found.upper]).all()
     assert agreement.verdict(found) == "cannot be said"
     assert np.isnan(agreement.lag([(series, series)], 1.0).lower)
     # Beside a longer road it would be drawn as it is, without any scatter.
-    longer = np.random.default_rng(4).standard_normal(400)
+    longer = np.random.default_rng(4).standard_normal(600)
     assert np.isnan(agreement.bootstrap(np.mean, [(longer,), (series,)], 1.0, block=100.0).lower)
+    assert np.isfinite(agreement.bootstrap(np.mean, [(longer,)], 1.0, block=100.0).lower)
+
+
+def test_the_ends_of_a_road_are_drawn_as_often_as_its_middle():
+    rng = np.random.default_rng(5)
+    often = np.bincount(np.concatenate([agreement.blocks([60], 10, rng) for _ in range(2000)]), minlength=60)
+    assert often[:5].mean() == pytest.approx(often[25:35].mean(), rel=0.05) and often[-5:].mean() == pytest.approx(often.mean(), rel=0.05)
 
 
 def test_a_method_of_one_grade_says_nothing_of_agreement():

@@ -13,6 +13,9 @@ BLOCK = 100.0
 """m; length of the blocks that are drawn together. Signals of comfort are correlated along the road
 over less: one second of running rms is 28 m at 100 km/h, a segment of the survey 50 m."""
 
+FEWEST = 5
+"""Blocks that a road holds at least for an interval: of two or three that are drawn few differ."""
+
 REPETITIONS = 500
 
 SUBSTANTIAL = 0.61
@@ -74,13 +77,13 @@ def ranks(values) -> np.ndarray:
 def blocks(counts: Sequence[int], length: int, rng: np.random.Generator) -> np.ndarray:
     """Indices of one resample of sites laid end to end: blocks of ``length`` places, drawn within each site.
 
-    Moving blocks (Künsch 1989); every site keeps its number of places.
+    Circular blocks (Politis and Romano 1992), which draw the ends of a road as often as its middle; every site keeps its number of places.
     """
     answer, offset = [], 0
     for count in counts:
         size = min(length, count)
-        starts = rng.integers(0, count - size + 1, size=-(-count // size))
-        places = (starts[:, None] + np.arange(size)).ravel()[:count]
+        starts = rng.integers(0, count, size=-(-count // size))
+        places = (starts[:, None] + np.arange(size)).ravel()[:count] % count
         answer.append(offset + places)
         offset += count
     return np.concatenate(answer)
@@ -99,14 +102,14 @@ def bootstrap(
 
     ``series``: per site a sequence of equally long arrays (places,), ``spacing`` m
     apart; ``statistic`` takes them, sites joined. Resamples in which it is not
-    defined are left out. Where a site is shorter than two blocks, of which no others could be drawn, there is no interval (NaN).
+    defined are left out. Where a site is shorter than FEWEST blocks there is no interval (NaN).
     """
     joined = [np.concatenate(parts) for parts in zip(*series)]
     counts = [len(site[0]) for site in series]
     rng = np.random.default_rng(seed)
     length = max(1, round(block / spacing))
     drawn: list[float] = []
-    for _ in range(repetitions if min(counts) >= 2 * length else 0):
+    for _ in range(repetitions if min(counts) >= FEWEST * length else 0):
         places = blocks(counts, length, rng)
         drawn.append(statistic(*(each[places] for each in joined)))
     return _estimate(statistic(*joined), drawn)
@@ -137,19 +140,21 @@ def lag(
         unlike.append(np.array([(scores[0][middle] - scores[1][middle - shift]) ** 2 for shift in shifts]))
         counts.append(len(middle))
     joined = np.concatenate(unlike, axis=1)
-    # One block of all shifts at once: what a resample adds up are sums over blocks.
+    # One block of all shifts at once: what a resample adds up are sums over blocks, of which those that begin near the end go on at the start.
     rng, length = np.random.default_rng(seed), max(1, round(block / spacing))
-    running = np.concatenate([np.zeros((len(shifts), 1)), np.cumsum(joined, axis=1)], axis=1)
+    sums = [_sums(each, min(length, each.shape[1])) for each in unlike]
     drawn: list[float] = []
-    for _ in range(repetitions if min(counts) >= 2 * length else 0):
-        total, offset = np.zeros(len(shifts)), 0
-        for count in counts:
-            size = min(length, count)
-            starts = offset + rng.integers(0, count - size + 1, size=max(1, round(count / size)))
-            total += (running[:, starts + size] - running[:, starts]).sum(axis=1)
-            offset += count
+    for _ in range(repetitions if min(counts) >= FEWEST * length else 0):
+        chosen = (each[:, rng.integers(0, count, size=max(1, round(count / length)))] for each, count in zip(sums, counts))
+        total = sum(each.sum(axis=1) for each in chosen)
         drawn.append(shifts[np.argmin(total)] * spacing)
     return _estimate(float(shifts[np.argmin(joined.sum(axis=1))] * spacing), drawn)
+
+
+def _sums(values: np.ndarray, size: int) -> np.ndarray:
+    """Sums over ``size`` places from each place on, (row, place), round and round."""
+    running = np.cumsum(np.concatenate([np.zeros((len(values), 1)), values, values[:, :size]], axis=1), axis=1)
+    return running[:, size : size + values.shape[1]] - running[:, : values.shape[1]]
 
 
 def _scores(values) -> np.ndarray:

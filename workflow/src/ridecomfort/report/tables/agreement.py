@@ -83,7 +83,7 @@ def agreement_table(study: Study) -> Table:
         "an interval that reaches so far tells none.",
         f"95 % intervals by block bootstrap: blocks of {found.attrs['block']:g} m within each site, "
         f"{found.attrs['repetitions']} resamples, so that they respect the correlation along the road; none where a road is shorter "
-        "than two blocks. No kappa where a method knows one grade only.",
+        f"than {measures.FEWEST} blocks, for the lag without 50 m at either end. No kappa where a method knows one grade only.",
     )
     return _table(study, "agreement", columns, rows, sources, notes, breaks)
 
