@@ -101,13 +101,17 @@ def cut(drive, seconds):
 
 def test_a_drive_that_is_too_short_to_be_asked_is_set_aside_and_said_to_be(made):
     drive, road = made.replays[0].drive, made.replays[0].road
+    opened = lambda *drives: opening.car([opening.Site("trial", road, drives)], made.vehicle, library_names=["crosswind"])
     short = cut(drive, 9.0).assign_attrs(name="short", role="check")
-    found = opening.car([opening.Site("trial", road, [short, drive])], made.vehicle, library_names=["crosswind"])
+    found = opened(short, drive)
     assert [record.name for record in found.records] == [drive.attrs["name"]] and len(found.replays) == 1
     (said,) = found.set_aside
     assert said.startswith("trial short is judged for 4.") and said.endswith("too short to be asked (less than 10 s)")
-    with pytest.raises(InputError, match="drive_1 is judged for 4.* s only .expected at least 10 s"):
-        opening.car([opening.Site("trial", road, [cut(drive, 9.0)])], made.vehicle, library_names=["crosswind"])
+    # Of fitted drives that are all short something may yet be said.
+    alone = opened(cut(drive, 12.0), short)
+    assert [record.role for record in alone.records] == ["fit"] and "what is found may be chance" in alone.set_aside[-1]
+    with pytest.raises(InputError, match="fitted drives are judged for 4.* s in all .expected 6 s at least"):
+        opened(cut(drive, 9.0))
 
 
 def test_drives_that_are_sampled_otherwise_than_one_another_are_refused(made):

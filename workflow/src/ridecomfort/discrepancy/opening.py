@@ -37,8 +37,9 @@ SETTLING, UNDER_WAY = (1.5, 4.0), 6.0
 ground a vehicle with an effect stands otherwise, and a driver who has not yet found the measured path rolls it, which imitates a
 cross-wind or bump steer."""
 
-SHORTEST = 10.0
-"""s of a drive that are judged at least: one of less holds too few spectra of 4 s to tell how the errors of six signals go together."""
+SHORTEST, LEAST = 10.0, 6.0
+"""s of a drive that are judged at least, one of less holds too few spectra of 4 s to tell how the errors of six signals go together, and s that
+all fitted drives hold at least."""
 
 RUN_OUT = 0.5
 """s at the end that are left out: low-pass filters of records and of simulations end there without knowing what comes."""
@@ -101,7 +102,8 @@ def car(
         return _settled(replay(drive, site.course, simulate, options=options).tuned(vehicle, effects))
 
     require_one_rate([drive for site in sites for drive in site.drives])
-    sites, replays, set_aside = _long_enough(sites, each_record(tuned, [(site, drive) for site in sites for drive in site.drives]))
+    replays = each_record(tuned, [(site, drive) for site in sites for drive in site.drives])
+    sites, replays, set_aside = _long_enough(sites, replays, fitted_on)
     known = library.find(effects_folder)
     _known(library_names or (), known, "among")
     _known(uncertain or (), PARAMETERS, "uncertain")
@@ -148,24 +150,31 @@ def _calibrated_bounds(calibration: xr.Dataset | None, given: Mapping[str, Seque
     return {name: given.get(name, pair) for name, pair in own.items() if "." not in name}
 
 
-def _long_enough(sites: Sequence[Site], replays: Iterable[Replay]) -> tuple[list[Site], list[Replay], tuple[str, ...]]:
-    """Sites with those of their drives that are judged for SHORTEST, the replays of these, and words on the others. Raises InputError where
-    this leaves none to fit."""
-    rest, kept, long, aside = iter(replays), [], [], []
-    for site in sites:
-        own = []
-        for drive in site.drives:
-            again = next(rest)
-            judged_for = float(np.ptp(again.time[again.compared]))
-            if judged_for >= SHORTEST:
-                own.append(drive)
-                long.append(again)
-            else:
-                aside.append(f"{site.name} {drive.attrs['name']} is judged for {judged_for:.1f} s only")
-        kept.append(replace(site, drives=own))
-    if aside and not any(drive.attrs.get("role", "fit") == "fit" for site in kept for drive in site.drives):
-        raise InputError(f"{'; '.join(aside)} (expected at least {SHORTEST:g} s behind the run-in: a longer record, or road)", place="drives")
-    return kept, long, tuple(f"{words}: too short to be asked (less than {SHORTEST:g} s)" for words in aside)
+def _long_enough(sites: Sequence[Site], replays: Iterable[Replay], fitted_on: Collection[str]) -> tuple[list[Site], list[Replay], tuple[str, ...]]:
+    """Sites with those of their drives that are judged for SHORTEST, the replays of these, and words on the others. Where all that are fitted are
+    shorter, these stay; InputError is raised where all of them hold less than LEAST."""
+    rest = iter(replays)
+    found = [(site, drive, next(rest)) for site in sites for drive in site.drives]
+    lasts = [float(np.ptp(again.time[again.compared])) for *_, again in found]
+    fitted = [site.name in fitted_on and _role(drive) == "fit" for site, drive, _ in found]
+    of_fitted = [seconds for seconds, is_fitted in zip(lasts, fitted) if is_fitted]
+    if of_fitted and sum(of_fitted) < LEAST:
+        raise InputError(f"fitted drives are judged for {sum(of_fitted):.1f} s in all (expected {LEAST:g} s at least: a longer record, or road)", place="drives")
+    are_short = bool(of_fitted) and max(of_fitted) < SHORTEST
+    is_kept = [seconds >= SHORTEST or is_fitted and are_short for seconds, is_fitted in zip(lasts, fitted)]
+    said = [
+        f"{site.name} {drive.attrs['name']} is judged for {seconds:.1f} s only: too short to be asked (less than {SHORTEST:g} s)"
+        for (site, drive, _), seconds, kept in zip(found, lasts, is_kept) if not kept
+    ]  # fmt: skip
+    if are_short:
+        said.append(f"no fitted drive is judged for {SHORTEST:g} s: how errors of signals go together is hardly known, and what is found may be chance")
+    kept = [one for one, is_one in zip(found, is_kept) if is_one]
+    sites = [replace(site, drives=[drive for own, drive, _ in kept if own is site]) for site in sites]
+    return sites, [again for *_, again in kept], tuple(said)
+
+
+def _role(drive: xr.Dataset) -> str:
+    return drive.attrs.get("role", "fit")
 
 
 def _known(names: Iterable[str], known: Collection[str], place: str) -> None:
@@ -233,7 +242,7 @@ def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[
         passages: list[Passage] = []
         own = []
         for drive in site.drives:
-            role = "fit" if site.name in fitted_on and drive.attrs.get("role", "fit") == "fit" else "check"
+            role = "fit" if site.name in fitted_on and _role(drive) == "fit" else "check"
             density = noise_density.get(site.name, {}).get(str(drive.attrs["name"]), {})
             noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
             own.append(replace(_record(site.name, next(rest), role, passages, len(sites) > 1), noise=noise))
