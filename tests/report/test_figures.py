@@ -165,7 +165,7 @@ def test_a_sample_is_no_longer_than_its_drive(own_site):
     assert raw.get_xlim()[1] == pytest.approx(0.5 * sample.size / 100.0, abs=0.02) == len(raw.lines[0].get_xdata()) / 100.0
 
 
-@pytest.mark.parametrize("count, columns", [(320, 320), (2400, 480), (2399, 480)])
+@pytest.mark.parametrize("count, columns", [(320, 320), (2400, 600), (2399, 600)])
 def test_every_critical_section_of_a_long_road_is_in_its_strip(own_site, count, columns):
     site = own_site.sites[0]
     start, critical = 5.0 * np.arange(count), np.arange(count) % 97 == 3

@@ -19,7 +19,7 @@ LIKELY = 0.5
 COARSE = 8
 """Every how many places the edges of the IRI classes are drawn: they are smooth, and their polygons weigh."""
 
-COLUMNS = 500
+COLUMNS = 700
 """Columns of the strips of sections at most, so that each is as wide as a pixel and none is skipped."""
 
 DISTANCE = "distance along the road $s$ [m]"
