@@ -19,6 +19,7 @@ from ridecomfort.discrepancy.terms import AXLES, LINEAR, TURNING, WHEELS, WHOLE
 from ridecomfort.discrepancy.turns import Line
 from ridecomfort.discrepancy.verdict import Named
 from ridecomfort.effects import library
+from ridecomfort.effects.contract import PORTS
 
 from .linear import Linear
 
@@ -253,6 +254,42 @@ def test_a_valve_closes_in_the_course_of_a_stroke_to_one_side_and_is_open_again_
     assert set(forces[1000:2000]) == {0.0} and forces[2000] == pytest.approx(forces[0], rel=0.01)
 
 
+@pytest.mark.parametrize(
+    ("place", "seen", "terms"),
+    [
+        ("contact", (0, 0.0, 0.01, 4000.0, 20.0, 0.0, 0.0), {"side_slip_late": {"front": 1.0, "rear": 1.0}, "side_slip": {"front": -0.3, "rear": -0.3}}),
+        ("steering", (0.01, 20.0, 2000.0), {"angle_of_force": {"": -1e-6}, "angle_late": {"": 1.0}}),
+    ],
+)
+def test_a_form_of_several_terms_is_the_force_that_was_fitted_term_by_term(tmp_path, place, seen, terms):
+    """Settled at what the place sees; a term sees what the one before it makes of a slip or an angle, as effects of one term each do."""
+    port = PORTS[PLACES[place].port]
+    for name, factors in terms.items():
+        (tmp_path / f"unknown_{name}.py").write_text(effect_source(f"unknown_{name}", place, {name: factors}, "Found."))
+    (tmp_path / "discovered.py").write_text(effect_source("discovered", place, terms, "Found."))
+
+    def settled(names):
+        chosen = library.choose(names, tmp_path)
+        states = {entry.effect.name: np.zeros(len(entry.effect.states)) for entry, _ in chosen}
+        for _ in range(3000):
+            now = dict(zip(port.sees, seen))
+            for entry, values in chosen:
+                found = entry.act(*now.values(), *states[entry.effect.name], *values.values())
+                results = found if isinstance(found, tuple) else (found,)
+                states[entry.effect.name] += 1e-3 * np.array(results[len(port.returns) :])
+                now |= {name: value for name, value in zip(port.returns, results) if name in now}
+        return now
+
+    together, one_by_one = settled(["discovered"]), settled([f"unknown_{name}" for name in terms])
+    assert together == pytest.approx(one_by_one) and together != pytest.approx(dict(zip(port.sees, seen)))
+
+
+def test_a_proposed_effect_acts_before_those_of_the_library_whatever_it_is_called(tmp_path):
+    for name in ("unknown_steering", "discovered", "a_form"):
+        (tmp_path / f"{name}.py").write_text(effect_source(name, "steering", {"angle_of_force": {"": -1e-6}}, "Found."))
+        assert [entry.effect.name for entry, _ in library.choose(["steering_lag", name], tmp_path)] == [name, "steering_lag"]
+
+
 def test_a_proposal_is_told_by_its_place_what_makes_such_a_force_and_what_it_removes():
     terms = {"bump_beyond": {"front": 9000.0, "rear": 9000.0}}
     found = Discovery("discovered", "strut", "suspension", terms, {"bump_beyond": {}}, "", 0.774, 0.916, 0.0015, "", {}, None)
@@ -264,6 +301,7 @@ def test_a_proposal_is_told_by_its_place_what_makes_such_a_force_and_what_it_rem
     beside = replace(found, beside=(friction,))
     assert "Together with suspension_friction it removes 77 % on the fitted drives" in beside.words()
     assert beside.json()["beside"] == ["suspension_friction"] and found.json()["beside"] == []
+    assert beside.json()["own_share"] == pytest.approx(0.774 - 0.3) and found.json()["own_held_out_share"] == 0.916
 
 
 def test_terms_of_a_force_act_at_one_place_and_effects_of_the_library_beside_them():

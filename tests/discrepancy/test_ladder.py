@@ -162,5 +162,13 @@ def test_a_model_that_makes_one_signal_worse_while_all_together_fall_may_stand_i
     ]
 
 
+def test_a_signal_that_leaves_its_floor_is_told_though_no_share_of_it_was_left_before():
+    models = {"base": of_two((30.0, 5.0), (1.0, 1.0)), "one": of_two((30.0, 3.0), (1.0, 4.0))}
+    graded = {name: sections((0, 0, 0, 0), (0, 0, 0, 0)) for name in models}
+    found = ladder({"ts1": Measured(models, graded, True)}, list(models), ["+ one"])
+    ((site, said),) = worsened(found)
+    assert site == "ts1" and said.startswith("+ one: on drives held out the error grows in a_y (2 times as large), of which nothing was left above the floor: ")
+
+
 def test_a_ladder_that_falls_has_nothing_to_say(found):
     assert risen(found) == [] and worsened(found) == [] and disagreeing(found) == []

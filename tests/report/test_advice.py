@@ -116,6 +116,11 @@ def test_what_comes_next_keeps_the_order_of_what_is_switched_on():
     assert "effects: [tyre_relaxation, damper_knee, suspension_friction]" in words(diagnosed.tables(found)["verdict"])
 
 
+def test_what_comes_next_keeps_sizes_that_are_held():
+    found = replace(made_up.diagnosis(), model="steering_lag", switched_on=("steering_lag",), held={"steering_lag": {"time": 0.1}})
+    assert "effects: [{steering_lag: {time: 0.1}}, suspension_friction]" in words(diagnosed.tables(found)["verdict"])
+
+
 def test_names_beside_a_form_of_ones_own_are_said_with_a_caution():
     own = replace(made_up.diagnosis(), model="discovered", switched_on=("discovered",))
     assert "take out again what does not lower the error ladder" in words(diagnosed.tables(own)["verdict"])
@@ -137,6 +142,11 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
     assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
     assert rows(named)[-1]["in_words"].startswith("This was found with the vehicle put right as above, so that both may be done in one go. ")
+    suspect = diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "suspect", "beyond_bounds": beyond}))["verdict"]
+    assert not any("the vehicle" in row["what"] for row in rows(suspect)) and rows(suspect)[-1]["in_words"].startswith("Put the data right first")
+    friction = beyond | {"parameters": [{**bar, "parameter": "tyre_friction", "value": 0.9, "wider": [0.5, 1.5]}]}
+    said = words(diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "outside", "beyond_bounds": friction}))["verdict"])
+    assert "unless they are there (and take tyre_friction out of diagnosis: uncertain, if it stands there)" in said
     # Beside an error that nothing explains, a few percent that go with the file are not all that is missing.
     little = beyond | {"share": 0.06, "held_out_share": 0.06}
     for is_first, is_left in ((False, False), (True, True)):

@@ -89,7 +89,8 @@ def test_a_form_is_written_in_usual_notation_and_says_what_a_side_is():
 
 def test_effects_beside_a_proposed_form_are_switched_on_together_with_it():
     names = [effect["name"] for effect in made_up.VERDICT["effects"]]
-    verdict = {**made_up.VERDICT, "verdict": "outside", "proposal": PROPOSAL | {"beside": names}, "is_beside_form": True}
+    own = 0.84 - sum(effect["share"] for effect in made_up.VERDICT["effects"])
+    verdict = {**made_up.VERDICT, "verdict": "outside", "proposal": PROPOSAL | {"beside": names, "own_share": own}, "is_beside_form": True}
     said = rows(diagnosed.tables(made_up.diagnosis(verdict))["verdict"])
     by_name = {row["what"]: row["in_words"] for row in said}
     assert by_name["in the library"].endswith(", beside the proposed form.") and "second choice" not in said[-1]["in_words"]
@@ -109,7 +110,8 @@ def test_what_the_signs_of_a_form_mean_is_told_where_they_mean_something():
 def test_what_the_library_does_alone_is_no_share_beside_the_form_though_the_names_are_the_same():
     names = [effect["name"] for effect in made_up.VERDICT["effects"]]
     alone = {**made_up.VERDICT, "verdict": "outside", "share": 0.6, "held_out_share": 0.6}
-    verdict = alone | {"proposal": PROPOSAL | {"beside": names, "share": 0.58, "held_out_share": 0.5}}
+    verdict = alone | {"proposal": PROPOSAL | {"beside": ["payload"], "share": 0.58, "held_out_share": 0.5, "own_share": 0.4}}
+    assert rows(diagnosed.tables(made_up.diagnosis(verdict))["missing_effects"])[-1]["fitted_pct"] == pytest.approx(40.0)
     said = rows(diagnosed.tables(made_up.diagnosis(verdict))["verdict"])
     by_name = {row["what"]: row["in_words"] for row in said}
     assert by_name["in the library"].endswith(", and may stand in for what is missing.")

@@ -222,6 +222,13 @@ def test_conditions_have_the_same_axis_for_every_model_with_ticks_to_read_it_by(
     assert sum(low <= tick <= high for tick in axes.get_yticks()) > 6
 
 
+def test_a_ladder_on_which_nothing_was_above_the_floor_is_drawn(study):
+    found = study.ladder.copy(deep=True)
+    found["left"][:], found["left_overall"][:] = np.nan, np.nan
+    drawn = ladder.error_ladder(replace(study, ladder=found))
+    assert np.isfinite(drawn.axes[0].get_ylim()).all()
+
+
 def test_what_lies_beyond_the_axis_of_the_ladder_is_said_with_its_signal(study):
     far = study.ladder.copy(deep=True)
     far["left"].loc[dict(rung=far["rung"].values[0], signal="roll_rate")] = 90.0

@@ -41,7 +41,7 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     folder, config = written
     tables.main(folder, config, folder / "tables")
     figures.main(folder, config, folder / "figures", "2")
-    looped = {**config, "diagnosed": ["ts1"], "scored": False, "switched_on": []}
+    looped = {**config, "diagnosed": ["ts1"], "scored": False, "switched_on": [], "held": {}}
     measured = {**config, "sites": {"ts1": config["sites"]["ts1"]}}
     located.main(folder, measured, folder / "figures")
     compared.main(folder, measured, folder)

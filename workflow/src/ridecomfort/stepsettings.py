@@ -70,7 +70,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
         case "compared":
             return {"model": model, "sites": _shown(study, study.measured)}
         case "diagnosed":
-            loop = {"diagnosed": study.diagnosed, "scored": False, "switched_on": study.switched_on}
+            loop = {"diagnosed": study.diagnosed, "scored": False, **_switched_on(study)}
             return {"model": model, "sites": _shown(study, study.diagnosed), **loop}
         case "standin_score":
             known = {"effects": list(study.effects(model)), "effects_folder": chosen["effects_folder"]}
@@ -148,8 +148,13 @@ def _summary(study: Study, site: str) -> dict:
 def _of_page(study: Study) -> dict:
     """What the page says beside what tables and figures do: the loop, and what else its results were made with."""
     sites = {site: {**summary, "road": study.sites[site]["road"]["options"]} for site, summary in summaries(study).items()}
-    loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored, "switched_on": study.switched_on}
+    loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored, **_switched_on(study)}
     return {"sites": sites, **{key: study.settings[key] for key in ("alignment", "diagnosis")}, **loop}
+
+
+def _switched_on(study: Study) -> dict:
+    """The effects of the model in their order, and the sizes that are held of them."""
+    return {"switched_on": study.switched_on, "held": {name: sizes for name, sizes in study.effects().items() if sizes}}
 
 
 def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:

@@ -99,6 +99,7 @@ class Discovery:
         names = ("name", "place", "port", "form", "terms", "settings", "sizes", "share", "held_out_share", "p_value", "by_place")
         said = {"such_as": such_as, "here": senses, "typically": typically}
         more = {name: tell(self.place, self.terms) for name, tell in said.items()} | {"beside": self.names_beside()}
+        more |= {f"own_{key}": getattr(self, key) - sum(getattr(effect, key) for effect in self.beside) for key in ("share", "held_out_share")}
         return plain({name: getattr(self, name) for name in names} | more)
 
 

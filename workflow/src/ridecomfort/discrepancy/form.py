@@ -113,14 +113,15 @@ class _Written:
 def effect_source(name: str, place: str, terms: Factors, sentence: str, shaped: Settings = {}) -> str:
     """Text of an effect file (``effects.contract``) with these terms, their factors and what shapes them as typical values.
 
-    A term whose linear part is given as nil has none.
+    A term whose linear part is given as nil has none. Terms act one after another in the order of their names, as effects of one term each do, and
+    all before an effect of the library at their port, whatever the file is called.
     """
     where = PLACES[place]
-    written = [_written(place, key, factors, shaped.get(key, {})) for key, factors in terms.items()]
+    written = [_written(place, key, factors, shaped.get(key, {})) for key, factors in sorted(terms.items())]
     every = lambda part: [one for term in written for one in getattr(term, part)]
     states = every("states")
     nil = [f"    {result} = 0.0" for result in where.results if result not in where.arguments]
-    body = "\n".join([*nil, *every("slopes"), *every("lines")])
+    body = "\n".join([*nil, *(line for term in written for line in (*term.slopes, *term.lines))])
     used = sorted({function for function in ("tanh", "cos", "sin") if re.search(rf"\b{function}\(", body)})
     imports = f"from math import {', '.join(used)}\n\n" if used else ""
     listed = "\n".join(every("parameters"))
@@ -130,7 +131,7 @@ def effect_source(name: str, place: str, terms: Factors, sentence: str, shaped: 
     return (
         f'"""{sentence}"""\n\n{imports}from ridecomfort.effects.contract import Effect, Parameter\n\n'
         f'effect = Effect(\n    name="{name}",\n    sentence="{sentence}",\n'
-        f'    source="estimated from measured drives by ridecomfort.discrepancy.discover",\n    port="{where.port}",\n'
+        f'    source="estimated from measured drives by ridecomfort.discrepancy.discover",\n    port="{where.port}",\n    order=-1,\n'
         f"    parameters=(\n{listed}\n    ),\n{remembered})\n\n\n"
         f"def act({', '.join([*where.arguments, *states, *every('names')])}):\n{body}\n    return {returned}\n"
     )

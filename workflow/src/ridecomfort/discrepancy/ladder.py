@@ -35,6 +35,10 @@ WORSE = 0.25
 said: a quarter, several times what chance makes of a signal near its floor."""
 
 
+MAY_STAND_IN = "what was fitted may stand in for something that is missing"
+"""What is said of a model that makes some signal worse."""
+
+
 @dataclass(frozen=True)
 class Measured:
     """A site's comparisons and graded sections (``critical.critical``) by model, and whether its own drives were fitted."""
@@ -154,8 +158,8 @@ def risen(found: xr.Dataset) -> list[tuple[str, str]]:
 
 
 def worsened(found: xr.Dataset) -> list[tuple[str, str]]:
-    """Site and words for every model of a ladder with which all signals together fall but some rise by more than WORSE, on drives held out where
-    there are any."""
+    """Site and words for every model of a ladder with which all signals together fall but some rise by more than WORSE, or with which one rises
+    that had nothing above the floor, of which no share tells; on drives held out where there are any."""
     said = []
     for site in found["site"].values:
         groups = [group for group in (HELD_OUT, FITTED) if found["rmse"].sel(site=site, group=group).notnull().any()]
@@ -166,7 +170,13 @@ def worsened(found: xr.Dataset) -> list[tuple[str, str]]:
             if rises.size and chosen["left_overall"].sel(rung=now) < chosen["left_overall"].sel(rung=before):
                 signals = (f"{chosen['signal'].values[k]} ({100 * higher[k]:.0f} % left after {100 * lower[k]:.0f} %)" for k in rises)
                 told = f"{now}: on drives {groups[0]} the error grows in {', '.join(signals)}, though it falls over all signals"
-                said.append((str(site), f"{told}: what was fitted may stand in for something that is missing"))
+                said.append((str(site), f"{told}: {MAY_STAND_IN}"))
+            lower, higher = (chosen["rmse"].sel(rung=rung).values for rung in (before, now))
+            rises = np.flatnonzero(np.isnan(chosen["left"].sel(rung=now).values) & (higher**2 > (1.0 + WORSE) * lower**2))
+            if rises.size:
+                signals = (f"{chosen['signal'].values[k]} ({higher[k] / lower[k]:.2g} times as large)" for k in rises)
+                told = f"{now}: on drives {groups[0]} the error grows in {', '.join(signals)}, of which nothing was left above the floor"
+                said.append((str(site), f"{told}: {MAY_STAND_IN}"))
     return said
 
 

@@ -93,7 +93,7 @@ class Difference:
 @dataclass(frozen=True)
 class Diagnosis:
     """Which effects the model lacks: verdict.json and ranking.nc; ``standin`` labels the sites that are stand-ins, ``switched_on`` are the
-    effects that the model has, in the order of the study's configuration.
+    effects that the model has, in the order of the study's configuration, and ``held`` the sizes that it holds of them, by name.
 
     ``score`` is what the hidden truth of stand-ins says of the verdict (``steps.standin_score``), None without it. ``told_before``: what a
     verdict on a ``model`` without them said of effects that are switched on, by name.
@@ -107,6 +107,7 @@ class Diagnosis:
     standin: tuple[str, ...] = ()
     score: Mapping | None = None
     switched_on: tuple[str, ...] = ()
+    held: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     told_before: Mapping[str, Mapping] = field(default_factory=dict)
 
     def standin_note(self) -> str | None:

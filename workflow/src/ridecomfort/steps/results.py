@@ -80,6 +80,7 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
         files={key: file.as_posix() for key, file in files.items()},
         model=config["model"],
         switched_on=tuple(config["switched_on"]),
+        held=config["held"],
         sites=sites,
         standin=tuple(label(site) for site in sites if config["sites"][site]["standin"]),
         score=json.loads(files["score"].read_text(encoding="utf-8")) if "score" in files else None,

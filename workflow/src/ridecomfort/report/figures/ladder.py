@@ -77,8 +77,8 @@ def error_ladder(study: Difference) -> Figure:
         first = next(axes for axes in row if axes.axison)
         first.set_ylabel("explainable error left [%]")
         first.tick_params(labelleft=True)
-        highest = min(ROOM * 100 * float(found["left"].max()), HIGHEST)
-        lowest = min(0.0, 100 * float(found["left"].min()))
+        left = 100 * np.nan_to_num(found["left"].values)  # of what had nothing above the floor nothing is left
+        highest, lowest = min(ROOM * max(left.max(), 100.0), HIGHEST), min(0.0, left.min())
         first.set_yscale("symlog", linthresh=LINEAR)
         first.set_yticks([tick for tick in TICKS if tick <= highest], [f"{tick}" for tick in TICKS if tick <= highest])
         first.set_ylim(max(lowest, -HIGHEST) - 0.05 * LINEAR, highest)

@@ -74,8 +74,8 @@ def signature(found: Diagnosis) -> Figure:
             axes.set_xlabel(f"{one['seen_axis'].item()} [{unit}]")
         panel[0].set_ylabel(fill(f"{one['missing_what'].item()} [{missing_unit}]", LONGEST))
     proposal = found.verdict.get("proposal") or {}
-    names = [words(effect["name"]) for effect in found.verdict["effects"] if not proposal.get("form") or effect["name"] in (proposal.get("beside") or ())]
-    together = " and ".join([*names, *(["the proposed form"] if proposal.get("form") else [])])
+    names = proposal.get("beside") or () if proposal.get("form") else [effect["name"] for effect in found.verdict["effects"]]
+    together = " and ".join([*map(words, names), *(["the proposed form"] if proposal.get("form") else [])])
     handles = [
         Line2D([], [], color=colour, marker=marker, markersize=3.5, label=f"estimated, {axle}")
         for axle, (colour, marker) in AXLE_LINES.items()

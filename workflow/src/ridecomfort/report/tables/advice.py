@@ -12,6 +12,7 @@ from ...discrepancy.verdict import SMALL, is_of_little
 from ...effects import library
 from ...schema import as_written
 from ...vehicle.parameters import PARAMETERS
+from ...vocabulary import CALIBRATED
 from ..study import Diagnosis
 
 NEXT = {
@@ -79,7 +80,7 @@ WORTHWHILE = 0.1
 def next_step(found: Diagnosis) -> str:
     """What to do next, a sentence or a few."""
     said, proposal = found.verdict, found.verdict.get("proposal") or {}
-    own = list(found.switched_on)
+    own = [_entry(name, found.held.get(name, {})) for name in found.switched_on]
     other = next((word for word in ("linear", "cubic") if f"interpolation: {word})" in found.ranking.attrs.get("road", "")), "")
     before = ROAD_FIRST.format(other=other) if other and said["verdict"] != "suspect" else ""
     before += FILE_FIRST if said.get("off_file") else ""
@@ -96,6 +97,11 @@ def next_step(found: Diagnosis) -> str:
     before += _may_end(said, said)
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
     return before + NEXT[said["verdict"]].format(keys=named) + caution
+
+
+def _entry(name: str, held: Mapping[str, float]) -> str:
+    """An effect as it stands in the configuration, with the sizes that are ``held``."""
+    return f"{{{name}: {{{', '.join(f'{size}: {value:g}' for size, value in held.items())}}}}}" if held else name
 
 
 def is_vehicle_first(verdict: Mapping) -> bool:
@@ -132,7 +138,8 @@ def farther(beyond: Mapping) -> str:
         begin += f", with {', '.join(beyond['effects'])} alone of the effects above"
     return (
         f"{begin}: if the vehicle's file may be that wrong, have it calibrated. Add {names} to calibration: parameters in config/study.yaml, unless "
-        f"they are there, and put {bounds} into calibration: bounds; then compare and diagnose again. If it cannot be, they stand in for something else."
+        f"they are there{_no_longer_uncertain(those)}, and put {bounds} into calibration: bounds; then compare and diagnose again. If it cannot be, they "
+        "stand in for something else."
     )
 
 
@@ -140,9 +147,16 @@ def calibrated_too(off_file: Mapping) -> str:
     """What to do where calibration holds parameters of the vehicle to which the drives give other values."""
     names = ", ".join(one["parameter"] for one in off_file["parameters"])
     return (
-        f"Add {names} to calibration: parameters in config/study.yaml, compare and diagnose again: the search lets them be wrong, but calibration holds them, "
+        f"Add {names} to calibration: parameters in config/study.yaml{_no_longer_uncertain(off_file['parameters'])}, compare and diagnose again: the search "
+        "lets them be wrong, but calibration holds them, "
         "so that the error ladder falls less than is said here, and calibrated sizes of effects may make up for them."
     )
+
+
+def _no_longer_uncertain(those: Sequence[Mapping]) -> str:
+    """What else is to be done with parameters of the paper, which are calibrated or uncertain, not both."""
+    names = [one["parameter"] for one in those if one["parameter"] in CALIBRATED]
+    return f" (and take {', '.join(names)} out of diagnosis: uncertain, if it stands there)" if names else ""
 
 
 def _farther(one: Mapping) -> tuple[float, float]:

@@ -76,6 +76,8 @@ def verdict(found: Diagnosis) -> Table:
     rows += [(words(effect["name"]), _found(effect)) for effect in told if said["verdict"] in NAMING]
     rows += [("reason", sentence(reason)) for reason in said["reasons"]]
     rows += [(f"{words(name)}, switched on", _before(found.told_before[name])) for name in found.switched_on if name in found.told_before]
+    if said["verdict"] == "suspect":
+        beyond = None  # the data come first, and may be what drives parameters there
     comes_first = bool(beyond) and not beyond.get("is_instead")
     if comes_first:
         rows.append(("the vehicle", advice.farther(beyond)))
@@ -186,7 +188,7 @@ def missing_effects(found: Diagnosis) -> Table:
     proposal = found.verdict.get("proposal") or {}
     if proposal.get("form"):
         breaks.append(len(rows))
-        of_all = (proposal["p_value"], *_own_shares(proposal, found.verdict["effects"]), None)
+        of_all = (proposal["p_value"], *(_percent(proposal[f"own_{key}"]) for key in ("share", "held_out_share")), None)
         told_of_form = [size for size in proposal["sizes"] if size["interval"] or size["size"]]  # a part that is held at nil is none
         for number, size in enumerate(told_of_form):
             told = (words(size["parameter"]), unit(size["unit"]), size["size"], *(size["interval"] or (None, None)))
@@ -211,13 +213,6 @@ def missing_effects(found: Diagnosis) -> Table:
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
     )
     return _table(found, "missing_effects", columns, rows, sources, notes, breaks[1:])
-
-
-def _own_shares(proposal: Mapping, effects: Sequence[Mapping]) -> list[float | None]:
-    """What a proposed form removes of the error, on fitted and on held-out drives in percent, without the ``effects`` beside it."""
-    beside = [effect for effect in effects if effect["name"] in (proposal.get("beside") or ())]
-    own = lambda key: None if proposal[key] is None else proposal[key] - sum(effect[key] or 0.0 for effect in beside)
-    return [_percent(own(key)) for key in ("share", "held_out_share")]
 
 
 EVIDENCE = (
