@@ -8,6 +8,7 @@ import pytest
 from ridecomfort import config
 from ridecomfort.schema import read_yaml
 from ridecomfort.steps import models
+from ridecomfort.study import digest
 
 NAMED = {
     "sites": ["ts1"],
@@ -57,11 +58,13 @@ def test_the_verdict_on_disk_is_followed_unless_the_study_does_not_go_forward(st
     assert models.known(study()).models == ("base",)
     file = tmp_path / models.verdict_file(study())
     file.parent.mkdir(parents=True)
-    file.write_text(json.dumps(NAMED))
+    own = {**NAMED, "vehicle_digest": digest(tmp_path / "config" / "vehicles" / "midsize.yaml")}
+    file.write_text(json.dumps(own))
     assert len(models.known(study()).models) == 3
     assert models.known(study(diagnosis={"forward": False})).models == ("base",)
-    file.write_text(json.dumps({**NAMED, "sites": ["another_car"]}))
-    assert models.known(study()).models == ("base",)
+    for other in ({"sites": ["another_site"]}, {"vehicle_digest": digest(tmp_path / "config" / "vehicles" / "van.yaml")}):
+        file.write_text(json.dumps({**own, **other}))
+        assert models.known(study()).models == ("base",)
 
 
 def test_a_model_begins_from_the_one_before_it_in_the_chain(study, tmp_path, monkeypatch):
@@ -73,7 +76,7 @@ def test_a_model_begins_from_the_one_before_it_in_the_chain(study, tmp_path, mon
     assert models.below(study(), own.model) == "base"  # asked for by its name alone
     file = tmp_path / models.verdict_file(study())
     file.parent.mkdir(parents=True)
-    file.write_text(json.dumps(NAMED))
+    file.write_text(json.dumps({**NAMED, "vehicle_digest": digest(tmp_path / "config" / "vehicles" / "midsize.yaml")}))
     assert models.below(study(), own.model) == "suspension_friction"
 
 
@@ -88,7 +91,7 @@ def test_a_ladder_is_of_the_models_that_were_compared_even_if_a_verdict_has_come
     asked = models.known(own).files(own, "comparison.nc")
     file = tmp_path / models.verdict_file(own)
     file.parent.mkdir(parents=True)
-    file.write_text(json.dumps(NAMED))
+    file.write_text(json.dumps({**NAMED, "vehicle_digest": digest(tmp_path / "config" / "vehicles" / "midsize.yaml")}))
     assert json.loads(models.ladder_settings(own, asked))["models"] == ["base"]
     later = json.loads(models.ladder_settings(own, models.known(own).files(own, "comparison.nc")))
     assert later["models"] == ["base", "suspension_friction", "damper_asymmetry+suspension_friction"]

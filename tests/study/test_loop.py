@@ -7,6 +7,8 @@ import shutil
 
 import pytest
 
+from ridecomfort.study import digest
+
 pytestmark = pytest.mark.slow
 
 NAMED = {"sites": ["ts1"], "verdict": "named", "effects": [{"name": "suspension_friction", "like": []}], "reasons": []}
@@ -25,7 +27,7 @@ def plan(repository, tmp_path_factory):
         file = folder / "results" / "diagnosis" / "base" / "verdict.json"
         if verdict:
             file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(json.dumps(verdict))
+            file.write_text(json.dumps({**verdict, "vehicle_digest": digest(folder / "config" / "vehicles" / "midsize.yaml")}))
         answer = project.snakemake("--dry-run", *arguments)
         file.unlink(missing_ok=True)
         assert answer.status == 0, answer.text

@@ -27,11 +27,6 @@ def configuration_hash(configuration: Mapping) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
-def digest(*files) -> str:
-    """Twelve hexadecimal digits that change when what any of these files holds does."""
-    return hashlib.sha256(b"".join(hashlib.sha256(Path(file).read_bytes()).digest() for file in files)).hexdigest()[:12]
-
-
 def write(
     dataset: xr.Dataset,
     path,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 from collections.abc import Iterable, Mapping
@@ -134,9 +135,10 @@ class Study:
 
     def handed_in(self, site: str) -> list[str]:
         """Files of the drives that another simulator made for a site, one a run; none where the study's own drives."""
-        folder = self.sites[site].get("simulated")
-        if folder is None:
+        named = self.sites[site].get("simulated")
+        if named is None:
             return []
+        folder = PurePath(named).as_posix()  # without a slash at its end
         suffixes = readers.suffixes()
         files = (path for path in (self.folder / folder).iterdir() if path.suffix.lower() in suffixes and not path.name.startswith("."))
         return [f"{folder}/{path.name}" for path in sorted(files, key=_in_order)]
@@ -207,6 +209,11 @@ def effect_files(folder: Path | None = None) -> dict[str, Path]:
     folders = [library.FOLDER] if folder is None else [library.FOLDER, folder]
     files = [where / f"{name}.py" for where in folders for name, _ in library.files(where)]
     return {path.stem: path for path in sorted(files)}
+
+
+def digest(*files) -> str:
+    """Twelve hexadecimal digits that change when what any of these files holds does."""
+    return hashlib.sha256(b"".join(hashlib.sha256(Path(file).read_bytes()).digest() for file in files)).hexdigest()[:12]
 
 
 def has_fit(site: Mapping) -> bool:

@@ -13,6 +13,7 @@ from pathlib import Path
 from ridecomfort import discrepancy, store
 from ridecomfort.effects import library
 from ridecomfort.steps.command import Command, note
+from ridecomfort.study import digest
 from ridecomfort.vehicle import parameters
 
 DISCOVERED = "discovered"
@@ -37,8 +38,8 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     if settings["calibration"] is not None:
         table.attrs["calibrated"] = ", ".join(settings["calibration"]["parameter"].values.tolist())
     # By these it is known later whether another verdict speaks of the same drives.
-    digests = {site: store.digest(drive, vehicle) for site, drive in zip(config["sites"], measured, strict=True)}
-    content = {"sites": config["sites"], "digests": digests, **found.json()}
+    digests = {site: digest(drive, vehicle) for site, drive in zip(config["sites"], measured, strict=True)}
+    content = {"sites": config["sites"], "vehicle_digest": digest(vehicle), "digests": digests, **found.json()}
     for old in Path(verdict).parent.glob(f"{DISCOVERED}*.py"):  # of drives or of a model before
         old.unlink()
     conclusions = [found.words()]

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..study import BASE, JOIN, Study, effect_files, effects_of
+from ..study import BASE, JOIN, Study, digest, effect_files, effects_of
 
 FOLLOWED = ("named", "cluster")
 """Verdicts whose effects are added; of a cluster the first of each, called by all of its names."""
@@ -47,11 +47,18 @@ def chain(study: Study, verdict: Mapping | None = None) -> Chain:
 def known(study: Study) -> Chain:
     """The chain as far as it is known now: with the verdict on the study's model where there is one and it is to be followed.
 
-    A verdict that was fitted on another site, whose car may be another, is not.
+    A verdict that was fitted on another site or with another vehicle is not.
     """
     file = Path(verdict_file(study))
     verdict = json.loads(file.read_text()) if study.forward and file.is_file() else None
-    return chain(study, verdict if verdict and verdict.get("sites", ())[:1] == study.diagnosed[:1] else None)
+    return chain(study, verdict if verdict and _is_of(study, verdict) else None)
+
+
+def _is_of(study: Study, verdict: Mapping) -> bool:
+    """Whether a verdict was reached on the site, and with the vehicle, that would be diagnosed first."""
+    first = study.diagnosed[:1]
+    vehicles = [digest(study.folder / study.vehicle(site)) for site in first]
+    return verdict.get("sites", ())[:1] == first and [verdict.get("vehicle_digest")] == vehicles
 
 
 def below(study: Study, model: str) -> str | None:
