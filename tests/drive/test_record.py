@@ -162,7 +162,8 @@ def test_quantities_with_clocks_of_their_own_meet_on_one():
     np.testing.assert_allclose(np.gradient(drive["s"], drive["time"]), drive["v_x"], atol=2e-3)
 
 
-def test_a_distance_that_jumps_by_a_metre_or_is_told_beside_a_speed_in_another_unit_is_not_refused():
+def test_a_distance_that_is_held_jumps_by_a_metre_or_is_told_beside_a_speed_in_another_unit_is_not_refused():
+    record.from_arrays(quantities(s=(TIME, 20 * np.floor(4 * TIME) / 4)))
     jitter = np.random.default_rng(3).uniform(-0.7, 0.7, TIME[::10].size)
     record.from_arrays(quantities(s=(TIME[::10], 20 * TIME[::10] + jitter)))
     record.from_arrays(quantities(s=(TIME[::10], 20 * TIME[::10]), v_x=(TIME, 72 + 0 * TIME)))

@@ -204,15 +204,19 @@ def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> N
 
 
 def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np.ndarray, *, file) -> None:
-    """InputError where the distance jumps from one sample to the next as no drive at the recorded speed goes."""
+    """InputError where the distance jumps from one value to the next as no drive at the recorded speed goes.
+
+    One that is held until the next is known, as that of a receiver in a faster table, changes at some samples only.
+    """
     driven = np.interp(time, clock, sampling.integral(speed, clock))
     scale = np.polyfit(driven, place, 1)[0] if np.ptp(driven) > JUMP else 1.0  # v_x may be in another unit: alignment says so
-    step, expected = np.diff(place), scale * np.diff(driven)
+    known = np.flatnonzero(np.concatenate([[True], np.diff(place) != 0.0]))
+    step, expected = np.diff(place[known]), scale * np.diff(driven[known])
     bad = np.flatnonzero(np.abs(step - expected) > JUMP + FASTER * np.abs(expected))
     if bad.size:
-        i = bad[0] + 1
+        i = known[bad[0] + 1]
         raise InputError(
-            f"sample {i + 1} ({time[i]:.6g} s) lies {step[i - 1]:+.4g} m from the one before it, while v_x drives {expected[i - 1]:.4g} m "
+            f"sample {i + 1} ({time[i]:.6g} s) lies {step[bad[0]]:+.4g} m from the value before it, while v_x drives {expected[bad[0]]:.4g} m "
             f"(expected within {JUMP:g} m of that; cut the record there, or leave s out, which is then integrated from v_x)",
             file=file,
             place="s",
