@@ -107,6 +107,7 @@ def test_a_drive_that_is_too_short_to_be_asked_is_set_aside_and_said_to_be(made)
     assert [record.name for record in found.records] == [drive.attrs["name"]] and len(found.replays) == 1
     (said,) = found.set_aside
     assert said.startswith("trial short is judged for 4.") and said.endswith("too short to be asked (less than 10 s)")
+    assert opened(drive, cut(drive, 4.0).assign_attrs(name="shortest", role="check")).set_aside[0].startswith("trial shortest is judged for 0.0 s")
     # Of fitted drives that are all short something may yet be said.
     alone = opened(cut(drive, 12.0), short)
     assert [record.role for record in alone.records] == ["fit"] and "what is found may be chance" in alone.set_aside[-1]

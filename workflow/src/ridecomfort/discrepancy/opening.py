@@ -155,7 +155,7 @@ def _long_enough(sites: Sequence[Site], replays: Iterable[Replay], fitted_on: Co
     shorter, these stay; InputError is raised where all of them hold less than LEAST."""
     rest = iter(replays)
     found = [(site, drive, next(rest)) for site in sites for drive in site.drives]
-    lasts = [float(np.ptp(again.time[again.compared])) for *_, again in found]
+    lasts = [float(np.ptp(again.time[again.compared])) if again.compared.any() else 0.0 for *_, again in found]
     fitted = [site.name in fitted_on and _role(drive) == "fit" for site, drive, _ in found]
     of_fitted = [seconds for seconds, is_fitted in zip(lasts, fitted) if is_fitted]
     if of_fitted and sum(of_fitted) < LEAST:

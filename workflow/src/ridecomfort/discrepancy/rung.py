@@ -219,18 +219,20 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Ex
 
 def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
     """Whether the floor is known from repeats, and its mean squares on fitted and held-out records; of a condition without repeats, the mean
-    of the others; without any, that of instruments whose noise is told, of others the mean of these. Repeats differ in their path, so what the model lacks differs too: the floor sinks as the model improves."""
+    of the others; without any, that of instruments whose noise is told, of others the mean of these. Repeats differ in their path, so what the
+    model lacks differs too: the floor sinks as the model improves."""
     cleaned = frame.all_cleaned(fit.residuals)
     held_out = check_frame.all_cleaned(check) if check else {}
     known = floor.floor(experiment, {**cleaned, **held_out})
     told = [floor.assumed(record) for record in experiment.records if record.noise] or [np.zeros(1)]
+    assumed = lambda record: floor.assumed(record) if record.noise else np.mean(told, axis=0)
     floors = []
     for indices in roles(experiment):
         rows = np.zeros((len(indices), len(experiment.channels)))
         for row, index in zip(rows, indices):
             record = experiment.records[index]
             found = [known[record.condition]] if record.condition in known else list(known.values())
-            row[:] = np.mean([one.power(record.band, record.rate) for one in found], axis=0) if found else floor.assumed(record) if record.noise else np.mean(told, axis=0)
+            row[:] = np.mean([one.power(record.band, record.rate) for one in found], axis=0) if found else assumed(record)
         floors.append(rows)
     # No floor lies above what a model has reached.
     floor_squares, held_out_floor_squares = np.minimum(floors[0], floor.squares(experiment, cleaned)), floors[1]
