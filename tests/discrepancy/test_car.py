@@ -83,6 +83,7 @@ def test_drives_on_other_stretches_are_no_repeats_of_one_another(made):
     [
         (1.0, 30.0, 6.0),  # 22 m/s: the run-in of 54 m ends after 2.5 s, when its driver has not yet found the path
         (3.0, 30.0, 1.5 + 3 * 2.5),  # long under way at the end of the run-in
+        (1.0, 14.0, 2.5 + 0.25 * 11.5),  # three quarters of what a short drive has are left
     ],
 )
 def test_a_drive_is_judged_from_when_it_is_under_way(made, slower, seconds, begins):
@@ -102,17 +103,16 @@ def cut(drive, seconds):
 def test_a_drive_that_is_too_short_to_be_asked_is_set_aside_and_said_to_be(made):
     drive, road = made.replays[0].drive, made.replays[0].road
     opened = lambda *drives: opening.car([opening.Site("trial", road, drives)], made.vehicle, library_names=["crosswind"])
-    short = cut(drive, 9.0).assign_attrs(name="short", role="check")
+    short = cut(drive, 8.0).assign_attrs(name="short", role="check")
     found = opened(short, drive)
     assert [record.name for record in found.records] == [drive.attrs["name"]] and len(found.replays) == 1
     (said,) = found.set_aside
-    assert said.startswith("trial short is judged for 4.") and said.endswith("too short to be asked (less than 10 s)")
-    assert opened(drive, cut(drive, 4.0).assign_attrs(name="shortest", role="check")).set_aside[0].startswith("trial shortest is judged for 0.0 s")
+    assert said.startswith("trial short is judged for 5.") and said.endswith("too short to be asked (less than 10 s)")
     # Of fitted drives that are all short something may yet be said.
     alone = opened(cut(drive, 12.0), short)
     assert [record.role for record in alone.records] == ["fit"] and "what is found may be chance" in alone.set_aside[-1]
-    with pytest.raises(InputError, match="fitted drives are judged for 4.* s in all .expected 6 s at least"):
-        opened(cut(drive, 9.0))
+    with pytest.raises(InputError, match="fitted drives are judged for 5.* s in all .expected 6 s at least"):
+        opened(cut(drive, 8.0))
 
 
 def test_drives_that_are_sampled_otherwise_than_one_another_are_refused(made):

@@ -37,6 +37,9 @@ SETTLING, UNDER_WAY = (1.5, 4.0), 6.0
 ground a vehicle with an effect stands otherwise, and a driver who has not yet found the measured path rolls it, which imitates a
 cross-wind or bump steer."""
 
+SPARED = 0.75
+"""Share of what is compared that settling leaves of a short drive."""
+
 SHORTEST, LEAST = 10.0, 6.0
 """s of a drive that are judged at least, one of less holds too few spectra of 4 s to tell how the errors of six signals go together, and s that
 all fitted drives hold at least."""
@@ -213,7 +216,8 @@ def start_values(experiment: Car) -> dict[str, float]:
 def _settled(again: Replay) -> Replay:
     """The same without its first and last instants."""
     begins, ends = again.time[again.compared][[0, -1]]
-    first, last = begins + np.clip(again.time[0] + UNDER_WAY - begins, *SETTLING), ends - RUN_OUT
+    settled = np.clip(again.time[0] + UNDER_WAY - begins, *SETTLING)
+    first, last = begins + min(settled, (1 - SPARED) * (ends - begins)), ends - RUN_OUT
     return replace(again, compared=again.compared & (again.time >= first) & (again.time <= last))
 
 
