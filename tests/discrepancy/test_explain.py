@@ -169,4 +169,4 @@ def test_drives_that_repeat_one_another_all_have_a_stretch_in_common():
     for start, end in ((0.0, 2000.0), (0.0, 1020.0), (1000.0, 2000.0)):
         numbers.append(joined(passages, np.linspace(start, end, 101), np.linspace(0.0, (end - start) / 20.0, 101), np.zeros(101)))
     assert numbers == [0, 0, 1]
-    assert [passage[:3] for passage in passages] == [(20.0, 0.0, 1020.0), (20.0, 1000.0, 2000.0)]
+    assert [(passage.speed, passage.start, passage.end) for passage in passages] == [(20.0, 0.0, 1020.0), (20.0, 1000.0, 2000.0)]

@@ -43,23 +43,28 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 
 class Passage(NamedTuple):
-    """What drives that repeat one another drove: the mean ``speed`` of the first (m/s), ``start`` and ``end`` (m), its ``path``, lateral
-    position over place (m), and its ``clock``, time (s) over place."""
+    """What drives that repeat one another drove, from ``start`` to ``end`` (m): ``place`` (m), ``lateral`` position (m) and ``time`` (s) of the
+    first, (sample,)."""
 
-    speed: float
     start: float
     end: float
-    path: tuple[np.ndarray, np.ndarray]
-    clock: tuple[np.ndarray, np.ndarray]
+    place: np.ndarray
+    lateral: np.ndarray
+    time: np.ndarray
+
+    @property
+    def speed(self) -> float:
+        """Mean speed (m/s) of the whole of the first."""
+        return float(np.ptp(self.place) / np.ptp(self.time))
 
     def pace(self, start: float, end: float) -> float:
-        """Mean speed (m/s) between two places."""
-        return (end - start) / float(np.ptp(np.interp((start, end), *self.clock)))
+        """Mean speed (m/s) of the first between two places."""
+        return (end - start) / float(np.ptp(np.interp((start, end), self.place, self.time)))
 
     def apart(self, other: Passage) -> float:
         """rms distance (m) of the paths where both were driven."""
         place = np.linspace(max(self.start, other.start), min(self.end, other.end), 200)
-        return float(np.sqrt(np.mean((np.interp(place, *self.path) - np.interp(place, *other.path)) ** 2)))
+        return float(np.sqrt(np.mean((np.interp(place, self.place, self.lateral) - np.interp(place, other.place, other.lateral)) ** 2)))
 
 
 @dataclass(frozen=True)
@@ -155,8 +160,7 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
 def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral: np.ndarray) -> int:
     """Number of the first of ``passages`` that a drive (place and lateral position in m over time in s) repeats, which is cut to what they
     have in common; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
-    speed, path, clock = float(np.ptp(place) / np.ptp(time)), (place, np.nan_to_num(lateral)), (place, time)
-    own = Passage(speed, float(np.min(place)), float(np.max(place)), path, clock)
+    own = Passage(float(np.min(place)), float(np.max(place)), place, np.nan_to_num(lateral), time)
     for number, known in enumerate(passages):
         start, end = max(own.start, known.start), min(own.end, known.end)
         is_along = end - start > COMMON * min(own.end - own.start, known.end - known.start)

@@ -335,12 +335,11 @@ def _derivative(values: np.ndarray, interval: float) -> np.ndarray:
 
 def require_one_rate(drives: Sequence[xr.Dataset]) -> None:
     """Raise InputError unless drives are sampled at one rate, as what lays them side by side takes for granted."""
-    rates = {str(drive.attrs.get("name", "drive")): sampling.rate_of(drive["time"].values) for drive in drives}
-    names = list(rates)
-    for name in names[1:]:
-        if abs(rates[name] / rates[names[0]] - 1.0) > SAME_RATE:
-            said = f"is sampled at {rates[name]:.6g} Hz, drive {names[0]} at {rates[names[0]]:.6g} Hz (expected one rate for all)"
-            raise InputError(said, place=f"drive {name}")
+    rates = [sampling.rate_of(drive["time"].values) for drive in drives]
+    names = [drive.attrs.get("name", "drive") for drive in drives]
+    for name, rate in zip(names, rates):
+        if abs(rate / rates[0] - 1.0) > SAME_RATE:
+            raise InputError(f"is sampled at {rate:.6g} Hz, drive {names[0]} at {rates[0]:.6g} Hz (expected one rate for all)", place=f"drive {name}")
 
 
 def stack(drives: list[xr.Dataset]) -> xr.Dataset:

@@ -104,6 +104,13 @@ METADATA = {
 """What is not written into the files, which are the same for the same data at any time."""
 
 
+PER_ROW = 4
+"""Panels beside each other at most in a figure of as many as there are sites."""
+
+LETTER = 0.0085
+"""Inches of width that a letter takes by the point of its size, on average of mixed text."""
+
+
 def figure(width: float, height: float, **options) -> Figure:
     """An empty figure of a size in inches with the study's style, laid out so that nothing overlaps."""
     options.setdefault("layout", "constrained")
@@ -114,10 +121,6 @@ def styled():
     """A context in which figures are drawn and saved with the study's style."""
     defaults = {key: value for key, value in matplotlib.rcParamsDefault.items() if "backend" not in key}
     return matplotlib.rc_context({**defaults, **SETTINGS})
-
-
-PER_ROW = 4
-"""Panels beside each other at most in a figure of as many as there are sites."""
 
 
 def panels(count: int, width: float, height: float, *, margin: float) -> tuple[Figure, list[Axes]]:
@@ -141,10 +144,6 @@ def panel_title(axes: Axes, text: str, *, margin: float = 0.0) -> None:
     columns = axes.get_subplotspec().get_gridspec().ncols
     room = (axes.figure.get_size_inches()[0] - margin) / columns
     axes.set_title(textwrap.fill(text, int(room / (LETTER * SETTINGS["axes.titlesize"]))))
-
-
-LETTER = 0.0085
-"""Inches of width that a letter takes by the point of its size, on average of mixed text."""
 
 
 def legend_columns(handles, width: float) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,7 +78,8 @@ class Report:
             said.append(f"largest change {self.largest_change:.4g} m at u = {u:g} m, v = {v:g} m")
         if self.spectra is not None:
             before, after = self.spectra.unevenness.mean("v").values * 1e6
-            said.append(f"unevenness of the wheel tracks at 0.1 cycles/m {before:.4g} before, {after:.4g} cm3 after")
+            places = " and ".join(f"{track:g}" for track in self.spectra["v"].values)
+            said.append(f"unevenness of the wheel tracks at {places} m, at 0.1 cycles/m {before:.4g} before, {after:.4g} cm3 after")
         return said
 
 
@@ -140,7 +140,7 @@ def fill(
     return filled
 
 
-def clean(road: xr.Dataset, *, tracks: Sequence[float] = roughness.TRACKS, **options: str) -> tuple[xr.Dataset, Report]:
+def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
     """The road without the measurement failures that the options name, and what was done.
 
     outliers
@@ -154,7 +154,6 @@ def clean(road: xr.Dataset, *, tracks: Sequence[float] = roughness.TRACKS, **opt
     line for each step. A road with the ``support`` of `survey.grid` is a scan: dips
     that `VOUCHED` points agree on are no outliers, and notches in its edge no longer
     than `LARGEST_HOLE` are holes, for the edge is that of the scanner's swath.
-    ``tracks`` in m to the left of the reference line are those of the report's spectra.
     Raises InputError for what is to be refused.
     """
     chosen = _choose(options)
@@ -198,7 +197,7 @@ def clean(road: xr.Dataset, *, tracks: Sequence[float] = roughness.TRACKS, **opt
             "flag_meanings": "measured outlier_repaired hole_filled outlier_kept",
         },
     )
-    report = _report(road, cleaned, outlier, hole, tracks)
+    report = _report(road, cleaned, outlier, hole)
     if outlier.any() or hole.any():
         said += report.lines()
     elif coarse:
@@ -218,11 +217,11 @@ def _choose(options: dict) -> dict:
     return {name: options.get(name, values[0]) for name, values in CHOICES.items()}
 
 
-def _report(road, cleaned, outlier, hole, tracks) -> Report:
+def _report(road, cleaned, outlier, hole) -> Report:
     change = np.abs(np.where(outlier, cleaned.elevation.values - road.elevation.values, 0.0))
     i, j = np.unravel_index(change.argmax(), change.shape)
     try:
-        states = [roughness.analyse(state, tracks=tracks) for state in (road, cleaned)]
+        states = [roughness.analyse(state) for state in (road, cleaned)]
         spectra = xr.concat(states, xr.DataArray(["before", "after"], dims="state", name="state"))
     except ValueError:
         spectra = None

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import xarray as xr
 
 from ..errors import InputError
-from . import clean, crg, roughness, smoothing
+from . import clean, crg, smoothing
 from .surface import INTERPOLATION
 
 SMOOTHING = ("none", "cross-validation")
@@ -34,12 +33,12 @@ class Prepared:
         return self.repaired if self.smoothed is None else self.smoothed
 
 
-def prepare(path, *, tracks: Sequence[float] = roughness.TRACKS, **options: str) -> Prepared:
+def prepare(path, **options: str) -> Prepared:
     """The road of an OpenCRG file, read, cleaned and smoothed as the options say.
 
     Options are those of `crg.read` (but ``interpolation``: `INTERPOLATION` unless
     named, and ``holes``: kept where they are to be filled), those of `clean.clean`,
-    and ``smoothing`` (`SMOOTHING`). ``tracks``: the wheel tracks that the log speaks of. Raises InputError as these do.
+    and ``smoothing`` (`SMOOTHING`). Raises InputError as these do.
     """
     options = {"interpolation": INTERPOLATION, "smoothing": SMOOTHING[0], **options}
     asked = options.pop("smoothing")
@@ -50,7 +49,7 @@ def prepare(path, *, tracks: Sequence[float] = roughness.TRACKS, **options: str)
     reading["holes"] = "keep" if cleaning.get("holes") == "fill" else "refuse"
     measured = crg.read(path, **reading)
     try:
-        repaired, report = clean.clean(measured, tracks=tracks, **cleaning)
+        repaired, report = clean.clean(measured, **cleaning)
     except InputError as problem:
         raise InputError(str(problem), file=path) from None
     smoothed, cutoffs = smoothing.smooth_surface(repaired) if asked == "cross-validation" else (None, {})

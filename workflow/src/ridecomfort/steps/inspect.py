@@ -12,12 +12,12 @@ from ridecomfort.vehicle import parameters
 
 
 def main(road, vehicle, gridded, config, output):
-    tracks = config["wheel_tracks"]
-    prepared = prepare.prepare(road, tracks=tracks, **{**config["options"], "smoothing": "cross-validation"})
+    prepared = prepare.prepare(road, **{**config["options"], "smoothing": "cross-validation"})
     if gridded is not None:
         prepared = scanned(prepared, store.read(gridded))
     found = inspection.inspect(
-        prepared, parameters.read(vehicle), speed=config["speed"], tracks=tracks, lateral=config["lateral_position"], **config["simulation"]
+        prepared, parameters.read(vehicle), speed=config["speed"], tracks=config["wheel_tracks"], lateral=config["lateral_position"],
+        **config["simulation"],
     )
     found.attrs["used"] = "smoothed" if config["options"].get("smoothing") == "cross-validation" else "repaired"
     store.write(found, output, title=f"Inspection of the road of {config['site']}", configuration=config)

@@ -49,16 +49,18 @@ def known(study: Study) -> Chain:
 
     A verdict that was fitted on another site or with another vehicle is not.
     """
-    file = Path(verdict_file(study))
-    verdict = json.loads(file.read_text()) if study.forward and file.is_file() else None
-    return chain(study, verdict if verdict and _is_of(study, verdict) else None)
+    return chain(study, _verdict(study) if study.forward else None)
 
 
-def _is_of(study: Study, verdict: Mapping) -> bool:
-    """Whether a verdict was reached on the site, and with the vehicle, that would be diagnosed first."""
-    first = study.diagnosed[:1]
+def _verdict(study: Study) -> dict | None:
+    """The verdict on the study's model, reached on the site and with the vehicle that would be diagnosed first; None without one."""
+    file, first = Path(verdict_file(study)), study.diagnosed[:1]
+    if not file.is_file():
+        return None
+    verdict = json.loads(file.read_text())
     vehicles = [digest(study.folder / study.vehicle(site)) for site in first]
-    return verdict.get("sites", ())[:1] == first and [verdict.get("vehicle_digest")] == vehicles
+    is_of_it = verdict.get("sites", ())[:1] == first and [verdict.get("vehicle_digest")] == vehicles
+    return verdict if is_of_it else None
 
 
 def below(study: Study, model: str) -> str | None:
@@ -86,8 +88,7 @@ def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
     models = list(dict.fromkeys(Path(file).parts[2] for file in comparisons))
     sets = [set(effects_of(model)) for model in models]
     effects = [name for before, after in zip(sets, sets[1:]) for name in sorted(after - before)]
-    file = Path(verdict_file(study))
-    found = json.loads(file.read_text())["effects"] if file.is_file() else []
-    titles = rung_titles(effects, {effect["name"]: effect.get("like", ()) for effect in found})
+    found = _verdict(study) or {"effects": []}
+    titles = rung_titles(effects, {effect["name"]: effect.get("like", ()) for effect in found["effects"]})
     fitted = {site: study.calibrated_on(site) == site for site in study.measured}
     return json.dumps({"sites": fitted, "models": models, "titles": titles})
