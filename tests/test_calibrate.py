@@ -332,7 +332,7 @@ def test_a_collinear_pair_is_named():
 
 @pytest.mark.parametrize(("name", "is_of_effect"), [("tyre_friction", False), ("suspension_friction.front", True)])
 def test_what_ends_at_a_bound_is_said_of_an_effect_it_may_be_none(name, is_of_effect):
-    known = identifiability.Knowledge(0.01 * np.eye(1), np.array([0.01]), np.ones(1), np.ones((1, 6)), 40)
+    known = identifiability.Knowledge(0.01 * np.eye(1), np.array([0.01]), np.ones(1), np.ones((1, 6)))
     (words,) = identifiability.remarks([name], np.zeros(1), known)
     assert words.startswith(f"{name} is at its lower bound: the data ask for more than the bounds allow")
     assert ("none of it" in words) is is_of_effect
@@ -391,7 +391,7 @@ def test_what_only_shows_as_a_sum_is_not_identified(other):
 def test_many_that_are_alike_are_named_together():
     covariance = np.full((5, 5), 0.95) + 0.05 * np.eye(5)
     covariance[4, :4] = covariance[:4, 4] = 0.0
-    known = identifiability.Knowledge(covariance, np.full(5, 0.1), np.ones(5), np.ones((5, 1)), 40)
+    known = identifiability.Knowledge(covariance, np.full(5, 0.1), np.ones(5), np.ones((5, 1)))
     (words,) = identifiability.remarks(["a", "b", "c", "d", "e"], np.full(5, 0.5), known)
     assert words == "a, b, c and d are hard to tell apart (correlation up to +0.95)"
 

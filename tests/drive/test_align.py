@@ -135,6 +135,18 @@ def test_a_path_farther_from_what_is_told_than_is_searched_is_refused(lanes, nom
         aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=0.0, name="own"), road, nominal)
 
 
+@pytest.mark.parametrize("scale", [1.0, np.pi / 180.0])
+def test_a_drive_that_is_refused_names_signals_in_another_unit(lanes, nominal, scale):
+    """A roll rate in rad/s, told as deg/s, shows of its road as little as one on a wrong path."""
+    road, drive = lanes
+    recorded = quarter_cars.recorded(drive, noise=1.0, lateral_position=0.0, name="own")
+    recorded["roll_rate"] = recorded["roll_rate"] * scale
+    with pytest.raises(InputError, match="drive own: ") as refused:
+        aligned(recorded, road, nominal)
+    named = [part.split()[0] for part in str(refused.value).split("; ")[1:] if part.endswith("is its unit right?")]
+    assert named == (["roll_rate"] if scale < 1.0 else [])
+
+
 def test_a_path_at_the_edge_of_the_grid_is_refused(lanes, nominal):
     """A grid on which the path may lie up to 1.7 m to the left."""
     road, drive = lanes

@@ -136,7 +136,7 @@ def test_holes_are_refused_or_filled_inside_the_road_only(road):
     torn.elevation[100:104, 10:20] = np.nan
     torn.elevation[200:202] = np.nan
     torn.elevation[:, :2] = np.nan
-    with pytest.raises(InputError, match=r"118 holes, the first at u = 10 m.*holes: fill"):
+    with pytest.raises(InputError, match=r"118 cells without a height \(holes\), the first at u = 10 m.*holes: fill"):
         clean.clean(torn)
     filled, report = clean.clean(torn, holes="fill")
     assert report.filled == 118

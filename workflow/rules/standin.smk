@@ -1,5 +1,6 @@
 # Roads and drives that stand in for measured ones, made from seeds (config/standin.yaml).
-# The truth about them is sealed in data/<site>/truth; nothing but a scoring rule may read it.
+# The truth about them is sealed in data/<site>/truth; nothing may read it but these rules
+# and, of the drives, the one that scores a diagnosis.
 for site in study.made:
 
     rule:
@@ -66,7 +67,7 @@ for site in study.made:
                 " --output {output.drives:q} --truth {output.truth:q} 2> {log:q}"
 
 
-# What was hidden against what was found. The only rule that reads the truth; nothing but the page reads its result.
+# What was hidden against what was found. The only rule that reads the truth about drives; nothing but the page reads its result.
 if study.scored:
 
     rule standin_score:

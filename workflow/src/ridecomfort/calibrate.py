@@ -127,7 +127,7 @@ def calibrate(
     parameters of the vehicle without bounds lie between half and twice their nominal value, as far as plausible.
     ``effects`` holds their start and what is not fitted of them. The start is the nominal
     vehicle, clipped into the bounds, with the values of the first of ``start``, mappings of parameter to value in SI units.
-    OP_1 ... OP_5 fit one parameter after the other (fig:optichain), an effect's after them; the joint fit starts where
+    OP_1, OP_2 and so on fit one parameter after the other (fig:optichain), an effect's after them; the joint fit starts where
     they end, from the further ones of ``start`` and from ``restarts`` random points (restart_cost, restart_value).
     ``below`` are the values (SI) of the calibrated model with fewer effects (``values_below``): a further start, which keeps the joint fit
     with an effect from ending above the one without it where all others go astray.

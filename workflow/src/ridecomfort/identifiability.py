@@ -18,7 +18,7 @@ AT_BOUND = 2e-3
 """Share of the bounds' width within which a parameter counts as at its bound."""
 
 UNIDENTIFIED = 0.5
-"""A 90 % interval of half this width to either side covers the bounds: the data say nothing."""
+"""Half width of a 90 % interval, in widths of the bounds, from which on it covers them: the data say nothing."""
 
 COLLINEAR = 0.9
 """Correlation of two estimates beyond which they are named as a pair."""
@@ -40,7 +40,6 @@ class Knowledge:
     half_width: np.ndarray
     singular_values: np.ndarray
     information: np.ndarray
-    blocks: int
 
 
 def assess(
@@ -86,7 +85,6 @@ def assess(
         quantile * np.sqrt(np.diag(covariance)),
         np.linalg.svd(jacobian.reshape(-1, count), compute_uv=False),
         information / (information.sum(axis=1, keepdims=True) + 1e-300),
-        labels.size,
     )
 
 

@@ -32,7 +32,7 @@ which no data sheet gives to a percent, would pass for a damping of the tyre."""
 
 @dataclass
 class Problem:
-    """The least-squares problem: drives, parameters (``effect.parameter`` for those of an effect), bounds, start.
+    """The least-squares problem: drives, parameters (``effect.parameter`` for those of an effect) and bounds.
 
     Points are in units of the bounds (0 to 1). Every simulated point is counted in ``evaluations``.
     """

@@ -41,8 +41,8 @@ def inspect(
     short, or has holes or none of it in a track. Over ``stage``: root mean square ``a_z_rms`` and
     largest ``a_z_peak`` in m/s2, and ``acceleration_psd`` (stage, frequency) of the
     vertical acceleration of one drive of the vehicle at the site's speed profile, ``lateral``
-    m to the left of the reference line, NaN as measured. Over ``wavelength``: the error ``held_out_error`` (direction,
-    trial) against held-out points for each cut-off tried, and ``cutoff`` (direction) in m
+    m to the left of the reference line, NaN as measured. ``trial_cutoff`` (direction, trial): the cut-offs tried in m, with the error ``held_out_error``
+    (direction, trial) of each against held-out points, and ``cutoff`` (direction) in m
     with its ``penalty`` in m4. Over ``defect``: `defects.find`. Attributes give
     counts and shares of treated cells, and the largest change.
     """

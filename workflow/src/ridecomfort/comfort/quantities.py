@@ -142,11 +142,11 @@ def advice(found: xr.Dataset) -> list[str]:
     answer = []
     crest, mtvv, vdv = (float(found[name]) for name in ("crest_factor", "mtvv_ratio", "vdv_ratio"))
     if crest > CREST_LIMIT:
-        answer.append(f"crest factor {crest:.1f} > 9: the rms may underrate it; report MTVV or VDV too (6.2.2)")
+        answer.append(f"crest factor {crest:.1f} > {CREST_LIMIT:g}: the rms may underrate it; report MTVV or VDV too (6.2.2)")
     if mtvv > MTVV_LIMIT:
-        answer.append(f"MTVV / a_w = {mtvv:.2f} > 1.5: single shocks matter; report MTVV too (6.3.3)")
+        answer.append(f"MTVV / a_w = {mtvv:.2f} > {MTVV_LIMIT:g}: single shocks matter; report MTVV too (6.3.3)")
     if vdv > VDV_LIMIT:
-        answer.append(f"VDV / (a_w T^1/4) = {vdv:.2f} > 1.75: shocks matter; report VDV too (6.3.3)")
+        answer.append(f"VDV / (a_w T^1/4) = {vdv:.2f} > {VDV_LIMIT:g}: shocks matter; report VDV too (6.3.3)")
     return answer
 
 

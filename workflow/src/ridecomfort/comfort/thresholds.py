@@ -1,4 +1,4 @@
-"""Thresholds of acceleration by driving style, with those of jerk beside them (sec:thresholding)."""
+"""Thresholds of acceleration by driving style (sec:thresholding)."""
 
 from __future__ import annotations
 

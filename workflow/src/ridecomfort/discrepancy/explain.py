@@ -33,7 +33,7 @@ REACHED = 1.0
 """m from the end of a stretch at which a drive has come through it: its last sample lies a little before."""
 
 HIGHEST = 0.85
-"""Share of the records' own cut-off up to which errors are judged."""
+"""Share of the cut-off up to which a diagnosis judges errors, and repeats of different cut-offs are compared."""
 
 SAME_CUT_OFF = 0.01
 """Relative difference of cut-offs up to which they are the same: each is told from the times of its record."""

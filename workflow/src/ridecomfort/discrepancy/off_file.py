@@ -52,7 +52,7 @@ class OffFile:
         """What they are, and what holding them costs."""
         most = sorted((name for name in self.left if self.left[name] >= LEAST_LEFT), key=lambda name: -self.left[name])[:TOLD]
         left = " and ".join(f"{100 * self.left[name]:.1f} % of the power of {name}" for name in most)
-        return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds: at the values of the file {left} more is left"
+        return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds fixed: with the values of the file another {left} is left"
 
 
 def beside_given(parameter: str, unit: str, value: float, interval: tuple[float, float], given: float) -> str:

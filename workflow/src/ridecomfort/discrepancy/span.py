@@ -27,7 +27,7 @@ CHUNK = 256
 
 @dataclass(frozen=True)
 class Piece:
-    """Rows (row, channel, sample) of a matrix of ``total`` samples that are nil outside of ``start`` and its length."""
+    """Rows (row, channel, sample) of a matrix that are nil before ``start`` and behind the samples that they have."""
 
     numbers: np.ndarray
     start: int

@@ -262,7 +262,7 @@ AT = {
     "place": shape_setting("place", "m", 0.0, -2.0, 2.0, "how far ahead of the centre of gravity it acts"),
     "height": shape_setting("height", "m", 0.0, -0.8, 0.8, "how far above the centre of gravity it acts"),
 }
-"""Where a force on the body acts that comes back, by what this is called."""
+"""Where a force on the body acts, by what this is called."""
 
 
 def coming_back(

@@ -53,7 +53,7 @@ class Named:
     is_of_measurement: bool = False
     """Whether it is an error of the measurement, not of the vehicle."""
     held: tuple[dict, ...] = ()
-    """What shapes it and was not fitted, or came out as is typical: parameter, unit, value, and whether that is the typical one."""
+    """What shapes it and was not fitted, or came out as is typical: ``parameter``, ``size``, ``unit``, and ``is_typical``."""
 
     def beyond(self) -> list[dict]:
         """The sizes whose intervals do not reach into what is plausible."""

@@ -27,6 +27,9 @@ LOWEST = 0.3
 """Correlation (rms over ``place.SHAKEN``) below which a record is none of a drive on this road: with a nominal vehicle a drive has
 0.75 to 0.98, one at a wrong place or path up to 0.3."""
 
+TIMES = 8.0
+"""Times by which the rms of a signal may differ from the model's before another unit is likely: degrees are 57 radians, g 9.8 m/s2."""
+
 CLOSE = 0.02
 """s by which two ways to find the clock may differ."""
 
@@ -137,7 +140,7 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
             f"model and record agree nowhere near this place: {', '.join(place.SHAKEN)} correlate by "
             f"{np.sqrt(max(agreement, 0)):.2f} at best "
             f"(expected {LOWEST:g} or more; is it the road of this drive, are s and the axes right? Where the path is known, "
-            "lateral_position says so)",
+            f"lateral_position says so){_other_units(work, road, vehicle, simulate, options)}",
             place=label,
         )
     if measured and abs(lag) > CLOSE:
@@ -154,10 +157,19 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
         raise InputError(
             f"its path fits the road best {lateral:+.2f} m to the left of {'what is recorded or told' if known else 'the reference line'}, "
             f"at an end of what is searched or beyond (expected between {right:+.2f} and {left:+.2f} m; is lateral_position or e right, "
-            "is the road as wide as the drive?)",
+            f"is the road as wide as the drive?){_other_units(work, road, vehicle, simulate, options)}",
             place=label,
         )
     return work, clock, lateral
+
+
+def _other_units(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> str:
+    """Words on what the road shakes if it is so much larger or smaller than the model's that its unit may be another; empty where none is."""
+    again = replay(work, road, simulate, options=options)
+    measured, modelled = (each[:, again.compared].std(axis=1) for each in (again.measured(), again(vehicle).signals))
+    times = dict(zip(SIGNALS, measured / np.maximum(modelled, 1e-12)))
+    far = {name: times[name] for name in place.SHAKEN if not 1.0 / TIMES < times[name] < TIMES}
+    return "".join(f"; {name} is {found:.2g} times the model's: is its unit right?" for name, found in far.items())
 
 
 def _better(vehicle, values: Mapping[str, float], again: Replay):

@@ -53,7 +53,7 @@ INDEPENDENT = 0.1
 class Leftover:
     """``columns``: change of the residual (6 * compared, error) per error; ``expected``: usual sizes of the errors.
 
-    Errors: clock (s), the seven of the mounting, then knots: of the place along ("along", m), of the path
+    Errors: clock (s), the seven of the mounting, the gains of the six signals, then knots: of the place along ("along", m), of the path
     ("lateral", m, to the left) and of the speed ("speed", m/s); ``parts`` says where each begins and ends.
     """
 

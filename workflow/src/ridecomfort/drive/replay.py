@@ -105,8 +105,7 @@ class Following:
 class Replay:
     """A measured drive, and the road and simulator that it is driven again with.
 
-    ``compared`` marks the samples behind the run-in of the model. ``clock`` (s) shifts the
-    inertial signals against place and speed by what alignment has not taken out.
+    ``compared`` marks the samples behind the run-in of the model.
     """
 
     drive: xr.Dataset
@@ -121,7 +120,8 @@ class Replay:
     """Whether the driver comes to a path some time after it is asked for, as one who steers for a point ahead does."""
 
     def __call__(self, vehicle, effects=(), clock: float = 0.0) -> Simulated:
-        """Simulate and sample at equal place. Raises InputError when the model does not arrive."""
+        """Simulate and sample at equal place; ``clock`` (s) shifts the inertial signals against place and speed by what alignment has not
+        taken out. Raises InputError when the model does not arrive."""
         return self.sample(self.run(vehicle, effects), clock)
 
     def run(self, vehicle, effects=()) -> xr.Dataset:

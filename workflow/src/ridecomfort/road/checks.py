@@ -16,7 +16,7 @@ HEIGHT_LIMIT = 10_000.0
 """m; no road lies higher or lower."""
 
 TURN_LIMIT = 1e4
-"""rad; no road winds more than a thousand times around."""
+"""rad; no road winds more than 1600 times around."""
 
 STEP_LIMIT = 10.0
 """m that a height may lie above or below the median of its cross section."""
@@ -27,7 +27,7 @@ _UNITS = {"phi": "rad", "slope": "m/m", "banking": "m/m"}
 _TEXT_FIELD = {"LRFI": (10, 8), "LDFI": (20, 4)}
 """Characters a value and values a line (OpenCRG 1.2, data formats)."""
 
-_NO_VALUE = re.compile(rb"\*.*|nan", re.IGNORECASE)
+_NO_VALUE = re.compile(rb"\*.*")
 """What stands in a text field without a value: asterisks, or a word that begins with one."""
 
 _END_TOLERANCE = 1e-4

@@ -72,7 +72,7 @@ class Report:
 
     def lines(self) -> list[str]:
         """What a log should say."""
-        said = [f"{self.outliers} outliers repaired, {self.filled} holes filled: {self.share_changed:.3%} of the road"]
+        said = [f"{self.outliers} outliers repaired, {self.filled} cells of holes filled: {self.share_changed:.3%} of the road"]
         if self.largest_at is not None:
             u, v = self.largest_at
             said.append(f"largest change {self.largest_change:.4g} m at u = {u:g} m, v = {v:g} m")
@@ -180,7 +180,7 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
     if hole.any() and chosen["holes"] == "refuse":
         i, j = np.argwhere(hole)[0]
         raise InputError(
-            f"{hole.sum()} holes, the first at u = {u[i]:g} m, v = {v[j]:g} m (or holes: fill)", place="road.holes"
+            f"{hole.sum()} cells without a height (holes), the first at u = {u[i]:g} m, v = {v[j]:g} m (or holes: fill)", place="road.holes"
         )
     banking = road.bank.values[:, None] * v
     repaired = fill(np.where(outlier, np.nan, elevation) - banking, spacing, inside=inside) + banking

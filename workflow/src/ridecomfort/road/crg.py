@@ -234,7 +234,7 @@ def _wild(path, stored: pycrg.CrgGrid, choice: str, treatment: list[str]) -> np.
         found = f"{wild.sum()} heights out of reason, the first {stored.elevation[i, j]:.4g} m"
         if choice == "refuse":
             raise InputError(
-                f"{found}, expected within {checks.HEIGHT_LIMIT:g} m and {checks.STEP_LIMIT:g} m of the middle of"
+                f"{found}, expected within {checks.HEIGHT_LIMIT:g} m and {checks.STEP_LIMIT:g} m of the median height of"
                 " its cross section (or heights: blank)",
                 file=path,
                 place=f"u = {stored.u[i]:g} m, v = {stored.v[j]:g} m",
@@ -335,7 +335,7 @@ def _edges(path, grid, measured, wild, choice, attributes, treatment) -> np.ndar
     unset = beyond & ~spoilt & ~np.isfinite(elevation)
     attributes["edges"] = "none" if unset.any() else "keep"
     if hole.any():
-        treatment.append(f"{hole.sum()} holes inside the road kept")
+        treatment.append(f"{hole.sum()} cells of holes inside the road kept")
     if not beyond.any():
         return elevation
     share = f"{beyond.mean():.2%} of the grid lies outside the edges of the road"

@@ -52,11 +52,11 @@ def deviation(road: xr.Dataset, *, reach: float = REACH) -> np.ndarray:
 def find(road: xr.Dataset, away: np.ndarray | None = None) -> xr.Dataset:
     """Dips, bumps and joints of a road, and what was treated: a row for each, in the order along the road.
 
-    Returns ``kind`` (`KINDS`), ``u`` and ``v`` of the middle, ``length`` along u and
+    Returns ``kind`` (`KINDS`), ``u_middle`` and ``v_middle``, ``length`` along u and
     ``width`` across, ``height`` of the deepest or highest cell (negative: a dip)
     and ``cells``, over the dimension ``defect``. A dip or bump deviates from the
     median of `REACH` m of its own track (``away`` if given, else `deviation`) by
-    `FLOOR` and `THRESHOLD` robust standard deviations of the 100 m around; longer
+    `FLOOR` and `THRESHOLD` robust standard deviations of up to 2000 cross sections around; longer
     unevenness, such as settlements and most patches, is that of the road. A joint
     deviates over half the width at once from the median of `JOINT_REACH` m, by
     `JOINT_FLOOR` and by `JOINT_THRESHOLD` times what nine tenths of the cross

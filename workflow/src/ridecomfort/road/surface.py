@@ -254,7 +254,7 @@ def grid(road: xr.Dataset) -> tuple[np.ndarray, float, float, float, float]:
 
     Every height is finite: beyond the edges of the road it is that of the nearest
     cell across, carried on with the cross slope (`edges.extend`), so that a wheel
-    that leaves the road rolls on level ground. Raises ValueError where the road
+    that leaves the road meets no step. Raises ValueError where the road
     has holes; `clean.fill` closes them.
     """
     elevation = edges.extend(road.elevation.values, road.v.values, road.bank.values)

@@ -10,7 +10,7 @@ WHEEL_TRACK = 0.75
 """m from the middle of the lane to either wheel track (EN 13036-5 measures there)."""
 
 EDGE = 0.2
-"""m over which the edge of a patch, pothole or joint rises or falls."""
+"""m over which the edge of a patch or joint rises or falls."""
 
 
 @dataclass(frozen=True)

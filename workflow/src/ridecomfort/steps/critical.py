@@ -4,7 +4,7 @@ from ridecomfort import store
 from ridecomfort.discrepancy import critical
 from ridecomfort.steps.command import Command
 
-NEEDED = ("measured", "simulated", "residual", "s", "v_x", "e", "role")
+NEEDED = ("measured", "simulated", "residual", "s", "e", "role")
 
 
 def main(comparison, config, output):

@@ -26,7 +26,7 @@ PAGE = "results/report.html"
 """What a run that makes the page ends with."""
 
 TO_LOOK_AT = {
-    "compared": "results/figures/located_*.png, error_ladder.png; results/tables/findings.md, calibrated.md",
+    "compared": "results/tables/alignment.md, calibrated.md, findings.md; results/figures/located_*.png, error_ladder.png",
     "diagnosed": "results/tables/verdict.md, missing_effects.md; results/figures/evidence.png, signature.png",
 }
 """What a run without the page ends with, by the rule that made it."""

@@ -110,7 +110,7 @@ def path_demand(offset: np.ndarray, interval: float, speed: np.ndarray) -> np.nd
     """Target in m that the path follower must be given to drive ``offset`` (m), both over uniform time (``interval`` in s).
 
     The inverse of pure pursuit: with a preview of T seconds it drives an offset e for which, linearised,
-    e + T de/dt + T^2/2 d2e/dt2 is the target. ``offset`` must be smooth: a wave of 1 Hz comes out twelve times as large.
+    e + T de/dt + T^2/2 d2e/dt2 is the target. ``offset`` must be smooth: a wave of 1 Hz comes out thirteen times as large.
     """
     preview = np.maximum(PREVIEW_MINIMUM, PREVIEW_TIME * speed) / speed
     rate = np.gradient(offset, interval)

@@ -18,7 +18,7 @@ Equations of motion in these moving axes (Boltzmann-Hamel; T is the kinetic ener
     d/dt dT/dp   + sum (m_i arm) r v_x           = sum (h F_y + (y + aside) S)
     d/dt dT/dw   + sum (m_i h_wheel) r v_y       = -sum (h_wheel F_x + T_i + (x + ahead) S)
     m_s (dv_z/dt + g)                            = sum S
-    m_i (dz_i/dt' + g)                           = N_i - S_i
+    m_i (d2z_i/dt2 + g)                          = N_i - S_i
     J_i d(spin_i)/dt                             = T_i - R F_i
 
 S: suspension force (with the push of the links), N: load of the tyre, F: its force in the

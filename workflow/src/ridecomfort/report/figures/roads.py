@@ -99,7 +99,7 @@ def views(study: Study, name: str) -> Figure:
 
 
 def _plan(axes, site) -> None:
-    """The reference line from above, marked every kilometre or fifth of a shorter road."""
+    """The reference line from above, marked every 1000 m, 500 m or 100 m by its length."""
     road = site.road
     u, x, y = (road[key].values for key in ("u", "x", "y"))
     x, y = x - x[0], y - y[0]

@@ -241,7 +241,7 @@ def evidence(found: Diagnosis) -> Table:
         "wild bootstrap: a screen of what is worth a refit; docs/diagnosis.md says how often it is small where nothing is missing. Every effect is tested that does what alignment does not do, too; the "
         "best are refitted together with the calibrated parameters, and what that removes "
         "is told above the floor as known in the round: for what an accepted effect removes, and its size, in the end see the missing effects. "
-        "Accepted is what the next round searches beside; whether it has a name in the end says the verdict.",
+        "Accepted is what the next round searches beside; the verdict says whether it is named in the end.",
         *([RIGHTED] if advice.is_vehicle_first(found.verdict) else []),
     )
     return _table(found, "evidence", columns, rows, _evidence_sources(found), notes, breaks[1:])
@@ -274,7 +274,7 @@ def forms(found: Diagnosis) -> Table:
         f"a place is its best, so that places are ranked by it. In their expressions {OF_SIDE}. Gain, p-value (over all terms of all places) and shares as in the evidence "
         "for the library, whose effects are looked for together with them where it explains too little alone: they may be missing, too. "
         f"Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file. Accepted is the best "
-        "of a round; whether it is proposed, and with which factors, fitted together in the end, says the verdict, which takes the library where that does as well.",
+        "of a round. The verdict says whether it is proposed, and with which factors, all fitted together at the end; where the library does as well, the verdict takes the library.",
     )
     return _table(found, "forms", columns, rows, _evidence_sources(found, ranking.FORMS), notes, breaks[1:])
 
