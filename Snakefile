@@ -68,10 +68,13 @@ wildcard_constraints:
     runs=r"\d+-\d+",
 
 
+# Tables and figures are asked for, too: Snakemake does not look for deleted files behind a page that is up to date.
 rule all:
     input:
         "results/report.html",
         [study.maps(site) for site in study.names],
+        lambda wildcards: [*rules.tables.output, *rules.figures.output, *located],
+        lambda wildcards: after_the_verdict(wildcards),
 
 
 for site in study.names:
@@ -97,14 +100,13 @@ for site in study.names:
 rule compare:
     input:
         expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
-        expand("results/tables/{name}.md", name=catalogue.DIFFERENCE_TABLES) if study.measured else [],
-        expand("results/figures/{name}.png", name=catalogue.difference_figures(study.measured)) if study.measured else [],
+        lambda wildcards: [*rules.compared.output, *located] if study.measured else [],
 
 
 rule diagnose:
     input:
         expand("results/diagnosis/{model}/{file}", model=study.model, file=["ranking.nc", "verdict.json"]) if study.diagnosed else [],
-        expand("results/tables/{name}.md", name=catalogue.DIAGNOSIS_TABLES) if study.diagnosed else [],
+        lambda wildcards: rules.diagnosed.output if study.diagnosed else [],
 
 
 report: "workflow/report/study.rst"

@@ -1,7 +1,9 @@
 """What the workflow does: a small study, what reruns, and that shards leave no trace."""
 
 import math
+import os
 import shutil
+import time
 
 import pytest
 import yaml
@@ -59,6 +61,31 @@ def test_drives_over_time_are_not_kept(finished):
 def test_nothing_to_do_on_the_second_call(finished):
     answer = finished.snakemake("--dry-run", "one", "two")
     assert answer.status == 0 and "Nothing to be done" in answer.text
+
+
+@pytest.fixture
+def as_if_finished(project):
+    """A study of one site, every file of which is there, and empty."""
+    project.study(sites=["one"], runs=2)
+    project.site("one")
+    listed, now = project.snakemake("--summary").text.splitlines(), time.time()
+    for file in [line.split("\t")[0] for line in listed if line.startswith("results/")]:
+        path = project.folder / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+        os.utime(path, (now, now))
+    return project
+
+
+@pytest.mark.parametrize(
+    "deleted, jobs",
+    [("tables", {"tables", "report"}), ("figures", {"figures", "report"}), ("tables/sites.csv", {"tables", "report"}), ("figures/roads.pdf", {"figures", "report"})],
+)
+def test_deleted_tables_and_figures_are_made_again(as_if_finished, deleted, jobs):
+    assert "Nothing to be done" in as_if_finished.snakemake("--dry-run").text
+    path = as_if_finished.folder / "results" / deleted
+    shutil.rmtree(path) if path.is_dir() else path.unlink()
+    assert {job.split()[0] for job in as_if_finished.snakemake("--dry-run").jobs} == jobs
 
 
 def test_touching_a_file_reruns_nothing(finished):

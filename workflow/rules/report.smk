@@ -13,6 +13,9 @@ results = [
 ]
 tables = catalogue.tables(stepsettings.summaries(study))
 figures = catalogue.figures(stepsettings.summaries(study))
+located = [
+    f"results/figures/{name}.{suffix}" for site in study.measured for name in catalogue.site_figures(site) for suffix in ("png", "pdf")
+]
 
 
 rule tables:
@@ -68,19 +71,22 @@ rule figures:
         " --config {params.config:q} --output results/figures --workers {threads} 2> {log:q}"
 
 
-# The page needs the verdict first: what it names decides which models stand on the error ladder.
+# The error ladder needs the verdict first: what it names decides which models stand on it.
+after_the_verdict = lambda wildcards: [
+    *(checkpoints.diagnosis.get(model=study.model).output if study.forward else []),
+    *(rules.diagnosed.output if study.forward else []),
+    *(rules.standin_score.output if study.scored else []),
+    *(rules.compared.output if study.measured else []),
+]
+
+
 rule report:
     input:
         results,
         rules.tables.output,
         rules.figures.output,
-        lambda wildcards: [
-            *(checkpoints.diagnosis.get(model=study.model).output if study.forward else []),
-            *(rules.diagnosed.output if study.forward else []),
-            *(rules.standin_score.output if study.scored else []),
-            *(rules.compared.output if study.measured else []),
-            *expand("results/figures/{name}.png", name=[name for site in study.measured for name in catalogue.site_figures(site)]),
-        ],
+        located,
+        after_the_verdict,
         code=modules.of_step("report"),
     output:
         "results/report.html",
