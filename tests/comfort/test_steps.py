@@ -13,6 +13,7 @@ from ridecomfort.comfort import bands, iriedges, limits
 from ridecomfort.errors import InputError
 from ridecomfort.steps import agreement, iri, iso2631, maps
 from ridecomfort.steps import thresholds as thresholds_step
+from tests.described import undescribed
 
 CONFIG = {
     "critical_length": 5,
@@ -134,6 +135,7 @@ def test_agreement_of_the_sites_from_their_files(files):
     assert told["site"].values.tolist() == ["one", "two", "pooled"] and told.attrs["rule"] == "severe"
     assert np.array_equal(told["confusion"].sel(site="one"), told["confusion"].sel(site="two"))
     assert int(told["confusion"].sel(site="pooled", pair="iso2631 - iri").sum()) == 50
+    assert undescribed(told) == []
 
 
 def test_maps_of_a_site_one_a_method(files):

@@ -3,6 +3,8 @@
 import xarray as xr
 
 from ridecomfort.discrepancy import ranking, select
+from ridecomfort.vocabulary import describe
+from tests.described import undescribed
 
 from .linear import Linear
 
@@ -16,8 +18,9 @@ def selection():
 def test_forces_of_any_form_stand_beside_the_library_and_come_back_as_they_were():
     table = ranking.dataset(MODEL, selection())
     assert ranking.forms(table) is None
-    both = ranking.with_forms(table, table)
+    both = ranking.with_forms(table, table.copy())
     xr.testing.assert_identical(both[list(table.data_vars)], table)
+    assert undescribed(describe(both)) == []
     again = ranking.forms(both)
     assert {"p_value", "gain", "passed_over", "trial_effect", "winner"} <= set(again.data_vars)
     xr.testing.assert_identical(again.drop_attrs(), table[list(again.data_vars)].drop_attrs())

@@ -12,7 +12,9 @@ from ridecomfort.discrepancy.signature import _Estimate, signature
 from ridecomfort.effects import library
 from ridecomfort.effects.contract import PORTS
 from ridecomfort.vehicle import parameters
+from ridecomfort.vocabulary import describe
 from tests.blind import trials
+from tests.described import undescribed
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +51,10 @@ def test_friction_shows_as_a_step_where_the_velocity_turns(found):
 
 def test_the_place_where_the_force_acts_explains_most(found):
     assert str(found["seen"].values[int(np.argmax(found["seen_share"].values))]) == "strut velocity"
+
+
+def test_curves_tell_their_units(found):
+    assert undescribed(describe(found.copy())) == []
 
 
 def test_a_force_at_rest_does_not_show(found):

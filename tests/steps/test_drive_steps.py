@@ -16,6 +16,7 @@ from ridecomfort.steps import calibrate, compare, measured
 from ridecomfort.steps.command import NOTE
 from ridecomfort.vocabulary import CALIBRATED, SIGNALS, STANDARD_GRAVITY
 from tests import quarter_cars
+from tests.described import undescribed
 
 SIMULATION = {"step": 0.001, "rate": 100}
 COLUMNS = {"time": {"column": "t", "unit": "s"}, "v_x": {"column": "v", "unit": "km/h"}, "s": {"column": "s", "unit": "m"}}
@@ -98,6 +99,8 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     compared = store.read(files / "comparison.nc")
     nrmse = compared["nrmse"].sel(signal="pitch_rate")
     assert (nrmse.sel(state="calibrated") < 0.3 * nrmse.sel(state="reference")).all()
+    for file in ("measured", "calibration", "lag", "comparison"):
+        assert undescribed(store.read(files / f"{file}.nc")) == []
     assert compared.attrs["located_state"] == "calibrated" and "words" in compared.attrs
     assert compared.attrs["starts"] == found.attrs["starts"] == "agree"
 

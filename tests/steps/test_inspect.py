@@ -10,6 +10,7 @@ import xarray as xr
 from ridecomfort import store
 from ridecomfort.road import clean, crg
 from ridecomfort.steps import inspect
+from tests.described import undescribed
 
 LENGTH = 260.0
 SETTINGS = {
@@ -48,6 +49,7 @@ def test_what_was_planted_is_found_and_counted(found):
     assert kinds.count("outlier repaired") == 2 and kinds.count("dip") == 1
     dip = found.isel(defect=kinds.index("dip"))
     assert dip["u_middle"].item() == pytest.approx(150.15, abs=0.2) and dip["height"].item() == pytest.approx(-0.04, abs=0.01)
+    assert undescribed(found) == []
     assert found.attrs["cells_repaired"] == 2 and found.attrs["cells_filled"] == 0
     assert found.attrs["share_changed"] == pytest.approx(2 / found.attrs["cells"])
     assert found.attrs["largest_change"] == pytest.approx(0.25, abs=0.01)

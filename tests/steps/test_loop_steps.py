@@ -9,6 +9,7 @@ import pytest
 from ridecomfort import store
 from ridecomfort.steps import critical, ladder, standin_score
 from ridecomfort.steps.command import NOTE
+from tests.described import undescribed
 from tests.report import differing as made_up
 
 MODELS = {"base": (0.5, 0.4), "suspension_friction": (0.5, 0.1)}
@@ -34,6 +35,7 @@ def test_comparisons_become_graded_sections_and_these_a_ladder(folder, capsys):
     left = found["left_overall"].sel(site="home", group="fitted").values
     assert left[1] == pytest.approx(1.0) and left[0] > 1.0 > left[2]
     assert found["agreeing"].attrs["units"] == "1" and found.attrs["configuration_hash"]
+    assert undescribed(found) == undescribed(store.read(folder / "base" / "critical.nc")) == []
     # The other way round the error rises, which is for the person who waits, too.
     assert NOTE not in capsys.readouterr().err
     ladder.main(*(each[::-1] for each in files), config | {"models": list(MODELS)[::-1]}, folder / "turned.nc")

@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from ridecomfort import store
+from tests.described import undescribed
 
 pytestmark = pytest.mark.slow
 
@@ -50,6 +51,12 @@ def test_a_site_needs_no_more_than_a_road(finished):
             assert found.sizes["window"] == (250 - 50 - 25) // 5
             assert found.attrs["configuration_hash"]
     assert not any("calibration" in file or "comparison" in file for file in finished.files())
+
+
+def test_every_file_tells_what_it_holds(finished):
+    files = [file for file in finished.files() if file.endswith(".nc")]
+    assert len(files) > 10
+    assert {file: undescribed(store.read(finished.folder / file)) for file in files} == dict.fromkeys(files, [])
 
 
 def test_drives_over_time_are_not_kept(finished):

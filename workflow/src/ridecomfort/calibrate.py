@@ -365,7 +365,7 @@ def _dataset(task, start, chosen, in_sequence, steps: Mapping[str, Descent], kno
             "interval_upper": ("parameter", np.minimum(value + half, task.upper)),
             "value_sequence": ("parameter", task.values(in_sequence)),
             "verdict": ("parameter", np.array(verdicts)),
-            "correlation": (("parameter", "other"), correlation),
+            "correlation": (("parameter", "other"), correlation, {"units": "1", "long_name": "correlation of the estimates of two parameters"}),
             "signal_share": (("parameter", "signal"), knowledge.information),
             "singular_value": ("rank", knowledge.singular_values),
             "cost": ("step", np.array([step.cost for step in steps.values()])),

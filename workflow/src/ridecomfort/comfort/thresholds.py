@@ -64,7 +64,7 @@ def detect(
     variables |= runs.detections(found, counts, len(number), along, dims, np.concatenate(shares, axis=-1))
     variables["lower"] = (dims, edges[..., 0], {"units": unit, "long_name": "lower threshold"})
     variables["upper"] = (dims, edges[..., 1], {"units": unit, "long_name": "upper threshold"})
-    variables["source"] = (dims, [[table[name][style].source for style in styles] for name in quantities])
+    variables["source"] = (dims, [[table[name][style].source for style in styles] for name in quantities], {"long_name": "where the threshold is from"})
     coords = {"quantity": quantities, "style": styles, "s": s, "run": number}
     return runs.dataset(variables, coords, along, len(number), method="thresholds")
 

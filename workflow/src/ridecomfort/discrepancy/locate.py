@@ -103,7 +103,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
             "explainable_share": (("signal", "stretch", "band"), above / np.where(whole > 0, whole, np.nan)),
             "error_map": (("signal", "s_map", "frequency_map"), density),
             "floor_density": (("signal", "frequency_map"), floor_density),
-            "correlation": ("signal", judged.correlation(signal, signal + error), {"units": "1"}),
+            "correlation": ("signal", judged.correlation(signal, signal + error), {"units": "1", "long_name": "correlation of the measured signal with the model"}),
             "ratio": ("signal", judged.ratio(signal, signal + error), {"units": "1"}),
             "against": ("signal", judged.against(recorded, driven, rate, names), {"units": "1"}),
             "goes_with": ("signal", np.array(judged.taken_for(recorded, driven, names.tolist()))),

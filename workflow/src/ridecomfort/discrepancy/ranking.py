@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from ..vocabulary import describe
 from .experiment import Experiment
 from .explain import ASSUMED, NIL, REPEATS
 from .selection import Selection, Trial, shares
@@ -88,7 +89,7 @@ def dataset(experiment: Experiment, selection: Selection) -> xr.Dataset:
 def with_forms(table: xr.Dataset, own: xr.Dataset) -> xr.Dataset:
     """The evidence of the library with its ``own`` of the terms of a force of any form beside it."""
     own = own[[name for name, values in own.data_vars.items() if values.dims and TESTED.issuperset(values.dims)]]
-    return table.merge(own.rename({name: f"{FORMS}{name}" for name in (*own.variables, *own.dims)}))
+    return table.merge(describe(own).rename({name: f"{FORMS}{name}" for name in (*own.variables, *own.dims)}))
 
 
 def forms(table: xr.Dataset) -> xr.Dataset | None:

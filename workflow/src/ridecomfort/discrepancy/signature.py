@@ -145,9 +145,9 @@ def _dataset(chosen: Mapping[str, Seen], estimates: Sequence[_Curve]) -> xr.Data
             "seen_share": ("seen", np.array([curve.share for curve in estimates]), {"units": "1"}),
             "missing_what": text("lacks"),
             "missing_unit": text("lacks_unit"),
-            "missing": (over, table["missing"], {"long_name": "what the model lacks, in missing_unit"}),
-            "missing_error": (over, table["error"], {"long_name": "standard error of it"}),
-            "named_missing": (over, table["named"], {"long_name": "what would show were the named effects the truth"}),
+            "missing": (over, table["missing"]),
+            "missing_error": (over, table["error"]),
+            "named_missing": (over, table["named"]),
         },
         {"seen": list(chosen), "axle": list(AXLES)},
     )

@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from ..errors import InputError
+from ..vehicle.parameters import PARAMETERS
 from ..vocabulary import DRIVE, SIGNALS, STANDARD_GRAVITY, VARIABLES, describe
 from . import sampling
 
@@ -358,6 +359,8 @@ def stack(drives: list[xr.Dataset]) -> xr.Dataset:
     data = {name: (("drive", "time"), values) for name, values in rows.items()}
     for name in drives[0].attrs:
         data[name] = ("drive", np.array([drive.attrs[name] for drive in drives]))
+    for name in data.keys() & PARAMETERS.keys():
+        data[name] = (*data[name], {"units": PARAMETERS[name].unit, "long_name": PARAMETERS[name].meaning})
     names = data.pop("name")[1].astype(str)
     stacked = xr.Dataset(data, {"time": longest["time"].values, "drive": names})
     return describe(stacked)
