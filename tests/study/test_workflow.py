@@ -57,6 +57,8 @@ def test_every_file_tells_what_it_holds(finished):
     files = [file for file in finished.files() if file.endswith(".nc")]
     assert len(files) > 10
     assert {file: undescribed(store.read(finished.folder / file)) for file in files} == dict.fromkeys(files, [])
+    by_samples = [file for file in files if "/base/" in file or "samples" in file]
+    assert {store.seed(finished.folder / file) for file in by_samples} == {2021}
 
 
 def test_drives_over_time_are_not_kept(finished):

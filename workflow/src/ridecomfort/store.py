@@ -84,6 +84,11 @@ def replacing(path):
         raise
 
 
+def seed(path) -> int | None:
+    """Seed that a file was made with, None where it tells of none. Raises InputError as ``read`` does."""
+    return read(path, []).attrs.get("seed")
+
+
 def read(path, variables: Iterable[str] | None = None) -> xr.Dataset:
     """A dataset loaded whole into memory, or only some of its variables.
 

@@ -40,7 +40,11 @@ def main(road, measured, vehicle, calibration, config, output, workers, elsewher
     if calibration is not None:
         result.attrs["starts"] = calibration.attrs["starts"]
     store.write(
-        result, output, title=f"Simulated against measured drives on {config['site']}", configuration=config
+        result,
+        output,
+        title=f"Simulated against measured drives on {config['site']}",
+        configuration=config,
+        seed=None if calibration is None else calibration.attrs.get("seed"),
     )
     for doubt in doubts:
         note(doubt)

@@ -22,7 +22,8 @@ def main(shards, road, config, output):
         moving_average=settings["moving_average"],
         sliding=config["sections"] == "sliding",
     )
-    store.write(found, output, title="Ride quality by the IRI at the speed driven", configuration=config)
+    title = "Ride quality by the IRI at the speed driven"
+    store.write(found, output, title=title, configuration=config, seed=store.seed(shards[0]))
 
 
 if __name__ == "__main__":

@@ -16,7 +16,12 @@ def main(shards, config, output):
     )
     suffered = xr.concat([store.read(shard, doses.NAMES) for shard in shards], "run")
     store.write(
-        found.merge(suffered), output, title="Critical sections by ISO 2631-1", configuration=config, keep_bits=KEPT_BITS
+        found.merge(suffered),
+        output,
+        title="Critical sections by ISO 2631-1",
+        configuration=config,
+        seed=store.seed(shards[0]),
+        keep_bits=KEPT_BITS,
     )
 
 

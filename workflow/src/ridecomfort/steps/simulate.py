@@ -48,6 +48,7 @@ def main(road, samples, vehicle, calibration, runs, config, output):
         output,
         title=f"Simulated drives on {config['site']}",
         configuration=config,
+        seed=drawn.attrs.get("seed"),
         compress=False,
     )
 

@@ -38,6 +38,7 @@ def main(drives, road, config, output):
         output,
         title=f"Simulated drives on {config['site']} over distance",
         configuration=config,
+        seed=runs.attrs.get("seed"),
         keep_bits=KEPT_BITS,
     )
 

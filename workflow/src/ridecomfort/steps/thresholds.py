@@ -16,6 +16,7 @@ def main(shards, config, output):
         output,
         title="Critical sections by thresholds of acceleration and jerk",
         configuration=config,
+        seed=store.seed(shards[0]),
     )
 
 
