@@ -96,6 +96,9 @@ def test_means():
         ((np.zeros(400), S, 0.0, -5.0), "not a length"),
         ((np.zeros(3), [0.0, 10.0, 20.0], 0.0, 5.0), "no sample between"),
         ((np.zeros(2), [1.0, 0.0], 0.0), "ascending"),
+        ((np.ones(400), S, np.nan), "threshold: nan, expected a number"),
+        ((np.ones(400), S, (np.nan, 0.5)), "threshold: nan, expected a number"),
+        ((np.ones(400), S, (-0.5, np.where(S < S[9], np.nan, 0.5))), "threshold: nan, expected a number"),
     ],
 )
 def test_mistakes_are_named(arguments, message):

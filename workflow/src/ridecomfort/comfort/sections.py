@@ -89,7 +89,7 @@ def critical(signal, s, threshold, length: float = LENGTH, *, sliding: bool = Fa
     or a pair (lower, upper) of either, outside of which it must lie.
 
     Returns ``critical`` (..., window) and ``window_start`` (window) in m.
-    Raises InputError for gaps in the signal and lengths that do not fit.
+    Raises InputError for gaps in the signal, thresholds that are no numbers and lengths that do not fit.
     Source: sec:th_methdology, read with sec:ride_comfort_results.
     """
     values, dims, coords = _over_s(signal, s)
@@ -140,13 +140,21 @@ def _band(threshold, places: int):
         limit = np.asarray(threshold, float)
         if limit.ndim and limit.shape[-1] != places:
             raise InputError(f"{limit.shape[-1]} thresholds for {places} places", place="threshold")
+        _check_numbers(limit)
         return None, limit
     if len(threshold) != 2:
         raise InputError(f"{threshold!r} is not a pair (lower, upper)", place="threshold")
     lower, upper = (np.asarray(limit, float) for limit in threshold)
+    _check_numbers(lower, upper)
     if np.any(lower > upper):
         raise InputError("the lower threshold lies above the upper one", place="threshold")
     return lower, upper
+
+
+def _check_numbers(*limits: np.ndarray) -> None:
+    for limit in limits:
+        if np.isnan(limit).any():
+            raise InputError("nan, expected a number", place="threshold")
 
 
 def _dataset(condition: np.ndarray, along: Windows, dims: tuple, coords: dict) -> xr.Dataset:
