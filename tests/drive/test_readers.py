@@ -7,11 +7,11 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from ridecomfort import store
+from ridecomfort import schema, store
 from ridecomfort.drive import configured, readers, units
 from ridecomfort.errors import InputError
 from ridecomfort.vehicle import parameters
-from ridecomfort.vocabulary import SIGNALS, STANDARD_GRAVITY
+from ridecomfort.vocabulary import SIGNALS, STANDARD_GRAVITY, VARIABLES
 
 COLUMNS = {
     "time": {"column": "t [ms]", "unit": "ms"},
@@ -189,6 +189,13 @@ def test_units_may_be_spelled_as_udunits_and_headers_do(quantity, unit, written)
     for other in written:
         assert units.spelled(other) == unit, other
         assert units.factor(quantity, other) == units.factor(quantity, unit)
+
+
+def test_a_site_may_name_every_unit_that_a_column_is_converted_from():
+    known = schema.load("site")["$defs"]
+    quantities = known["drive"]["properties"]["columns"]["properties"]
+    convertible = {unit for quantity in quantities for unit in units.FACTORS[VARIABLES[quantity].unit]}
+    assert set(known["column"]["properties"]["unit"]["enum"]) == convertible
 
 
 @pytest.mark.parametrize("unit", ["s-1", "mph", "m s-3", "metre s-2 rad", "seconds since 2020-01-01", ""])
