@@ -216,6 +216,12 @@ def test_a_straight_road_is_written_straight(tmp_path, alpine):
     assert (again.heading == 0.0).all() and (again.y == 0.0).all()
 
 
+def test_a_road_that_holds_its_heights_across_before_along_is_written_like_any_other(tmp_path, alpine):
+    crg.write(tmp_path / "road.crg", alpine)
+    crg.write(tmp_path / "turned.crg", alpine.transpose("v", "u"))
+    assert (tmp_path / "turned.crg").read_bytes() == (tmp_path / "road.crg").read_bytes()
+
+
 def test_writing_leaves_nothing_behind_when_it_fails(tmp_path, alpine):
     alpine.elevation[10, 20] = np.nan
     with pytest.raises(InputError, match="between valid"):

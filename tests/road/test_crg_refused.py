@@ -210,7 +210,7 @@ def test_a_single_wild_height_can_be_blanked_by_name(tmp_path, height):
         crg.read(path, heights="blank")
     road = crg.read(path, heights="blank", holes="keep")
     assert int(road.elevation.isnull().sum()) == 1
-    with pytest.raises(ValueError, match="holes"):
+    with pytest.raises(InputError, match="road: no height at u = 1.2 m, v = 0 m, expected a road without holes inside its edges"):
         surface.grid(road)
 
 

@@ -30,6 +30,17 @@ def test_the_surface_passes_through_the_grid(interpolation):
     np.testing.assert_allclose(found, heights, atol=1e-14)
 
 
+@pytest.mark.parametrize("edge", [0.0, np.nan])
+def test_heights_may_be_held_across_before_along(edge):
+    heights = np.random.default_rng(1).normal(size=(9, 9))
+    heights[2:5, 0] += edge
+    road = road_of(heights, u=0.25 * np.arange(9))
+    turned = road.assign(elevation=road.elevation.transpose("v", "u"))
+    at_u, at_v = np.random.default_rng(2).uniform(0, 2, (2, 50))
+    np.testing.assert_array_equal(surface.height(turned, at_u, at_v), surface.height(road, at_u, at_v))
+    np.testing.assert_array_equal(surface.grid(turned)[0], surface.grid(road)[0])
+
+
 def test_linear_is_exact_for_a_twisted_plane():
     u, v = np.arange(8) * 0.5, np.arange(6) * 0.25
     road = road_of(1 + 0.3 * u[:, None] - 0.2 * v + 0.1 * u[:, None] * v, interpolation="linear")

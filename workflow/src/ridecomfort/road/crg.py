@@ -177,7 +177,7 @@ def write(path, road: xr.Dataset, *, format: str = "KRBI", comment: str = "") ->
     du = (u[-1] - u[0]) / (len(u) - 1)
     slope, bank = (np.round(road[name].values / _CHANNEL_STEP) * _CHANNEL_STEP for name in ("slope", "bank"))
     climb = np.concatenate([[0.0], np.cumsum(du * slope[1:])])
-    relative = road.elevation.values - climb[:, None] - bank[:, None] * v
+    relative = road.elevation.transpose("u", "v").values - climb[:, None] - bank[:, None] * v
     start = road.attrs.get("reference_height_start", float(np.round(np.nanmean(relative), 3)))
     relative = np.round((relative - start) / HEIGHT_STEP) * HEIGHT_STEP
     x, y = road.x.values, road.y.values

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy import ndimage
 
+from ..errors import InputError
+
 NOTCH = 1.0
 """m along the road; an edge is not told from notches no longer than a hole that may be filled."""
 
@@ -42,7 +44,7 @@ def extend(elevation: np.ndarray, v: np.ndarray, bank: np.ndarray, offset: float
     A cell takes the height of the nearest cell across that has one, carried on
     with the cross slope ``bank`` (u) and raised by ``offset`` m: what OpenCRG's
     grid_nan_mode 2 gives. A cross section without any height takes the nearest
-    one along the road that has. Holes inside the road stay.
+    one along the road that has. Holes inside the road stay. Raises InputError for a road without any height.
     """
     beyond = outside(elevation)
     if not beyond.any():
@@ -50,7 +52,7 @@ def extend(elevation: np.ndarray, v: np.ndarray, bank: np.ndarray, offset: float
     relative = elevation - bank[:, None] * v
     filled_rows = np.flatnonzero(~beyond.all(axis=1))
     if not filled_rows.size:
-        raise ValueError("a road without any height cannot be extended")
+        raise InputError("holds no height at all, expected some", place="road")
     rows = np.arange(len(relative))
     after = np.searchsorted(filled_rows, rows).clip(max=filled_rows.size - 1)
     before = (after - 1).clip(min=0)

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numba import njit
 
+from ..errors import InputError
 from . import edges
 
 BORDER_MODES = ("none", "zero", "keep", "repeat", "reflect")
@@ -254,12 +255,18 @@ def grid(road: xr.Dataset) -> tuple[np.ndarray, float, float, float, float]:
 
     Every height is finite: beyond the edges of the road it is that of the nearest
     cell across, carried on with the cross slope (`edges.extend`), so that a wheel
-    that leaves the road meets no step. Raises ValueError where the road
+    that leaves the road meets no step. Raises InputError where the road
     has holes; `clean.fill` closes them.
     """
-    elevation = edges.extend(road.elevation.values, road.v.values, road.bank.values)
-    if not np.isfinite(elevation).all():
-        raise ValueError("the road has holes inside its edges; fill them first (road.clean.fill)")
+    elevation = edges.extend(road.elevation.transpose("u", "v").values, road.v.values, road.bank.values)
+    unknown = ~np.isfinite(elevation)
+    if unknown.any():
+        i, j = np.argwhere(unknown)[0]
+        raise InputError(
+            f"no height at u = {road.u.values[i]:g} m, v = {road.v.values[j]:g} m, expected a road without holes inside its edges "
+            "(road.clean.fill closes them)",
+            place="road",
+        )
     return np.ascontiguousarray(elevation, dtype=np.float64), *_axis(road.u.values), *_axis(road.v.values)
 
 
@@ -276,7 +283,7 @@ def height(road: xr.Dataset, u, v, *, interpolation: str | None = None) -> np.nd
     Positions that are not finite give NaN.
     """
     interpolation = interpolation or road.attrs.get("interpolation", INTERPOLATION)
-    elevation, bank = road.elevation.values, road.bank.values
+    elevation, bank = road.elevation.transpose("u", "v").values, road.bank.values
     if road.attrs.get("edges", "keep") == "keep":
         elevation = edges.extend(elevation, road.v.values, bank)
     elevation, bank = (np.ascontiguousarray(values, dtype=np.float64) for values in (elevation, bank))
