@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 from scipy.optimize import least_squares
 
-from ridecomfort import calibrate, calibrated, descent, identifiability, simulate
+from ridecomfort import calibrate, calibrated, descent, identifiability, problem, simulate
 from ridecomfort.discrepancy import compare
 from ridecomfort.drive import record
 from ridecomfort.effects import library
@@ -360,6 +360,12 @@ def test_a_search_turns_back_where_a_vehicle_cannot_be_driven_but_must_not_start
     assert found.point[0] == pytest.approx(0.3, abs=1e-3)
     with pytest.raises(InputError, match="cannot be driven"):
         descent.descend(Overshooting(), np.array([0.05]), [0], 1e-6)
+
+
+def test_a_point_whose_vehicle_there_cannot_be_is_one_that_cannot_be_driven(nominal):
+    car = lambda point: calibrated.with_values(nominal, {}, {"cg_to_front_axle": point[0]})
+    task = SimpleNamespace(replays=[None], _car=car, _residual=None)
+    assert "lies behind the rear axle" in str(problem.Problem._piece(task, 0, np.array([1.01 * nominal["wheelbase"]])))
 
 
 def test_starts_that_end_elsewhere_are_said_with_the_parameter_they_differ_in():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 import yaml
 
@@ -94,3 +95,15 @@ def test_replace_checks_like_reading(car):
         car.replace(sprung_mass=-1.0)
     with pytest.raises(InputError, match="weight"):
         car.replace(weight=1500.0)
+    with pytest.raises(InputError, match=r"^cg_to_front_axle: 2.8 m lies behind the rear axle \(wheelbase 2.757 m\)"):
+        car.replace(cg_to_front_axle=2.8)
+    with pytest.raises(InputError, match=r"^cg_to_front_axle: 1.8 m lies behind the rear axle \(wheelbase 1.7 m\)"):
+        car.replace(cg_to_front_axle=1.8, wheelbase=1.7)
+
+
+@pytest.mark.parametrize("mass", [1500, np.int64(1500), np.float32(1500.0), np.float64(1500.0)])
+def test_replace_takes_numbers_of_every_kind_and_makes_them_alike(car, mass):
+    assert type(car.replace(sprung_mass=mass)["sprung_mass"]) is float and car.replace(sprung_mass=mass)["sprung_mass"] == 1500.0
+    for wrong in (True, np.bool_(True), "1500", np.float32("nan")):
+        with pytest.raises(InputError, match="sprung_mass"):
+            car.replace(sprung_mass=wrong)

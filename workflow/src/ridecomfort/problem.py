@@ -108,8 +108,8 @@ class Problem:
 
     def _evaluate(self, points: Iterable[np.ndarray]) -> None:
         """Simulate all drives at points, side by side; the last ones are remembered."""
-        new = {_key(point): self._car(point) for point in points if _key(point) not in self._known}
-        jobs = [(i, *car) for car in new.values() for i in range(len(self.replays))]
+        new = {_key(point): point for point in points if _key(point) not in self._known}
+        jobs = [(i, point) for point in new.values() for i in range(len(self.replays))]
         pieces = self.each(lambda job: self._piece(*job), jobs)
         for key in new:
             if len(self._known) > 4 * len(self.parameters):
@@ -118,10 +118,10 @@ class Problem:
             found = [next(pieces) for _ in self.replays]
             self._known[key] = next((piece for piece in found if isinstance(piece, InputError)), found)
 
-    def _piece(self, i: int, vehicle, effects) -> tuple[np.ndarray, np.ndarray] | InputError:
+    def _piece(self, i: int, point: np.ndarray) -> tuple[np.ndarray, np.ndarray] | InputError:
         """Residual of one drive and what the projection leaves of it, or why it cannot be driven."""
         try:
-            whole = self._residual(self.replays[i], i, vehicle, effects)
+            whole = self._residual(self.replays[i], i, *self._car(point))
         except InputError as problem:
             return problem
         return whole, self._left_over[i](whole)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
 
@@ -69,10 +70,10 @@ class Vehicle:
         return self.values[parameter]
 
     def replace(self, **values: float) -> Vehicle:
-        """The same vehicle with some values changed; ranges are checked again."""
-        for name, value in values.items():
-            _check(name, value, None)
-        return Vehicle(self.name, MappingProxyType({**self.values, **values}), self.sources)
+        """The same vehicle with some values changed; ranges and the place of the centre of gravity are checked again."""
+        changed = {**self.values, **{name: _check(name, value, None) for name, value in values.items()}}
+        _check_place(changed, None)
+        return Vehicle(self.name, MappingProxyType(changed), self.sources)
 
     def about(self, parameter: str) -> tuple[float, float]:
         """Half and twice the value of a parameter, as far as it is plausible, the lower one first."""
@@ -103,12 +104,7 @@ def read(path) -> Vehicle:
     for name in PARAMETERS:
         if name not in values:
             raise InputError(f"parameter {name!r} is missing", file=path)
-    if values["cg_to_front_axle"] >= values["wheelbase"]:
-        raise InputError(
-            f"{values['cg_to_front_axle']:g} m lies behind the rear axle (wheelbase {values['wheelbase']:g} m)",
-            file=path,
-            place="cg_to_front_axle",
-        )
+    _check_place(values, path)
     return Vehicle(path.stem, MappingProxyType(values), MappingProxyType(sources))
 
 
@@ -116,10 +112,17 @@ def _check(name: str, value, path) -> float:
     parameter = PARAMETERS.get(name)
     if parameter is None:
         raise InputError(f"unknown vehicle parameter {name!r}", file=path)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not parameter.lower <= value <= parameter.upper:
+    if isinstance(value, bool) or not isinstance(value, Real) or not parameter.lower <= value <= parameter.upper:
         raise InputError(
             f"{value!r} {parameter.unit}, expected {parameter.lower:g} to {parameter.upper:g} {parameter.unit}",
             file=path,
             place=name,
         )
     return float(value)
+
+
+def _check_place(values: Mapping[str, float], path) -> None:
+    """Raise InputError where the centre of gravity lies behind the rear axle, as far as both are known."""
+    place, wheelbase = (values.get(name) for name in ("cg_to_front_axle", "wheelbase"))
+    if None not in (place, wheelbase) and place >= wheelbase:
+        raise InputError(f"{place:g} m lies behind the rear axle (wheelbase {wheelbase:g} m)", file=path, place="cg_to_front_axle")
