@@ -9,6 +9,7 @@ import yaml
 from ridecomfort import config, schema
 from ridecomfort.errors import InputError
 from ridecomfort.report.tables import agreement, comfort
+from ridecomfort.vocabulary import CALIBRATED
 from tests.projects import DRIVE, HEADER, assert_said, columns, write
 
 
@@ -112,7 +113,16 @@ STUDY_MISTAKES = [
     ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: "),
     ({"vehicle": "tank"}, "vehicle: unknown vehicle 'tank'; known vehicles: "),
     ({"effects": ["magic"]}, "effects: unknown effect 'magic'"),
-    ({"effects": [{"a": {"b": "c"}}]}, "is not of the expected form"),
+    ({"vehicle": ""}, "vehicle: unknown vehicle ''; known vehicles: "),
+    ({"effects": [{"a": {"b": "c"}}]}, "effects: entry 1: {'a': {'b': 'c'}}, expected a name, or {name: {parameter: number}}"),
+    ({"effects": [{"damper_knee": None}]}, "effects: entry 1: {'damper_knee': None}, expected a name, or {name: {parameter: number}}"),
+    ({"effects": ["pull", 3]}, "effects: entry 2: 3, expected a name, or {name: {parameter: number}}"),
+    ({"effects": [None]}, "effects: entry 1: None, expected a name, or {name: {parameter: number}}"),
+    ({"effects": [{3: {"knee": 0.1}}]}, "effects: entry 1: {3: {'knee': 0.1}}, expected a name, or {name: {parameter: number}}"),
+    ({"effects": [{"damper_knee": {"knee": "1e-1"}}]}, "effects: entry 1: damper_knee: knee: '1e-1', expected a number; YAML reads this as text, write 0.1"),
+    ({"effects": [{"damper_knee": {"knee": "0.1"}}]}, "knee: '0.1', expected a number; YAML reads this as text, write 0.1"),
+    ({"effects": [{"damper_knee": {"knee": "0.1", "share": "small"}}]}, "'share': 'small'}}, expected a name, or {name: {parameter: number}}"),
+    ({"comfort": {"jerk": {5: [-2.9, 2.9]}}}, "comfort: jerk: 5, expected text (a name of letters, digits and underscores)"),
     ({"effects_folder": "missing"}, "effects_folder: no such folder"),
 ]
 
@@ -120,6 +130,11 @@ STUDY_MISTAKES = [
 @pytest.mark.parametrize(("change", "said"), STUDY_MISTAKES, ids=[said for _, said in STUDY_MISTAKES])
 def test_mistake_in_the_study(project, change, said):
     assert_said(project, {"sites": ["own"], **change}, said, config.STUDY)
+
+
+def test_names_that_would_have_been_right_are_always_said_in_the_same_order(project):
+    said = "'damping_front' is not calibrated; expected of " + ", ".join(sorted(CALIBRATED))
+    assert_said(project, {"sites": ["own"], "calibration": {"bounds": {"damping_front": [0, 9000]}}}, said, config.STUDY)
 
 
 @pytest.mark.parametrize(("change", "said"), STUDY_MISTAKES[:1])
@@ -332,3 +347,12 @@ def test_mistake_in_a_vehicle(project):
     file.write_text(yaml.safe_dump(vehicle))
     with pytest.raises(InputError, match="sprung_mass: unit 't', expected 'kg'"):
         config.load({"sites": ["own"]}, project)
+
+
+def test_a_source_of_a_vehicle_says_something(project):
+    file = project / config.VEHICLES / "midsize.yaml"
+    vehicle = yaml.safe_load(file.read_text())
+    vehicle["parameters"]["sprung_mass"]["source"] = ""
+    file.write_text(yaml.safe_dump(vehicle))
+    said = "parameters: sprung_mass: source: '', expected some text (Where the value comes from)"
+    assert_said(project, {"sites": ["own"]}, said, file)

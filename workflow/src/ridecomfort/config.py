@@ -140,7 +140,7 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
     for number, drive in enumerate(site["drives"], start=1):
         _check_drive(drive, file, f"drives: entry {number}")
     names = [drive.setdefault("name", Path(drive["file"]).stem) for drive in site["drives"]]
-    for twice in {drive for drive in names if names.count(drive) > 1}:
+    for twice in sorted({drive for drive in names if names.count(drive) > 1}):
         raise InputError(f"two drives are named {twice!r}", file=file, place="drives")
     return site
 
@@ -178,7 +178,7 @@ def _check_effects(study: Study, given: list[str]) -> None:
     if folder is not None:
         library.find(folder)  # a file there that is no effect would end the diagnosis only
     named = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
-    for twice in {name for name in named if named.count(name) > 1}:
+    for twice in sorted({name for name in named if named.count(name) > 1}):
         raise InputError(f"{twice!r} stands twice, expected each effect once", file=_source("effects", given), place="effects")
     _check_profiles(study.settings["calibration"]["profiles"], folder, _source("calibration", given))
     if study.effects():
@@ -203,7 +203,7 @@ def _check_profiles(profiles: Sequence[str], folder: Path | None, source) -> Non
 
 def _check_parameters(calibration: Mapping, source) -> None:
     chosen = calibration["parameters"]
-    for key, known in (("parameters", parameters.PARAMETERS), ("bounds", {*chosen, *CALIBRATED})):
+    for key, known in (("parameters", parameters.PARAMETERS), ("bounds", sorted({*chosen, *CALIBRATED}))):
         for name in calibration[key]:
             if name not in known:
                 what = "is not calibrated; expected of" if key == "bounds" else "is no parameter of a vehicle; known are"
@@ -243,7 +243,8 @@ def _check_vehicles(study: Study, given: list[str]) -> None:
         if not file.is_file():
             known = ", ".join(sorted(path.stem for path in (study.folder / VEHICLES).glob("*.yaml")))
             source = SITES / f"{name}.yaml" if "vehicle" in site else _source("vehicle", given)
-            raise InputError(f"unknown vehicle {file.stem!r}; known vehicles: {known}", file=source, place="vehicle")
+            named = site.get("vehicle", study.settings["vehicle"])
+            raise InputError(f"unknown vehicle {named!r}; known vehicles: {known}", file=source, place="vehicle")
         parameters.read(file)
 
 

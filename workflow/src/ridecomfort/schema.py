@@ -74,7 +74,8 @@ def validate(settings: Mapping, kind: str, file) -> dict:
     schema = load(kind)
     errors = sorted(_Validator(schema).iter_errors(settings), key=lambda error: error.json_path)
     if errors:
-        raise InputError(_explain(errors[0]), file=file, place=_place(errors[0].absolute_path))
+        error = _inmost(errors[0])
+        raise InputError(_explain(error), file=file, place=_place(error.absolute_path))
     for path, value in _leaves(settings):
         if isinstance(value, float) and not math.isfinite(value):
             raise InputError(f"{value!r}, expected a finite number", file=file, place=_place(path))
@@ -121,6 +122,19 @@ def _place(path: Iterable) -> str | None:
     return ": ".join(f"entry {key + 1}" if isinstance(key, int) else str(key) for key in path) or None
 
 
+def _inmost(error: ValidationError) -> ValidationError:
+    """The error itself, or of one of several forms, of which one would fit but for numbers that are text, the first of these."""
+    forms: dict[int, list[ValidationError]] = {}
+    for part in error.context if error.validator == "oneOf" else ():
+        forms.setdefault(part.schema_path[0], []).append(part)
+    return next((parts[0] for parts in forms.values() if all(map(_is_number_as_text, parts))), error)
+
+
+def _is_number_as_text(error: ValidationError) -> bool:
+    wanted = {error.validator_value} if isinstance(error.validator_value, str) else {*error.validator_value}
+    return error.validator == "type" and isinstance(error.instance, str) and bool({"number", "integer"} & wanted) and _is_number(error.instance)
+
+
 def _explain(error: ValidationError) -> str:
     value, expected = error.instance, error.validator_value
     meaning = error.schema.get("description", "") if isinstance(error.schema, Mapping) else ""
@@ -137,8 +151,7 @@ def _explain(error: ValidationError) -> str:
             return f"key {missing!r} is missing"
         case "type":
             kinds = [expected] if isinstance(expected, str) else expected
-            number = isinstance(value, str) and {"number", "integer"} & set(kinds) and _is_number(value)
-            hint = f"; YAML reads this as text, write {_plain(float(value))!r}" if number else ""
+            hint = f"; YAML reads this as text, write {_plain(float(value))!r}" if _is_number_as_text(error) else ""
             return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{hint}{meaning}"
         case "minimum":
             return f"{value!r}, expected at least {expected}{meaning}"
@@ -154,6 +167,10 @@ def _explain(error: ValidationError) -> str:
             return f"{value!r} has too many entries{meaning}"
         case "uniqueItems":
             return f"{value!r}, expected each entry once"
+        case "oneOf" if meaning:
+            return f"{value!r}, expected {meaning[2:-1]}"
+        case "minLength":
+            return f"{value!r}, expected some text{meaning}"
         case "pattern":
             return f"{value!r}, expected a name of letters, digits and underscores"
         case "ascending":
