@@ -40,6 +40,17 @@ def test_a_changed_file_is_read_again(tmp_path):
     assert library.find(tmp_path)["mine"].effect.port == "sensor"
 
 
+def test_what_editors_leave_behind_is_no_effect_and_a_link_to_nothing_is_named(tmp_path):
+    put(tmp_path, "mine")
+    (tmp_path / ".#mine.py").symlink_to("somebody@somewhere.1234")
+    (tmp_path / "._mine.py").write_bytes(b"\x00\x05\x16\x07")
+    assert set(library.find(tmp_path)) == set(library.find()) | {"mine"}
+    (tmp_path / "other.py").symlink_to("nothing.py")
+    with pytest.raises(InputError) as refused:
+        library.find(tmp_path)
+    assert str(refused.value) == f"{tmp_path / 'other.py'}: cannot be read (No such file or directory)"
+
+
 @pytest.mark.parametrize(("file", "change", "problem"), [
     ("mine", {"name": "other"}, "'other'"),
     ("mine", {"port": "engine"}, "'engine'"),

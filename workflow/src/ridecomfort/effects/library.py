@@ -98,10 +98,20 @@ def of_the_library() -> Mapping[str, Entry]:
 
 
 def files(folder: Path) -> tuple[tuple[str, int], ...]:
-    """Names of the effects that lie in a folder, in their order, and when each file was changed."""
+    """Names of the effects that lie in a folder, in their order, and when each file was changed.
+
+    What begins with ``_`` or ``.``, as what editors leave behind does, is no effect. Raises InputError for a link to nothing.
+    """
     with os.scandir(folder) as listed:
-        found = [(file.name[:-3], file.stat().st_mtime_ns) for file in listed if file.name.endswith(".py")]
-    return tuple(sorted(one for one in found if not one[0].startswith("_") and (folder != FOLDER or one[0] not in HOUSE)))
+        found = [(file.name[:-3], file) for file in listed if file.name.endswith(".py") and not file.name.startswith(("_", "."))]
+    return tuple(sorted((name, _changed(file)) for name, file in found if folder != FOLDER or name not in HOUSE))
+
+
+def _changed(file: os.DirEntry) -> int:
+    try:
+        return file.stat().st_mtime_ns
+    except OSError as problem:
+        raise InputError(f"cannot be read ({problem.strerror})", file=file.path) from None
 
 
 @lru_cache(maxsize=64)  # asked for before every simulated drive
