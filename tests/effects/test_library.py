@@ -161,6 +161,15 @@ def test_a_name_that_means_something_else_is_no_name_of_an_effect(tmp_path, name
         (f"({SHARE.replace('(0.0, 1.0)', '1.0')},)", r"share: plausible is 1.0 \(expected two numbers"),
         (f"({SHARE.replace('(0.0, 1.0)', '(1.0, 0.0)')},)", "the lower one first"),
         (f"({SHARE},), 'state'", "states are 'state' .expected a tuple of str"),
+        (f"({SHARE.replace('0.5', repr('800'))},)", r"share: typical is '800' \(expected a finite number\)"),
+        (f"({SHARE.replace('0.0, 0.5', 'None, 0.5')},)", r"share: neutral is None \(expected a finite number\)"),
+        (f"({SHARE.replace('0.5', '1e999')},)", r"share: typical is inf \(expected a finite number\)"),
+        (f"({SHARE.replace('0.5', 'True')},)", "share: typical is True"),
+        (f"({SHARE.replace('(0.0, 1.0)', repr(('0', '1')))},)", r"share: plausible is \('0', '1'\) \(expected two numbers"),
+        (f"({SHARE.replace(repr('share'), '3')},)", "parameters: 3 is no name of a parameter"),
+        (f"({SHARE.replace(repr('share'), repr('a share'), 1)},)", "parameters: 'a share' is no name of a parameter"),
+        (f"({SHARE},), order='first'", "order: 'first', expected a whole number"),
+        (f"({SHARE},), order=True", "order: True, expected a whole number"),
     ],
 )
 def test_what_is_wrong_of_parameters_and_states_is_one_line(tmp_path, parameters, words):
@@ -168,6 +177,16 @@ def test_what_is_wrong_of_parameters_and_states_is_one_line(tmp_path, parameters
     with pytest.raises(InputError, match=words) as problem:
         library.find(tmp_path)
     assert "\n" not in str(problem.value) and "mine.py" in str(problem.value)
+
+
+@pytest.mark.parametrize(("what", "written"), [("name", "'mine', 'A"), ("sentence", "'A sentence.'"), ("source", "'a source'"), ("port", "'suspension'")])
+def test_what_an_effect_says_of_itself_is_text(tmp_path, what, written):
+    other = "['mine'], 'A" if what == "name" else "['mine']"
+    text = COMPILED.format(name="mine", parameters=f"({SHARE},)", taken=", share")
+    (tmp_path / "mine.py").write_text(text.replace(written, other, 1))
+    with pytest.raises(InputError) as refused:
+        library.find(tmp_path)
+    assert str(refused.value) == f"{tmp_path / 'mine.py'}: {what}: ['mine'], expected text"
 
 
 def test_an_effect_without_parameters_has_its_place_in_the_list_of_effects(tmp_path):

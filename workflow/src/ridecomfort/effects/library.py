@@ -6,10 +6,12 @@ import difflib
 import importlib.util
 import inspect
 import keyword
+import math
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
 
@@ -136,6 +138,11 @@ def _load(path: Path, changed: int) -> Entry:
     effect, act = getattr(module, "effect", None), getattr(module, "act", None)
     if not isinstance(effect, Effect) or not callable(act):
         raise InputError("expected `effect = Effect(...)` and a function `act`", file=path)
+    for what in ("name", "sentence", "source", "port"):
+        if not isinstance(getattr(effect, what), str):
+            raise InputError(f"{getattr(effect, what)!r:.60}, expected text", file=path, place=what)
+    if not isinstance(effect.order, int) or isinstance(effect.order, bool):
+        raise InputError(f"{effect.order!r:.60}, expected a whole number", file=path, place="order")
     if effect.name != path.stem:
         raise InputError(f"holds effect {effect.name!r}, expected the name of the file", file=path)
     if effect.port not in PORTS:
@@ -146,18 +153,27 @@ def _load(path: Path, changed: int) -> Entry:
 
 
 def _check_parameters(effect: Effect, path: Path) -> None:
-    """Raise InputError unless the parameters of an effect are Parameters with a range each, and its states names."""
+    """Raise InputError unless the parameters of an effect are Parameters with a name, two values and a range each, and its states names."""
     for what, kind in (("parameters", Parameter), ("states", str)):
         found = getattr(effect, what)
         if not isinstance(found, tuple) or not all(isinstance(one, kind) for one in found):
             raise InputError(f"{what} are {found!r:.60} (expected a tuple of {kind.__name__}: one alone needs a comma behind it)", file=path)
     for parameter in effect.parameters:
+        if not (isinstance(parameter.name, str) and parameter.name.isidentifier()):
+            raise InputError(f"{parameter.name!r:.60} is no name of a parameter (expected letters, digits and _, no digit first)", file=path, place="parameters")
+        for what in ("neutral", "typical"):
+            if not _is_number(getattr(parameter, what)):
+                raise InputError(f"{what} is {getattr(parameter, what)!r:.60} (expected a finite number)", file=path, place=parameter.name)
         try:
-            low, high = map(float, parameter.plausible)
+            low, high = parameter.plausible
         except (TypeError, ValueError):
-            low, high = np.nan, np.nan
-        if not low < high:
+            low, high = None, None
+        if not (_is_number(low) and _is_number(high) and low < high):
             raise InputError(f"plausible is {parameter.plausible!r} (expected two numbers, the lower one first)", file=path, place=parameter.name)
+
+
+def _is_number(value) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _check_arguments(effect: Effect, act: Callable, path: Path) -> None:
