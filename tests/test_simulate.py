@@ -162,6 +162,29 @@ def test_what_cannot_be_simulated_is_said_in_a_line(course, car, given, named):
         simulate.run(course, car, **given)
 
 
+@pytest.mark.parametrize("vehicle", ["midsize", None, "config/vehicles/midsize.yaml"])
+def test_what_is_no_vehicle_is_said_in_a_line(course, vehicle):
+    with pytest.raises(InputError) as refused:
+        simulate.run(course, vehicle, speed=20.0)
+    assert str(refused.value) == f"vehicle: {vehicle!r}, expected a Vehicle, as `vehicle.parameters.read` gives it from its file"
+
+
+def test_a_road_with_holes_is_said_in_a_line(car):
+    torn = road(60.0, height=rough)
+    torn["elevation"] = torn.elevation.where((torn.u < 30.05) | (torn.u > 30.15) | (abs(torn.v - 0.5) > 0.05))
+    with pytest.raises(InputError) as refused:
+        simulate.run(torn, car, speed=10.0)
+    assert str(refused.value).startswith("road: no height at u = 30.1 m, v = 0.5 m, expected a road without holes") and "\n" not in str(refused.value)
+    with pytest.raises(InputError, match="road: holds no height at all"):
+        simulate.run(torn.assign(elevation=torn.elevation * np.nan), car, speed=10.0)
+
+
+def test_a_road_may_hold_its_heights_across_before_along(car):
+    ground = road(60.0, height=rough)
+    there, here = (simulate.run(each, car, speed=10.0) for each in (ground.assign(elevation=ground.elevation.transpose("v", "u")), ground))
+    xr.testing.assert_identical(there, here)
+
+
 def test_the_golden_car_on_four_corners_is_the_quarter_car(repository):
     """Sayers (1995): acceleration of the body above a wheel against the quarter-car solved by scipy."""
     from scipy.signal import StateSpace, lsim

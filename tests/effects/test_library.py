@@ -111,6 +111,11 @@ def test_refuses_unknown_names_and_sizes():
         library.choose({"payload": {"weight": 1.0}})
 
 
+def test_one_name_is_one_effect_and_nothing_is_none():
+    assert [entry.effect.name for entry, _ in library.choose("payload")] == ["payload"]
+    assert library.choose(None) == []
+
+
 def test_sizes_that_are_not_given_are_typical():
     ((_, sizes),) = library.choose({"payload": {"mass": 80.0}})
     assert sizes == {"mass": 80.0, "ahead": -0.8, "height": 0.6, "radius": 0.3}

@@ -107,7 +107,11 @@ def run(
     Accelerations are those of the sensor in body axes without gravity. They and the rates are band-limited below
     half the rate before they are sampled, as an instrument does it: of a roll rate on a rough road some percent of what is
     sampled at 25 to 40 Hz would else be folded down from above 50 Hz. What an instrument gets wrong, it does before that.
+
+    Raises InputError for a road with holes, for an effect that does not exist or does not work, and for what cannot be driven.
     """
+    if not isinstance(vehicle, Vehicle):
+        raise InputError(f"{vehicle!r:.60}, expected a Vehicle, as `vehicle.parameters.read` gives it from its file", place="vehicle")
     course = road if isinstance(road, Course) else prepare(road)
     chosen = library.choose(effects, effects_folder)
     changed = vehicle

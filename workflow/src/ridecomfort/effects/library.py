@@ -55,13 +55,14 @@ def find(folder=None) -> dict[str, Entry]:
     return entries
 
 
-def choose(effects: Iterable[str] | Mapping[str, Mapping[str, float]], folder=None):
+def choose(effects: str | Iterable[str] | Mapping[str, Mapping[str, float]] | None, folder=None):
     """The named effects with the sizes to use: list of (Entry, {parameter: value}), in the order in which they act.
 
-    ``effects``: names (typical sizes) or a mapping of name to sizes. Raises InputError for a
+    ``effects``: a name or names (typical sizes), a mapping of name to sizes, or None for no effects. Raises InputError for a
     name or a parameter that does not exist, saying which there are.
     """
-    sizes = effects if isinstance(effects, Mapping) else {name: None for name in effects}
+    names = [effects] if isinstance(effects, str) else effects or ()
+    sizes = names if isinstance(names, Mapping) else {name: None for name in names}
     if not sizes:
         return []
     entries = find(folder)
