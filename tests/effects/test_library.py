@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -192,6 +193,55 @@ def test_what_an_effect_says_of_itself_is_text(tmp_path, what, written):
     with pytest.raises(InputError) as refused:
         library.find(tmp_path)
     assert str(refused.value) == f"{tmp_path / 'mine.py'}: {what}: ['mine'], expected text"
+
+
+IN_PYTHON = (
+    "import numpy as np\nimport xarray as xr\n" + EFFECT.partition("def act")[0] + "def act({seen}, share):\n    return {returned}\n"
+)
+SEEN = {"vehicle": "vehicle", "path": "lateral, u", "sensor": "drive"}
+
+
+@pytest.mark.parametrize(
+    ("port", "returned", "said"),
+    [
+        ("vehicle", "None", "act returned nothing, expected a Vehicle (as of vehicle.replace)"),
+        ("vehicle", "vehicle.values", "act returned a mappingproxy, expected a Vehicle (as of vehicle.replace)"),
+        ("vehicle", "vehicle['weight']", "act failed: KeyError: 'weight'"),
+        ("vehicle", "vehicle.replace(sprung_mass=9000.0)", "sprung_mass: 9000.0 kg, expected 300 to 8000 kg"),
+        ("path", "None", "act returned nothing, expected an array of 601 positions in m, one for each u"),
+        ("path", "share", "act returned a float, expected an array of 601 positions in m, one for each u"),
+        ("path", "lateral[1:]", "act returned the shape (600,), expected an array of 601 positions in m, one for each u"),
+        ("path", "np.where(u < 30.0, lateral, np.nan)", "act returned what is not finite everywhere, expected an array of 601 positions"),
+        ("path", "lateral + np.ones(3)", "act failed: ValueError: operands could not be broadcast together with shapes (601,) (3,)"),
+        ("sensor", "None", "act returned nothing, expected a Dataset over time"),
+        ("sensor", "drive['a_z']", "act returned a DataArray, expected a Dataset over time"),
+        ("sensor", "xr.Dataset()", "act returned a Dataset without s, "),
+        ("sensor", "drive.drop_vars('a_z')", "act returned a Dataset without a_z, expected all that it was given over time"),
+        ("sensor", "drive.isel(time=slice(0))", "act returned 0 records with times of their own, expected the "),
+        ("sensor", "drive.assign_coords(time=drive.time + 1.0)", "records with times of their own, expected the "),
+        ("sensor", "drive.__setitem__('time', drive.time.values + 1.0) or drive", "records with times of their own, expected the "),
+        ("sensor", "drive.sel(signal='a_z')", "act failed: KeyError: "),
+    ],
+)  # fmt: skip
+def test_an_effect_in_python_that_fails_or_returns_something_else_is_one_line(tmp_path, car, port, returned, said):
+    (tmp_path / "mine.py").write_text(IN_PYTHON.format(name="mine", port=port, seen=SEEN[port], returned=returned))
+    with pytest.raises(InputError) as raised:
+        simulate.run(road(60.0), car, speed=10.0, effects="mine", effects_folder=tmp_path)
+    text = str(raised.value)
+    assert text.startswith(f"{tmp_path / 'mine.py'}: ") and said in text and "\n" not in text, text
+
+
+@pytest.mark.parametrize(("port", "returned"), [("vehicle", "vehicle"), ("path", "lateral"), ("sensor", "drive")])
+def test_an_effect_in_python_that_returns_what_it_sees_changes_nothing(tmp_path, car, port, returned):
+    (tmp_path / "mine.py").write_text(IN_PYTHON.format(name="mine", port=port, seen=SEEN[port], returned=returned))
+    drive = lambda effects: simulate.run(road(60.0), car, speed=10.0, effects=effects, effects_folder=tmp_path)["s"].values
+    np.testing.assert_allclose(drive("mine"), drive(None), atol=1e-9)
+
+
+def test_a_load_that_moves_the_centre_of_gravity_behind_the_rear_axle_is_refused(car):
+    rearward = car.replace(cg_to_front_axle=2.0)
+    with pytest.raises(InputError, match=r"payload.py: cg_to_front_axle: 3.07\d* m lies behind the rear axle \(wheelbase 2.757 m\)"):
+        simulate.run(road(60.0), rearward, speed=10.0, effects={"payload": {"mass": 800.0, "ahead": -3.0}})
 
 
 def test_an_effect_without_parameters_has_its_place_in_the_list_of_effects(tmp_path):

@@ -117,7 +117,7 @@ def run(
     changed = vehicle
     for entry, sizes in chosen:
         if entry.effect.port == "vehicle":
-            changed = entry.act(changed, **sizes)
+            changed = library.answer(entry, sizes, changed)
     fixed = _on_body(sensor, vehicle, changed)
     back = fixed[0] - sensor[0]
     start, end = (None if place is None else place - back for place in (start, end))
@@ -125,9 +125,9 @@ def run(
     driven = believed
     for entry, sizes in chosen:
         if entry.effect.port == "path":
-            driven = entry.act(driven, course.u, **sizes)
+            driven = library.answer(entry, sizes, driven, course.u)
     every = _every(step, rate)
-    sensing = [(entry.act, sizes) for entry, sizes in chosen if entry.effect.port == "sensor"]
+    sensing = [(entry, sizes) for entry, sizes in chosen if entry.effect.port == "sensor"]
     own = 1 if sensing else every
     record = _record(course, changed, course.on_u(speed, "speed"), driven, friction, chosen, fixed, start, end, step, own)
     if driven is not believed:
@@ -138,8 +138,8 @@ def run(
         coords={"time": np.arange(len(record)) * own / (every * rate)},
         attrs={"sensor_x": sensor[0], "sensor_y": sensor[1], "sensor_z": sensor[2], "vehicle": vehicle.name},
     )
-    for act, sizes in sensing:
-        drive = act(drive, **sizes)
+    for entry, sizes in sensing:
+        drive = library.answer(entry, sizes, drive)
     return describe(_sampled(drive, every) if own < every else drive)
 
 
