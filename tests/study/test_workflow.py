@@ -88,7 +88,12 @@ def as_if_finished(project):
 
 @pytest.mark.parametrize(
     "deleted, jobs",
-    [("tables", {"tables", "report"}), ("figures", {"figures", "report"}), ("tables/sites.csv", {"tables", "report"}), ("figures/roads.pdf", {"figures", "report"})],
+    [
+        ("tables", {"tables", "report"}),
+        ("figures", {"figures", "report"}),
+        ("tables/sites.csv", {"tables", "report"}),
+        ("figures/spectrum_one.pdf", {"figures", "report"}),
+    ],
 )
 def test_deleted_tables_and_figures_are_made_again(as_if_finished, deleted, jobs):
     assert "Nothing to be done" in as_if_finished.snakemake("--dry-run").text
