@@ -11,7 +11,7 @@ from numba import njit
 from numba.core.errors import NumbaError
 
 from .drive.sampling import HALF_WIDTH, KAISER
-from .effects import compose, library
+from .effects import compose, in_python, library
 from .errors import InputError
 from .road import edges, surface
 from .vehicle import driver
@@ -117,7 +117,7 @@ def run(
     changed = vehicle
     for entry, sizes in chosen:
         if entry.effect.port == "vehicle":
-            changed = library.answer(entry, sizes, changed)
+            changed = in_python.answer(entry, sizes, changed)
     fixed = _on_body(sensor, vehicle, changed)
     back = fixed[0] - sensor[0]
     start, end = (None if place is None else place - back for place in (start, end))
@@ -125,7 +125,7 @@ def run(
     driven = believed
     for entry, sizes in chosen:
         if entry.effect.port == "path":
-            driven = library.answer(entry, sizes, driven, course.u)
+            driven = in_python.answer(entry, sizes, driven, course.u)
     every = _every(step, rate)
     sensing = [(entry, sizes) for entry, sizes in chosen if entry.effect.port == "sensor"]
     own = 1 if sensing else every
@@ -139,7 +139,7 @@ def run(
         attrs={"sensor_x": sensor[0], "sensor_y": sensor[1], "sensor_z": sensor[2], "vehicle": vehicle.name},
     )
     for entry, sizes in sensing:
-        drive = library.answer(entry, sizes, drive)
+        drive = in_python.answer(entry, sizes, drive)
     return describe(_sampled(drive, every) if own < every else drive)
 
 
