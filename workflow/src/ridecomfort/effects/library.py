@@ -15,7 +15,6 @@ from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
 
-
 from ..errors import InputError
 from .contract import PORTS, Effect, Parameter
 
