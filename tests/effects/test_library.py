@@ -238,6 +238,15 @@ def test_an_effect_in_python_that_returns_what_it_sees_changes_nothing(tmp_path,
     np.testing.assert_allclose(drive("mine"), drive(None), atol=1e-9)
 
 
+def test_a_path_may_be_changed_in_place(tmp_path, car):
+    """What is recorded is the path that the driver believes in."""
+    drives = []
+    for name, returned in (("mine", "np.add(lateral, 0.2, out=lateral)"), ("other", "lateral + 0.2")):
+        (tmp_path / f"{name}.py").write_text(IN_PYTHON.format(name=name, port="path", seen=SEEN["path"], returned=returned))
+        drives.append(simulate.run(road(60.0), car, speed=10.0, effects=name, effects_folder=tmp_path))
+    np.testing.assert_array_equal(drives[0]["e"].values, drives[1]["e"].values)
+
+
 def test_a_load_that_moves_the_centre_of_gravity_behind_the_rear_axle_is_refused(car):
     rearward = car.replace(cg_to_front_axle=2.0)
     with pytest.raises(InputError, match=r"payload.py: cg_to_front_axle: 3.07\d* m lies behind the rear axle \(wheelbase 2.757 m\)"):

@@ -125,7 +125,7 @@ def run(
     driven = believed
     for entry, sizes in chosen:
         if entry.effect.port == "path":
-            driven = in_python.answer(entry, sizes, driven, course.u)
+            driven = in_python.answer(entry, sizes, driven.copy(), course.u)  # an act may change it in place
     every = _every(step, rate)
     sensing = [(entry, sizes) for entry, sizes in chosen if entry.effect.port == "sensor"]
     own = 1 if sensing else every
