@@ -334,7 +334,7 @@ def test_a_collinear_pair_is_named():
 def test_what_ends_at_a_bound_is_said_of_an_effect_it_may_be_none(name, is_of_effect):
     known = identifiability.Knowledge(0.01 * np.eye(1), np.array([0.01]), np.ones(1), np.ones((1, 6)))
     (words,) = identifiability.remarks([name], np.zeros(1), known)
-    assert words.startswith(f"{name} is at its lower bound: the data ask for more than the bounds allow")
+    assert words.startswith(f"{name} is at its lower bound: the data ask for less than the bounds allow")
     assert ("none of it" in words) is is_of_effect
 
 

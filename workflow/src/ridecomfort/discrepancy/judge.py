@@ -183,7 +183,7 @@ def _unfound(selection: Selection) -> list[str]:
         return ["no candidate changes what these drives tell" if is_asked else "no candidate was tested: the library that was looked among is empty"]
     best = float(np.min(first.p_value))
     if best > LEVEL:
-        return [f"the best of the {len(first.names)} candidates that were tested has p = {best:.2g} over the whole library"]
+        return [f"the smallest p-value over the whole library, of {len(first.names)} candidates that were tested, is {best:.2g}"]
     return [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
 
 

@@ -196,7 +196,7 @@ def calibrated(found: Difference) -> Table:
     if not rows:
         rows.append(("none", "", "", *(None,) * 6, ""))
     notes.append(
-        "At a bound the data ask for more than the bounds allow, or the model lacks something that the parameter stands in for. Not identified: "
+        "At a bound the data ask for what lies beyond it, or the model lacks something that the parameter stands in for. Not identified: "
         "the drives do not tell it, and another value would do. Intervals hold where the model lacks nothing and what is not calibrated is as in "
         f"the vehicle's file. A verdict counts errors from {judged.IN_WORDS} and fits more that is uncertain: where it tells a value of one of these "
         "parameters that differs by more than the intervals, prefer that."
