@@ -72,34 +72,23 @@ def test_nothing_to_do_on_the_second_call(finished):
     assert answer.status == 0 and "Nothing to be done" in answer.text
 
 
-@pytest.fixture
-def as_if_finished(project):
-    """A study of one site, every file of which is there, and empty."""
+def test_deleted_tables_and_figures_are_made_again(project):
+    """Of a study of one site, every file of which is there, and empty."""
     project.study(sites=["one"], runs=2)
-    project.site("one")
     listed, now = project.snakemake("--summary").text.splitlines(), time.time()
     for file in [line.split("\t")[0] for line in listed if line.startswith("results/")]:
         path = project.folder / file
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
         os.utime(path, (now, now))
-    return project
-
-
-@pytest.mark.parametrize(
-    "deleted, jobs",
-    [
-        ("tables", {"tables", "report"}),
-        ("figures", {"figures", "report"}),
-        ("tables/sites.csv", {"tables", "report"}),
-        ("figures/spectrum_one.pdf", {"figures", "report"}),
-    ],
-)
-def test_deleted_tables_and_figures_are_made_again(as_if_finished, deleted, jobs):
-    assert "Nothing to be done" in as_if_finished.snakemake("--dry-run").text
-    path = as_if_finished.folder / "results" / deleted
-    shutil.rmtree(path) if path.is_dir() else path.unlink()
-    assert {job.split()[0] for job in as_if_finished.snakemake("--dry-run").jobs} == jobs
+    assert "Nothing to be done" in project.snakemake("--dry-run").text
+    results = project.folder / "results"
+    for deleted in ("tables/sites.csv", "figures/spectrum_one.pdf"):
+        (results / deleted).unlink()
+    assert {job.split()[0] for job in project.snakemake("--dry-run").jobs} == {"tables", "figures", "report"}
+    for deleted in ("tables", "figures"):
+        shutil.rmtree(results / deleted)
+    assert {job.split()[0] for job in project.snakemake("--dry-run").jobs} == {"tables", "figures", "report"}
 
 
 def test_touching_a_file_reruns_nothing(finished):
