@@ -100,7 +100,7 @@ def test_a_run_without_the_page_ends_with_what_there_is_to_look_at(watched, cloc
         start(watched, number, rule)
         log(watched, "job_finished", job_id=number)
     assert watched.said()[-3].startswith("[100 %] all done") and "results/report.html" not in watched.said()[-3]
-    assert watched.said()[-2].startswith("look at results/figures/located_*.png")
+    assert watched.said()[-2].startswith("look at results/tables/alignment.md")
     assert watched.said()[-1].startswith("look at results/tables/verdict.md")
 
 
