@@ -9,6 +9,7 @@ import xarray as xr
 from ridecomfort import store
 from ridecomfort.errors import InputError
 from ridecomfort.vocabulary import VARIABLES
+from tests.described import WHERE_ITS_UNIT_STANDS
 
 
 @pytest.fixture
@@ -68,7 +69,7 @@ def test_what_cannot_be_read_is_said_in_a_line(tmp_path, drive):
 
 @pytest.mark.parametrize("name", VARIABLES)
 def test_every_variable_has_unit_and_meaning(name):
-    """Or, of what is stacked over quantities of several units, says in its meaning which it is."""
+    """Or, of what is stacked over quantities of several units, says in its meaning where it stands."""
     variable = VARIABLES[name]
     assert variable.name == name and len(variable.long_name) > 3
-    assert variable.unit or "unit" in variable.long_name
+    assert variable.unit or WHERE_ITS_UNIT_STANDS.search(variable.long_name)

@@ -108,7 +108,7 @@ def remarks(names: list[str], places: np.ndarray, knowledge: Knowledge) -> list[
             sentences.append(f"{name} is {words}: these drives leave open where in its bounds it lies ({how})")
         elif words != "identified":
             of_effect = ", or for none of it where that is nil" if "." in name else ""
-            side = "less" if "lower" in words else "more"
+            side = "less" if place < 0.5 else "more"
             sentences.append(f"{name} is {words}: the data ask for {side} than the bounds allow{of_effect}")
     deviation = np.sqrt(np.diag(knowledge.covariance))
     is_finite = (deviation > 0) & np.isfinite(deviation)

@@ -168,7 +168,7 @@ def _explain(error: ValidationError) -> str:
         case "uniqueItems":
             return f"{value!r}, expected each entry once"
         case "oneOf" if meaning:
-            return f"{value!r}, expected {meaning[2:-1]}"
+            return f"{value!r}, expected {error.schema['description']}"
         case "minLength":
             return f"{value!r}, expected some text{meaning}"
         case "pattern":

@@ -169,7 +169,7 @@ def _other_units(work: xr.Dataset, road, vehicle, simulate, options: Mapping) ->
     measured, modelled = (each[:, again.compared].std(axis=1) for each in (again.measured(), again(vehicle).signals))
     times = dict(zip(SIGNALS, measured / np.maximum(modelled, 1e-12)))
     far = {name: times[name] for name in place.SHAKEN if not 1.0 / TIMES < times[name] < TIMES}
-    return "".join(f"; {name} is {found:.2g} times the model's: is its unit right?" for name, found in far.items())
+    return "".join(f"; {name} is {found:.2g} times what the model does: is its unit right?" for name, found in far.items())
 
 
 def _better(vehicle, values: Mapping[str, float], again: Replay):

@@ -207,7 +207,8 @@ def missing_effects(found: Diagnosis) -> Table:
         "where the drives asked for another value, else held at its typical one or the best of a few.",
         "Where calibrated.md has another size, prefer the one here: drives are aligned for the effects, what is uncertain of the rest of the vehicle "
         "counts, and so does another effect that the drives leave open; calibrated.md holds these and rests on one site, but fits what only "
-        "shapes an effect, which may be held here. Where the size of one there and here are farther apart than the wider interval, the effect may stand in for another, or what calibration holds "
+        "shapes an effect, which may be held here. Where the size of one there and here are farther apart than the wider interval, the effect "
+        "may stand in for another, or what calibration holds "
         "of the vehicle is not as its file says (calibration: parameters). May be nil: the interval of this size alone holds "
         "nil; the effect is named for what all its sizes do together. Left open: any plausible size does as well on these drives.",
         *([SUSPECT] if found.verdict["verdict"] == "suspect" and found.verdict["effects"] else []),
