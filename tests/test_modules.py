@@ -114,4 +114,4 @@ def test_every_step_that_loads_effects_lists_their_files(repository):
             step, rest = rule.split('"', 1)
             inputs[step] = rest.split("output:")[0]
     listing = {step for step, files in inputs.items() if "effects=" in files}
-    assert listing == {"calibrate", "compare", "simulate", "diagnose", "standin_drives", "standin_score"}
+    assert listing == {"calibrate", "realigned", "compare", "simulate", "diagnose", "standin_drives", "standin_score"}

@@ -10,8 +10,9 @@ from ridecomfort.discrepancy import critical
 from ridecomfort.discrepancy.ladder import LEVEL, Measured, disagreeing, helps, ladder, risen, worsened
 
 
-def comparison(*squares, floor=1.0, states=("reference", "calibrated"), by_stretch=None):
-    """A comparison of a fitted and a check drive of one signal with these mean squares by state, in each stretch if not given ``by_stretch``."""
+def comparison(*squares, floor=1.0, states=("reference", "calibrated"), by_stretch=None, start=0.0):
+    """A comparison of a fitted and a check drive of one signal with these mean squares by state, in each stretch if not given ``by_stretch``, from
+    ``start`` (m) on."""
     values = np.sqrt(np.array(squares))[:, None, None] * np.ones((1, 2, 1))
     stretches = np.array(squares)[:, None] * np.ones(4) if by_stretch is None else np.array(by_stretch, float)
     return xr.Dataset(
@@ -22,7 +23,7 @@ def comparison(*squares, floor=1.0, states=("reference", "calibrated"), by_stret
             "square_by_stretch": (("state", "drive", "signal", "stretch_of_road"), stretches[:, None, None] * np.ones((1, 2, 1, 1))),
             "role": ("drive", ["fit", "check"]),
         },
-        {"state": list(states), "drive": ["one", "slow"], "signal": ["a_z"]},
+        {"state": list(states), "drive": ["one", "slow"], "signal": ["a_z"], "stretch_of_road": start + 100.0 * np.arange(stretches.shape[-1])},
         {"floor": "from repeats"},
     )
 
@@ -33,11 +34,15 @@ def of_two(own, other, floor=1.0):
     return xr.concat([comparison(*own), second], "signal", data_vars="minimal", join="outer")
 
 
-def sections(*simulated, measured=(0, 1, 2, 0), groups=(0, 1)):
-    """Graded sections; ``simulated`` by state."""
+def sections(*simulated, measured=(0, 1, 2, 0), groups=(0, 1), start=0.0):
+    """Graded sections from ``start`` (m) on; ``simulated`` by state."""
     grade = np.array([measured, *simulated], np.int8)[:, None, None, :] * np.ones((1, 2, 2, 1), np.int8)
     return xr.Dataset(
-        {"grade": (("source", "method", "drive", "window"), grade), "repeat_group": ("drive", list(groups))},
+        {
+            "grade": (("source", "method", "drive", "window"), grade),
+            "window_start": ("window", start + 5.0 * np.arange(grade.shape[-1])),
+            "repeat_group": ("drive", list(groups)),
+        },
         {"source": ["measured", "reference", "calibrated"], "method": list(critical.METHODS), "drive": ["one", "slow"]},
     )
 
@@ -60,6 +65,18 @@ def test_shares_left_fall_from_one_to_nought(found):
         assert chosen["left"].sel(signal="a_z").values == pytest.approx([2.0, 1.0, 0.5, 0.0])
         assert chosen["left_overall"].values == pytest.approx([2.0, 1.0, 0.5, 0.0])
     assert found["rmse"].sel(site="ts1", group="fitted", signal="a_z").values == pytest.approx(np.sqrt([9.0, 5.0, 3.0, 1.0]))
+
+
+def test_models_are_compared_where_all_have_been():
+    """Drives that are aligned for each of them begin and end a little apart: a stretch or a section more or less."""
+    base = comparison(9.0, 5.0, by_stretch=[[9.0] * 7, [1.0] + [5.0] * 6])
+    later = comparison(9.0, 3.0, by_stretch=[[9.0] * 7, [4.0] * 6 + [99.0]], start=100.0)
+    graded = {"base": sections((0, 0, 0, 0), (2, 0, 1, 0)), "one": sections((0, 0, 0, 0), (0, 1, 0, 9), measured=(1, 2, 0, 0), start=5.0)}
+    found = ladder({"ts1": Measured({"base": base, "one": later}, graded, True)}, ["base", "one"], ["+ one"]).sel(site="ts1", rung="+ one")
+    for group in ("fitted", "held out"):
+        chosen = found.sel(group=group)
+        assert float(chosen["falling"]) == 1.0 and float(chosen["fall_p_value"]) == pytest.approx(1 / 64)
+        assert (chosen["compared"] == 3).all() and (chosen["changed"] == 0).all()
 
 
 def test_a_fall_is_as_sure_as_the_stretches_that_it_is_met_in():

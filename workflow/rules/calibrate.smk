@@ -4,7 +4,7 @@ rule calibrate:
         code=modules.of_step("calibrate"),
         effects=lambda wildcards: study.effect_files(wildcards.model),
         road="results/{site}/road.nc",
-        measured="results/{site}/measured.nc",
+        measured=lambda wildcards: study.aligned(wildcards.site, wildcards.model),
         vehicle=lambda wildcards: study.vehicle(wildcards.site),
         below=lambda wildcards: expand(
             "results/{site}/{model}/calibration.nc", site=wildcards.site, model=models.below(study, wildcards.model) or []

@@ -4,7 +4,7 @@ rule comparison:
         code=modules.of_step("compare"),
         effects=lambda wildcards: study.effect_files(wildcards.model),
         road="results/{site}/road.nc",
-        measured="results/{site}/measured.nc",
+        measured=lambda wildcards: study.aligned(wildcards.site, wildcards.model),
         vehicle=lambda wildcards: study.vehicle(wildcards.site),
         calibration=lambda wildcards: expand(
             "results/{site}/{model}/calibration.nc",
@@ -73,7 +73,7 @@ rule ladder:
 rule located:
     input:
         code=modules.of_step("located"),
-        measured="results/{site}/measured.nc",
+        measured=lambda wildcards: study.aligned(wildcards.site, study.model),
         comparison=f"results/{{site}}/{study.model}/comparison.nc",
     output:
         expand("results/figures/{name}.pdf", name=catalogue.site_figures("{site}")),
@@ -101,7 +101,7 @@ rule located:
 rule compared:
     input:
         code=modules.of_step("compared"),
-        measured=expand("results/{site}/measured.nc", site=study.measured),
+        measured=[study.aligned(site, study.model) for site in study.measured],
         comparisons=expand("results/{site}/{model}/comparison.nc", site=study.measured, model=study.model),
         calibrations=expand(
             "results/{site}/{model}/calibration.nc",

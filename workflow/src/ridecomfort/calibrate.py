@@ -241,7 +241,7 @@ def _of_clocks(result: xr.Dataset) -> list[str]:
     lacks = "the model lacks something (mostly a delay, a damping or friction), or s is the distance of another point of the vehicle (alignment.md)"
     if any("." in name for name in result["parameter"].values.tolist()):
         lacks += (
-            ", or alignment, which knows no effects, took their delay for one of the clock: then a part of the error stays, "
+            ", or alignment, which knows effects at the sizes of a rough fit, took some of their delay for one of the clock: then a part of the error stays, "
             "and the sizes of a verdict are nearer"
         )
     return [said + lacks] if eager.size else []

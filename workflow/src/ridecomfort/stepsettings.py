@@ -50,8 +50,9 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 "simulation": simulation,
             }
         case "measured":
-            drives = [{key: value for key, value in drive.items() if key != "noise_density"} for drive in own["drives"]]
-            return {**at, "drives": drives, "alignment": chosen["alignment"], "simulation": simulation}
+            return {**_aligned(study, site), **at, "simulation": simulation}
+        case "realigned":
+            return {**_aligned(study, site), **simulated, "calibration": calibration}
         case "calibrate":
             return {**simulated, "calibration": calibration}
         case "compare":
@@ -160,6 +161,12 @@ def _switched_on(study: Study) -> dict:
 def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:
     """What tables and figures of measured drives say of these sites."""
     return {site: {key: _summary(study, site)[key] for key in ("title", "standin", "has_drives", "calibrated_on")} for site in sites}
+
+
+def _aligned(study: Study, site: str) -> dict:
+    """What the alignment of a site's drives depends on."""
+    drives = [{key: value for key, value in drive.items() if key != "noise_density"} for drive in study.sites[site]["drives"]]
+    return {"drives": drives, "alignment": study.settings["alignment"]}
 
 
 def _mean(distribution: Mapping) -> float:

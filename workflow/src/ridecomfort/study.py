@@ -143,6 +143,10 @@ class Study:
         files = (path for path in (self.folder / folder).iterdir() if path.suffix.lower() in suffixes and not path.name.startswith("."))
         return [f"{folder}/{path.name}" for path in sorted(files, key=_in_order)]
 
+    def aligned(self, site: str, model: str) -> str:
+        """File of a site's measured drives as they are aligned for a model."""
+        return f"results/{aligned_file(site, model)}"
+
     @property
     def measured(self) -> list[str]:
         """The configured sites with measured drives."""
@@ -197,6 +201,11 @@ class Study:
         """Folder with effects of the user's own, None without one."""
         named = self.settings["effects_folder"]
         return None if named is None else self.folder / named
+
+
+def aligned_file(site: str, model: str) -> str:
+    """File of a site's measured drives as they are aligned for a model, below the folder of results."""
+    return f"{site}/measured.nc" if model == BASE else f"{site}/{model}/measured.nc"
 
 
 def effects_of(model: str) -> list[str]:

@@ -120,6 +120,7 @@ VARIABLES = _table(
     ("road_heave", "m", "mean height of the road under the front wheels"),
     ("road_tilt", "m", "height of the road under the front left wheel above that under the right one"),
     ("square_by_stretch", "", "mean square of what is judged of the error over stretches of road, in the unit of the signal squared"),
+    ("stretch_of_road", "m", "start of the stretch along the reference line"),
     ("error_power", "", "mean square error, in the unit of the signal squared"),
     ("floor_power", "", "mean square of the floor, in the unit of the signal squared"),
     ("band_floor", "", "mean square of the floor over all of the road, in the unit of the signal squared"),

@@ -94,7 +94,7 @@ def explain(
     for state, name in enumerate(comparison["state"].values):
         for drive, own in own_noise(comparison, name).items():
             floors[state, drive] = np.mean(own.noise**2, axis=1)
-    square, by_stretch = _squares(comparison)
+    square, by_stretch, starts = _squares(comparison)
     if np.isfinite(floors).any():
         floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
     elif noise_density and np.isfinite(of_instruments := _of_instruments(comparison, noise_density)).any():
@@ -113,6 +113,7 @@ def explain(
         explainable_rmse=(("state", "drive", "signal"), np.sqrt(above)),
         explained_share=(("state", "drive", "signal"), share, {"units": "1"}),
         square_by_stretch=(("state", "drive", "signal", "stretch_of_road"), by_stretch),
+        stretch_of_road=starts,
     ).assign_attrs(floor=known_from)
 
 
@@ -172,26 +173,27 @@ def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral
     return len(passages) - 1
 
 
-def _squares(comparison: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Mean squares (state, drive, signal) of what is judged of the residuals, and the same by whole stretches of road (..., stretch)."""
+def _squares(comparison: xr.Dataset) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean squares (state, drive, signal) of what is judged of the residuals, the same by whole stretches of road (..., stretch), and where
+    these begin (m)."""
     residual = comparison["residual"].transpose("state", "drive", "signal", "time").values
     place = comparison["s"].transpose("drive", "time").values
     rate = rate_of(comparison["time"].values)
     first, last = (int(end // STRETCH) for end in (np.nanmin(place), np.nanmax(place)))
     found = np.empty(residual.shape[:-1])
-    by_stretch = np.full((*residual.shape[:-1], last - first + 1), np.nan)
+    starts = STRETCH * np.arange(first, last + 1)
+    by_stretch = np.full((*residual.shape[:-1], starts.size), np.nan)
     for state, drive in np.ndindex(found.shape[:2]):
         kept = np.isfinite(residual[state, drive]).all(axis=0)
         square = judged(residual[state, drive][:, kept], rate, comparison["signal"].values) ** 2
         found[state, drive] = np.mean(square, axis=1)
         own = place[drive, kept]
         number = (own // STRETCH).astype(int) - first
-        count = np.bincount(number, minlength=last - first + 1)
-        start = STRETCH * (first + np.arange(count.size))
-        covered = (start >= own.min() - REACHED) & (start + STRETCH <= own.max() + REACHED) & (count > 0)
+        count = np.bincount(number, minlength=starts.size)
+        covered = (starts >= own.min() - REACHED) & (starts + STRETCH <= own.max() + REACHED) & (count > 0)
         for signal, values in enumerate(square):
             by_stretch[state, drive, signal, covered] = np.bincount(number, values, count.size)[covered] / count[covered]
-    return found, by_stretch
+    return found, by_stretch, starts
 
 
 def highest(comparison: xr.Dataset) -> np.ndarray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
@@ -47,6 +47,11 @@ class Measured:
     sections: Mapping[str, xr.Dataset]
     fitted: bool
 
+    def in_common(self) -> Measured:
+        """The same with the stretches and sections that it has of all models: drives aligned for each end millimetres apart."""
+        sections = {model: each.assign_coords(window=each["window_start"]) for model, each in self.sections.items()}
+        return replace(self, comparisons=_alike(self.comparisons, "stretch_of_road"), sections=_alike(sections, "window"))
+
 
 def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequence[str]) -> xr.Dataset:
     """The ladder of ``models`` (the first without effects) over sites, their later rungs called ``titles``.
@@ -74,7 +79,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
     counts = {name: np.full((*sizes, len(critical.METHODS)), np.nan) for name in COUNTS}
     repeated = np.full((len(sites), 2, len(critical.METHODS)), np.nan)
     falls: dict[tuple[int, int, int], np.ndarray] = {}
-    for k, site in enumerate(sites.values()):
+    for k, site in enumerate(each.in_common() for each in sites.values()):
         for r, (model, state) in enumerate(_rungs(site, models)):
             if r and state is not None and site.fitted:
                 starts[r, k] = site.comparisons[model].attrs.get("starts", "")
@@ -188,6 +193,12 @@ def disagreeing(found: xr.Dataset) -> list[tuple[str, str]]:
 
 
 COUNTS = ("compared", "critical_simulated", "critical_measured", "agreeing", "changed", "changed_in_all")
+
+
+def _alike(datasets: Mapping[str, xr.Dataset], dimension: str) -> dict[str, xr.Dataset]:
+    """The datasets where they have the same places along a dimension."""
+    others = {name for each in datasets.values() for name in each.dims} - {dimension}
+    return dict(zip(datasets, xr.align(*datasets.values(), join="inner", exclude=others)))
 
 
 def _rungs(site: Measured, models: Sequence[str]) -> list[tuple[str, str | None]]:

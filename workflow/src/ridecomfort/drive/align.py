@@ -3,7 +3,8 @@
 Each is found against a simulation, from what a wrong vehicle cannot imitate: gain and
 tilt from gravity, the speed scale from distance, the path from the roughness that it
 meets. The clock it can (a wrong damping turns phases, too), so a provisional vehicle is
-fitted along with it, drive by drive, and thrown away.
+fitted along with it, drive by drive, and thrown away. So can an effect that the vehicle lacks: a
+soft top mount passes for 2 ms, and a model that has it is compared with drives aligned for it.
 """
 
 from __future__ import annotations
@@ -40,13 +41,14 @@ def align(
     vehicle,
     *,
     simulate: Callable[..., xr.Dataset],
+    effects: Mapping[str, Mapping[str, float]] | None = None,
     search: float = 0.5,
     options: Mapping | None = None,
 ) -> xr.Dataset:
     """The drive brought into line with the road, gravity removed, and what was found as attributes.
 
     ``drive`` is a record (``drive.record``), ``road`` a road or a prepared one (``simulate.prepare``),
-    ``vehicle`` the nominal one (it need not fit); ``simulate`` has the signature of ``simulate.run``
+    ``vehicle`` the nominal one (it need not fit), driven with ``effects``; ``simulate`` has the signature of ``simulate.run``
     and ``search`` (s) bounds the clock offset. A place that was integrated from speed is that on the road after so much way,
     but for a scale and an offset. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
     gain, mounting and bias; ``e`` becomes the path that was found.
@@ -59,7 +61,7 @@ def align(
     drive where the record says it went, when clock or path lie at an end of what is searched or beyond, and
     when model and record do not agree anywhere.
     """
-    options = options or {}
+    options, simulate = options or {}, _with(simulate, effects or {})
     work = mounting.level(drive)
     measured, start = bool(drive.attrs["place_measured"]), float(drive["s"][0])
     way = place.way(work, road, start)
@@ -113,6 +115,15 @@ def align(
         **fitted.attributes(),
     )
     return aligned
+
+
+def _with(simulate: Callable[..., xr.Dataset], own: Mapping) -> Callable[..., xr.Dataset]:
+    """The simulator with effects of its own, whichever it is called with."""
+
+    def run(road, vehicle, effects=(), **settings) -> xr.Dataset:
+        return simulate(road, vehicle, effects=own, **settings)
+
+    return run
 
 
 def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Mapping) -> tuple[xr.Dataset, float, float]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from .. import store
 from ..report.catalogue import calibrated_on, label, of_another_study, with_drives
 from ..report.study import Compared, Diagnosis, Difference, Site, Study
-from ..study import effects_of
+from ..study import aligned_file, effects_of
 from .models import FOLLOWED
 
 
@@ -57,7 +57,8 @@ def difference(results: Path, config: dict) -> Difference:
 
 def compared(results: Path, config: dict, name: str) -> Compared:
     """Comparison and aligned drives of a measured site with the model of ``config``."""
-    files = {"measured": results / name / "measured.nc", "comparison": results / name / config["model"] / "comparison.nc"}
+    model = config["model"]
+    files = {"measured": results / aligned_file(name, model), "comparison": results / name / model / "comparison.nc"}
     loaded = {key: store.read(file) for key, file in files.items()}
     return Compared(
         name, **loaded, standin=config["sites"][name]["standin"], files={key: file.as_posix() for key, file in files.items()}
