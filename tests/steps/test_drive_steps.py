@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort import simulate, store
-from ridecomfort.steps import calibrate, compare, measured
+from ridecomfort.steps import calibrate, compare, measured, realigned
 from ridecomfort.steps.command import NOTE
 from ridecomfort.vocabulary import CALIBRATED, SIGNALS, STANDARD_GRAVITY
 from tests import quarter_cars
@@ -35,16 +35,21 @@ def files(tmp_path_factory, repository):
     for name, speed in (("fit", 20.0), ("check", 16.0)):
         u = road["u"].values
         run = simulate.run(road, car, speed=xr.DataArray(speed + np.sin(u / 30), {"u": u}, "u"))
-        table = pd.DataFrame({"t": run["time"], "v": 3.6 * run["v_x"], "s": run["s"], "ahead": run["s"] + 0.9})
-        for signal in SIGNALS[:3]:
-            table[signal] = run[signal]
-        table["a_x"] -= STANDARD_GRAVITY * np.sin(run["pitch"].values)
-        table["a_y"] += STANDARD_GRAVITY * np.cos(run["pitch"].values) * np.sin(run["roll"].values)
-        table["a_z"] += STANDARD_GRAVITY * np.cos(run["pitch"].values) * np.cos(run["roll"].values)
-        for signal in SIGNALS[3:]:
-            table[signal] = np.degrees(run[signal])
-        table.to_csv(folder / f"{name}.csv", index=False)
+        recorded(run).to_csv(folder / f"{name}.csv", index=False)
     return folder
+
+
+def recorded(run):
+    """A run as an instrument records it that feels gravity."""
+    table = pd.DataFrame({"t": run["time"], "v": 3.6 * run["v_x"], "s": run["s"], "ahead": run["s"] + 0.9})
+    for signal in SIGNALS[:3]:
+        table[signal] = run[signal]
+    table["a_x"] -= STANDARD_GRAVITY * np.sin(run["pitch"].values)
+    table["a_y"] += STANDARD_GRAVITY * np.cos(run["pitch"].values) * np.sin(run["roll"].values)
+    table["a_z"] += STANDARD_GRAVITY * np.cos(run["pitch"].values) * np.cos(run["roll"].values)
+    for signal in SIGNALS[3:]:
+        table[signal] = np.degrees(run[signal])
+    return table
 
 
 @pytest.fixture(scope="module")
@@ -129,6 +134,51 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     store.write(turned, files / "turned.nc", title="Turned", configuration={})
     compare.main(**common | {"measured": files / "turned.nc"}, calibration=None, config=model, output=files / "comparison.nc", workers="1")
     assert f"{NOTE}pitch_rate runs against the model" in capsys.readouterr().err
+
+
+@pytest.fixture(scope="module")
+def late(files, repository, tmp_path_factory):
+    """The records of a car with soft top mounts, and the configuration of a model that has them."""
+    folder, mounts = tmp_path_factory.mktemp("late"), {"top_mount": {"front": 3e-6, "rear": 3e-6}}
+    road = store.read(files / "road.nc")
+    for name, speed in (("fit", 20.0), ("check", 16.0)):
+        u = road["u"].values
+        run = simulate.run(road, quarter_cars.vehicle(repository), speed=xr.DataArray(speed + np.sin(u / 30), {"u": u}, "u"), effects=mounts)
+        recorded(run).to_csv(folder / f"{name}.csv", index=False)
+    entries = [ENTRY | {"name": name, "role": name} for name in ("fit", "check")]
+    calibration = {"bounds": {}, "signals": list(SIGNALS), "tolerance": 1e-4, "restarts": 0, "seed": 1, "applied": "joint", "profiles": []}
+    model = {"site": "here", "effects": {"top_mount": {}}, "effects_folder": None, "simulation": SIMULATION, "calibration": calibration}
+    return folder, model | {"drives": entries, "alignment": {"search": 0.5}}
+
+
+def test_what_an_effect_does_late_is_no_error_of_a_clock_once_the_model_has_it(files, late, car_file, capsys):
+    folder, config = late
+    drives = {"road": files / "road.nc", "vehicle": car_file, "drives": [folder / "fit.csv", folder / "check.csv"], "workers": 2}
+    base = {key: config[key] for key in ("site", "drives", "simulation", "alignment")}
+    measured.main(**drives, config=base, output=folder / "measured.nc")
+    fitted = {"road": files / "road.nc", "vehicle": car_file, "workers": 2, "output": folder / "base.nc"}
+    calibrate.main(**fitted, measured=folder / "measured.nc", config=config | {"effects": {}})
+    own = {**drives, "before": folder / "measured.nc", "below": folder / "base.nc", "config": config, "output": folder / "own.nc"}
+    realigned.main(**own)
+    before, after = (store.read(folder / f"{name}.nc") for name in ("measured", "own"))
+    assert (before["clock_offset"] > 2e-3).all(), "recorded without an error of the clock: the delay passes for one"
+    assert (abs(after["clock_offset"]) < 0.2 * before["clock_offset"]).all()
+    assert undescribed(after) == [] and list(after["drive"].values) == ["fit", "check"]
+
+    # Aligned for a car without the effect, both drives are aligned as for the base model.
+    realigned.main(**own | {"config": config | {"effects": {"top_mount": {"front": 0.0, "rear": 0.0}}}})
+    xr.testing.assert_allclose(store.read(folder / "own.nc")["clock_offset"], before["clock_offset"], rtol=1e-6)
+
+    # A site that is calibrated on another takes the sizes from there.
+    calibrate.main(**fitted | {"output": folder / "there.nc"}, measured=folder / "measured.nc", config=config)
+    realigned.main(**own | {"below": None, "calibration": folder / "there.nc"})
+    assert (store.read(folder / "own.nc")["clock_offset"] < before["clock_offset"] - 5e-4).all()
+
+    # Where drives cannot be aligned with the effects, that is said, and they stay as they are.
+    capsys.readouterr()
+    realigned.main(**own | {"below": None, "config": config | {"alignment": {"search": 0.0}}})
+    assert f"{NOTE}here: drives stay as aligned for the model before, since with top_mount" in capsys.readouterr().err
+    xr.testing.assert_identical(store.read(folder / "own.nc")["s"], before["s"])
 
 
 def backwards(table):

@@ -36,7 +36,7 @@ class Answer:
 
 
 RULES = (
-    "road measured calibrate sample simulate space thresholds iso2631 iri agreement maps comparison critical ladder located compared "
+    "road measured realigned calibrate sample simulate space thresholds iso2631 iri agreement maps comparison critical ladder located compared "
     "diagnosis diagnosed standin_score tables figures report"
 ).split()
 
