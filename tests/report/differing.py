@@ -123,7 +123,7 @@ VERDICT = {
             "differ_on": {},
         }
     ],
-    "reasons": ["80 % of the explainable error is removed on the fitted drives", "75 % on drives held out"],
+    "reasons": ["80 % of the explainable error is removed on the fitted drives, by suspension_friction", "75 % on drives held out"],
     "share": 0.8,
     "held_out_share": 0.75,
 }

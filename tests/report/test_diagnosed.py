@@ -60,6 +60,9 @@ def test_a_proposed_form_is_shown():
     said = words(diagnosed.tables(found)["verdict"])
     assert "At the strut: 80 N tanh(velocity / 0.005)." in said and "positive in compression" in said and "Friction of seals." in said
     assert "84 % of the explainable error on the fitted drives, 92 % on drives held out (p = 0.0015)" in said
+    told = [row["what"] for row in rows(diagnosed.tables(found)["verdict"])]
+    assert told.index("its sizes") < told.index("reason"), "what it is stands before why"
+    assert "N (78 to " in said
     row = rows(diagnosed.tables(found)["missing_effects"])[-1]
     assert row["effect"] == "discovered 2 (proposed form)" and float(row["interval_lower"]) == 78.0 and float(row["p_value"]) == 0.0015
     assert (row["fitted_pct"], row["held_out_pct"], row["absorbed_pct"]) == (84.0, 92.0, None)

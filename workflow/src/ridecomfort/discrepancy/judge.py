@@ -88,7 +88,7 @@ def judge(
         reasons.append(f"{names} would help, but {'removes' if len(effects) == 1 else 'remove'} too little to be what is missing: {_percent(balance.share)} of the explainable error")
         effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
     elif not is_vain:
-        reasons += _removed(balance) if found else _unfound(selection)
+        reasons += _removed(balance, found) if found else _unfound(selection)
     if is_little or balance.is_left and not effects:
         kind = "outside"
         reasons.append(_unexplained(selection, balance, is_little))
@@ -112,7 +112,8 @@ def with_remainder(verdict: Verdict, remainder: Mapping[str, float], at_first: M
     largest = sorted(remainder, key=lambda name: -remainder[name])[:TOLD]
     told = [f"{100 * remainder[name]:.1f} % of the power of {name}" for name in largest if remainder[name] >= LEAST_TOLD]
     left = " and ".join([", ".join(told[:-1]), told[-1]]) if len(told) > 1 else "".join(told)
-    words = f"left above the floor: {left}" if told else f"less than {100 * LEAST_TOLD:g} % of the power of any signal is left above the floor"
+    names = ", ".join(effect.name for effect in verdict.effects)
+    words = f"left above the floor{f' with {names}' if names else ''}: {left}" if told else f"less than {100 * LEAST_TOLD:g} % of the power of any signal is left above the floor"
     reasons = verdict.reasons if verdict.verdict == "suspect" else (*verdict.reasons, words)
     return replace(verdict, reasons=reasons, remainder=dict(remainder), at_first=dict(at_first))
 
@@ -163,10 +164,11 @@ def with_allowances(verdict: Verdict, names: Collection[str]) -> Verdict:
     return replace(verdict, reasons=(*verdict.reasons, *told))
 
 
-def _removed(balance: Balance) -> list[str]:
-    """How much of the explainable error the effects remove, in words."""
+def _removed(balance: Balance, found: Sequence[Named]) -> list[str]:
+    """How much of the explainable error the effects that were found remove, in words."""
+    names = ", ".join(effect.name for effect in found)
     held_out = [f"{_percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
-    return [f"{_percent(balance.share)} of the explainable error is removed on the fitted drives", *held_out]
+    return [f"{_percent(balance.share)} of the explainable error is removed on the fitted drives, by {names}", *held_out]
 
 
 def _vain(found: Sequence[Named]) -> str:

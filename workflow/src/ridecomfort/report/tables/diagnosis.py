@@ -74,13 +74,8 @@ def verdict(found: Diagnosis) -> Table:
     first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, *known, _other(beyond or {}))
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [(words(effect["name"]), _found(effect)) for effect in told if said["verdict"] in NAMING]
-    rows += [("reason", sentence(reason)) for reason in said["reasons"]]
-    rows += [(f"{words(name)}, switched on", _before(found.told_before[name])) for name in found.switched_on if name in found.told_before]
     if said["verdict"] == "suspect":
         beyond = None  # the data come first, and may be what drives parameters there
-    comes_first = bool(beyond) and not beyond.get("is_instead")
-    if comes_first:
-        rows.append(("the vehicle", advice.farther(beyond)))
     if advice.library_helps(said):
         take = "together take" if len(said["effects"]) > 1 else "takes"
         role = "beside the proposed form" if said.get("is_beside_form") else "and may stand in for what is missing"
@@ -93,7 +88,14 @@ def verdict(found: Diagnosis) -> Table:
         rows.append(("such as", sentence(proposal["such_as"])))
         rows += [(what, sentence(proposal[key])) for key, what in (("here", "here it is"), ("typically", "at typical motion")) if proposal.get(key)]
         beside = proposal.get("beside")
+        fitted = [size for size in proposal["sizes"] if size["interval"]]
+        rows += [("its sizes", sentence(", ".join(map(_size, fitted))))] if fitted else []
         rows.append((f"with {', '.join(map(words, beside))} it removes" if beside else "it removes", _promise(proposal)))
+    rows += [("reason", sentence(reason)) for reason in said["reasons"]]
+    rows += [(f"{words(name)}, switched on", _before(found.told_before[name])) for name in found.switched_on if name in found.told_before]
+    comes_first = bool(beyond) and not beyond.get("is_instead")
+    if comes_first:
+        rows.append(("the vehicle", advice.farther(beyond)))
     if said.get("off_file"):
         rows.append(("the vehicle's file", advice.calibrated_too(said["off_file"])))
     rows.append(("next, after the vehicle" if comes_first else "next", advice.next_step(found)))

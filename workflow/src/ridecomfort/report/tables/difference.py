@@ -151,5 +151,4 @@ def _groups(study: Difference, site: Compared):
 def _table(study: Difference, name, columns, rows, sources, notes, breaks) -> Table:
     notes = [*notes, *filter(None, [study.standin_note()])]
     caption = catalogue.DIFFERENCE_TABLES[name]
-    caption = caption if name == "alignment" else f"{caption} Model: {study.model}."
-    return Table(name, caption, tuple(columns), tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks))
+    return Table(name, f"{caption} Model: {study.model}.", tuple(columns), tuple(rows), tuple(sources), tuple(notes), breaks=tuple(breaks))
