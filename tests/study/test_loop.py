@@ -48,10 +48,10 @@ def test_an_effect_that_is_switched_on_is_a_rung_more(plan):
         assert f"calibrate ts1 {model}" in jobs and f"comparison ts2 {model}" in jobs and f"critical ts3 {model}" in jobs
 
 
-def test_a_model_with_effects_is_fitted_to_drives_that_are_aligned_for_it(plan):
+def test_every_model_is_fitted_to_drives_that_are_aligned_for_it(plan):
     jobs = plan("compare", "--config", "effects=[suspension_friction]")
-    assert {job for job in jobs if job.startswith("realigned")} == {f"realigned {site} suspension_friction" for site in ("ts1", "ts2", "ts3")}
-    assert not any(job.startswith("realigned") for job in plan("compare"))
+    models = ("base", "suspension_friction")
+    assert {job for job in jobs if job.startswith("realigned")} == {f"realigned {site} {model}" for site in ("ts1", "ts2", "ts3") for model in models}
 
 
 def test_a_calibration_begins_from_that_of_the_model_with_an_effect_less(plan):

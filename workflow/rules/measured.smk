@@ -20,7 +20,7 @@ rule measured:
         " --drives {input.drives:q} --config {params.config:q} --output {output:q} --workers {threads} 2> {log:q}"
 
 
-# The same drives aligned for a model with effects: what these do late passes for an error of the clock where the model lacks them.
+# The same drives aligned for a model: what its vehicle and effects do late passes for an error of the clock where they are not known.
 rule realigned:
     input:
         code=modules.of_step("realigned"),
@@ -28,11 +28,11 @@ rule realigned:
         road="results/{site}/road.nc",
         vehicle=lambda wildcards: study.vehicle(wildcards.site),
         drives=lambda wildcards: study.drives(wildcards.site),
-        before=lambda wildcards: study.aligned(wildcards.site, models.below(study, wildcards.model)),
+        before=lambda wildcards: models.aligned_before(study, wildcards.site, wildcards.model),
         below=lambda wildcards: expand(
             "results/{site}/{model}/calibration.nc",
             site=wildcards.site if study.calibrated_on(wildcards.site) == wildcards.site else [],
-            model=models.below(study, wildcards.model),
+            model=models.below(study, wildcards.model) or [],
         ),
         calibration=lambda wildcards: expand(
             "results/{site}/{model}/calibration.nc",

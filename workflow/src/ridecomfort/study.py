@@ -145,7 +145,7 @@ class Study:
 
     def aligned(self, site: str, model: str) -> str:
         """File of a site's measured drives as they are aligned for a model."""
-        return f"results/{aligned_file(site, model)}"
+        return f"results/{aligned_file(site, model, self.calibrated_on(site))}"
 
     @property
     def measured(self) -> list[str]:
@@ -203,9 +203,12 @@ class Study:
         return None if named is None else self.folder / named
 
 
-def aligned_file(site: str, model: str) -> str:
-    """File of a site's measured drives as they are aligned for a model, below the folder of results."""
-    return f"{site}/measured.nc" if model == BASE else f"{site}/{model}/measured.nc"
+def aligned_file(site: str, model: str, calibrated_on: str | None) -> str:
+    """File of a site's measured drives as they are aligned for a model, below the folder of results.
+
+    A vehicle as its file has it, without effects, is what they are first aligned for.
+    """
+    return f"{site}/measured.nc" if model == BASE and calibrated_on is None else f"{site}/{model}/measured.nc"
 
 
 def effects_of(model: str) -> list[str]:

@@ -12,20 +12,24 @@ from ridecomfort.vehicle import parameters
 
 
 def main(road, vehicle, drives, config, output, workers):
-    aligned = of_files(drives, simulate.prepare(store.read(road)), parameters.read(vehicle), config, int(workers))
+    car = parameters.read(vehicle)
+    aligned = of_files(drives, simulate.prepare(store.read(road)), car, config, int(workers), car)
     store.write(aligned, output, title=f"Measured drives on {config['site']}", configuration=config)
     if aligned.attrs["distance_doubt"]:
         note(f"{config['site']}: {aligned.attrs['distance_doubt']}")
 
 
-def of_files(files: Sequence, course, car, config: Mapping, workers: int, effects: Mapping | None = None) -> xr.Dataset:
-    """The drives in files, aligned with the road for a vehicle with ``effects``, and what speaks against their distances."""
+def of_files(
+    files: Sequence, course, car, config: Mapping, workers: int, own, effects: Mapping[str, Mapping[str, float]] | None = None
+) -> xr.Dataset:
+    """The drives of a ``car`` in files, aligned with the road, and what speaks against their distances; aligned for the car as it is
+    supposed to be, its ``own`` vehicle with ``effects``."""
     read = [configured.read(path, entry, car, rate=config["simulation"]["rate"]) for path, entry in zip(files, config["drives"], strict=True)]
     options = {"step": config["simulation"]["step"], "effects_folder": config.get("effects_folder")}
 
     def found(path, drive: xr.Dataset) -> xr.Dataset:
         try:
-            one = align.align(drive, course, car, simulate=simulate.run, effects=effects, options=options, **config["alignment"])
+            one = align.align(drive, course, own, simulate=simulate.run, effects=effects, options=options, **config["alignment"])
         except InputError as problem:
             raise InputError(str(problem), file=path) from None
         return configured.check_speed(one, path)

@@ -74,6 +74,12 @@ def below(study: Study, model: str) -> str | None:
     return models[models.index(model) - 1] if model in models else BASE
 
 
+def aligned_before(study: Study, site: str, model: str) -> str:
+    """File of a site's measured drives as they are aligned for the model before this one; for base, as they were aligned first."""
+    before = below(study, model)
+    return f"results/{site}/measured.nc" if before is None else study.aligned(site, before)
+
+
 def verdict_file(study: Study) -> str:
     """Where the verdict on the study's model lies, from the project folder."""
     return f"results/diagnosis/{study.model}/verdict.json"

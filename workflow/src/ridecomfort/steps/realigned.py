@@ -1,7 +1,7 @@
-"""Align a site's measured drives anew for a model with effects: what an effect does late would else pass for a clock's error.
+"""Align a site's measured drives anew for a model: what the vehicle and its effects do late else passes for an error of the clock.
 
-They are aligned as for the base model, from the same vehicle, with the effects at the sizes that a rough calibration on the drives
-as they were aligned ``before`` gives them, or those of the site that the vehicle is calibrated on.
+They are aligned from the vehicle, and with the effects, of a rough calibration on the drives as they were aligned ``before``, or of the
+calibration on the site that this one takes its vehicle from; base as well, so that no model is compared with better aligned drives.
 """
 
 import sys
@@ -14,27 +14,30 @@ from ridecomfort.steps import measured
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
-STAYS = "{site}: drives stay as aligned for the model before, since with {effects} {why}"
+ROUGH = {"sequence": False, "profiles": [], "restarts": 0, "tolerance": calibrate.COARSE}
+"""Settings of the rough calibration."""
+
+STAYS = "{site}: drives stay as they were aligned before, since for {model} {why}"
 
 
 def main(road, vehicle, drives, before, config, output, workers, below=None, calibration=None):
     course, car = simulate.prepare(store.read(road)), parameters.read(vehicle)
     effects = {entry.effect.name: sizes for entry, sizes in library.choose(config["effects"], config["effects_folder"])}
     found = None if calibration is None else store.read(calibration)
-    if below is not None:
-        rough = {"sequence": False, "profiles": [], "restarts": 0, "tolerance": calibrate.COARSE}
-        settings = config | {"calibration": config["calibration"] | rough}
-        found = calibration_step.fitted(store.read(before), course, car, settings, int(workers), store.read(below))
-    _, effects = calibrated.apply(found, car, effects)
-    for name, sizes in effects.items():
-        print(name, *(f"{parameter} {size:.4g}" for parameter, size in sizes.items()), file=sys.stderr)
+    if config["calibration"] is not None:
+        settings = config | {"calibration": config["calibration"] | ROUGH}
+        lower = None if below is None else store.read(below)
+        found = calibration_step.fitted(store.read(before), course, car, settings, int(workers), lower)
+    own, effects = calibrated.apply(found, car, effects)
+    model = ", ".join(effects) or "the calibrated vehicle"
     try:
-        aligned = measured.of_files(drives, course, car, config, int(workers), effects)
+        aligned = measured.of_files(drives, course, car, config, int(workers), own, effects)
     except InputError as why:
-        note(STAYS.format(site=config["site"], effects=", ".join(effects), why=why))
+        note(STAYS.format(site=config["site"], model=model, why=why))
         aligned = store.read(before)
-    title = f"Measured drives on {config['site']}, aligned for {', '.join(effects)}"
-    store.write(aligned, output, title=title, configuration=config)
+    for name, offset in zip(aligned["drive"].values, 1e3 * aligned["clock_offset"].values):
+        print(f"{name}: clock offset {offset:.2f} ms", file=sys.stderr)
+    store.write(aligned, output, title=f"Measured drives on {config['site']}, aligned for {model}", configuration=config)
 
 
 if __name__ == "__main__":

@@ -57,8 +57,8 @@ def difference(results: Path, config: dict) -> Difference:
 
 def compared(results: Path, config: dict, name: str) -> Compared:
     """Comparison and aligned drives of a measured site with the model of ``config``."""
-    model = config["model"]
-    files = {"measured": results / aligned_file(name, model), "comparison": results / name / model / "comparison.nc"}
+    model, calibrated = config["model"], config["sites"][name]["calibrated_on"]
+    files = {"measured": results / aligned_file(name, model, calibrated), "comparison": results / name / model / "comparison.nc"}
     loaded = {key: store.read(file) for key, file in files.items()}
     return Compared(
         name, **loaded, standin=config["sites"][name]["standin"], files={key: file.as_posix() for key, file in files.items()}
