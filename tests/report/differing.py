@@ -81,7 +81,7 @@ def difference(names=("ts1", "ts2"), standin=True) -> Difference:
     sites = tuple(
         Compared(
             name, aligned(), models["base"], standin,
-            {"measured": f"{name}/measured.nc", "comparison": f"{name}/base/comparison.nc"},
+            {"measured": f"{name}/base/measured.nc", "comparison": f"{name}/base/comparison.nc"},
         )
         for name, models in of_site.items()
     )  # fmt: skip

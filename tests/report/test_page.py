@@ -112,7 +112,7 @@ def test_every_file_that_was_read_is_told_once(score):
     if score is None:
         last = dataclasses.replace(last, files={name: file for name, file in last.files.items() if name != "score"})
     told = [file for file, *_ in page._files(dataclasses.replace(study, difference=found, diagnosis=last))]
-    read = [*study.sites[0].files.values(), "ts1/measured.nc", "ts1/base/calibration.nc", "comfort/base/agreement.nc", "ladder/base.nc"]
+    read = [*study.sites[0].files.values(), "ts1/base/measured.nc", "ts1/base/calibration.nc", "comfort/base/agreement.nc", "ladder/base.nc"]
     assert sorted(told) == sorted([*read, *last.files.values()])
 
 

@@ -27,7 +27,7 @@ def written(tmp_path_factory):
     store.write(study.assessment, folder / study.assessment_file, title="agreement", configuration=config, seed=1)
     difference, diagnosis = differing.difference(("ts1",)), differing.diagnosis()
     store.write(difference.sites[0].comparison, folder / "ts1" / "base" / "comparison.nc", title="comparison of ts1")
-    store.write(difference.sites[0].measured, folder / "ts1" / "measured.nc", title="measured on ts1")
+    store.write(difference.sites[0].measured, folder / "ts1" / "base" / "measured.nc", title="measured on ts1")
     store.write(difference.ladder, folder / "ladder" / "base.nc", title="ladder")
     store.write(diagnosis.ranking, folder / "diagnosis" / "base" / "ranking.nc", title="ranking")
     (folder / "diagnosis" / "base" / "verdict.json").write_text(json.dumps(differing.VERDICT))
