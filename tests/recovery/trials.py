@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from ridecomfort import simulate
+from ridecomfort import calibrate, calibrated, simulate
 from ridecomfort.drive import align, record
 from ridecomfort.standin import drives as standin
 from ridecomfort.standin import instrument
@@ -54,6 +54,14 @@ def make(seed: int, vehicle, measurement: Mapping) -> Trial:
         measured = record.from_arrays(
             {name: (time, values) for name, values in quantities.items()}, name=f"repeat_{number + 1}", sensor=SENSOR
         )
-        drives.append(align.align(measured, course, vehicle, simulate=simulate.run))
+        drives.append(measured)
         errors.append({**driver, **drawn})
-    return Trial(course, drives, truth, errors)
+    return Trial(course, _aligned(drives, course, vehicle), truth, errors)
+
+
+def _aligned(drives: Sequence[xr.Dataset], course, vehicle) -> list[xr.Dataset]:
+    """Drives aligned as those of a study: first for the nominal vehicle, then for that of a rough fit."""
+    first = [align.align(drive, course, vehicle, simulate=simulate.run) for drive in drives]
+    rough = calibrate.calibrate(first, course, vehicle, sequence=False, restarts=0, tolerance=calibrate.COARSE)
+    own, _ = calibrated.apply(rough, vehicle)
+    return [align.align(drive, course, own, simulate=simulate.run) for drive in drives]
