@@ -14,7 +14,7 @@ from ridecomfort.steps import measured
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
-ROUGH = {"sequence": False, "profiles": [], "restarts": 0, "tolerance": calibrate.COARSE}
+ROUGH = {"applied": "joint", "sequence": False, "profiles": [], "restarts": 0, "tolerance": calibrate.COARSE}
 """Settings of the rough calibration."""
 
 STAYS = "{site}: drives stay as they were aligned before, since for {model} {why}"
