@@ -4,7 +4,8 @@ from pathlib import Path
 
 import yaml
 
-from ridecomfort import config, modules, schema
+from ridecomfort import config, modules, schema, stepsettings
+from ridecomfort.steps import models
 from tests.projects import DRIVE, HEADER, read, write
 
 
@@ -85,6 +86,21 @@ def test_without_calibration_the_drives_of_one_vehicle_are_diagnosed_together(pr
     assert study.diagnosed == ["fitted", "checked"]
     study = config.load({"sites": ["checked"]}, project)
     assert study.diagnosed == [] and not study.forward
+
+
+def test_drives_are_aligned_for_every_model_but_that_which_they_were_aligned_for_first(project):
+    (project / "drive.csv").write_text(HEADER)
+    site = {"road": {"file": "road.crg"}, "drives": [DRIVE]}
+    write(project, "fitted", site)
+    write(project, "nominal", {**site, "calibrated_on": "none"})
+    study = config.load({"sites": ["fitted", "nominal"], "effects": ["steering_lag"]}, project)
+    assert study.aligned("fitted", "base") == "results/fitted/base/measured.nc"
+    assert study.aligned("nominal", "base") == "results/nominal/measured.nc"
+    assert study.aligned("nominal", "steering_lag") == "results/nominal/steering_lag/measured.nc"
+    assert models.aligned_before(study, "fitted", "base") == "results/fitted/measured.nc"
+    assert models.aligned_before(study, "fitted", "steering_lag") == "results/fitted/base/measured.nc"
+    told = {name: stepsettings.of_step(study, "realigned", name, "steering_lag") for name in study.names}
+    assert told["fitted"]["calibration"] and told["nominal"]["calibration"] is None, "only on drives of its own is a vehicle fitted"
 
 
 def test_the_study_goes_forward_only_where_drives_are_diagnosed_and_is_scored_only_on_stand_ins(project):
