@@ -221,7 +221,8 @@ def test_what_is_left_is_said_in_percent_of_the_power_of_each_signal():
     found = with_remainder(OUTSIDE, left, left)
     assert found.reasons[-1] == "left above the floor: 25.0 % of the power of yaw_rate, 1.2 % of the power of a_y and 0.4 % of the power of a_x"
     assert found.json()["remainder"]["roll_rate"] == 0.002
-    assert with_remainder(replace(OUTSIDE, effects=(FOUND,)), left, left).reasons[-1].startswith(f"left above the floor with {FOUND.name}: 25.0 %")
+    dropped = with_remainder(replace(OUTSIDE, effects=(FOUND,)), left, left, [FOUND.name, "crosswind"])
+    assert dropped.reasons[-1].startswith(f"left above the floor with {FOUND.name}, crosswind: 25.0 %"), "not those of the verdict alone"
     assert "less than 0.1 % of the power of any signal" in with_remainder(OUTSIDE, {"a_x": 0.0}, {}).reasons[-1]
 
 

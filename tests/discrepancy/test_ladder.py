@@ -34,16 +34,17 @@ def of_two(own, other, floor=1.0):
     return xr.concat([comparison(*own), second], "signal", data_vars="minimal", join="outer")
 
 
-def sections(*simulated, measured=(0, 1, 2, 0), groups=(0, 1), start=0.0):
-    """Graded sections from ``start`` (m) on; ``simulated`` by state."""
+def sections(*simulated, measured=(0, 1, 2, 0), groups=(0, 1), first=0, length=5.0):
+    """Graded sections from the ``first`` on; ``simulated`` by state."""
     grade = np.array([measured, *simulated], np.int8)[:, None, None, :] * np.ones((1, 2, 2, 1), np.int8)
     return xr.Dataset(
         {
             "grade": (("source", "method", "drive", "window"), grade),
-            "window_start": ("window", start + 5.0 * np.arange(grade.shape[-1])),
+            "window_start": ("window", first * length + length * np.arange(grade.shape[-1])),
             "repeat_group": ("drive", list(groups)),
         },
         {"source": ["measured", "reference", "calibrated"], "method": list(critical.METHODS), "drive": ["one", "slow"]},
+        {"critical_length": length},
     )
 
 
@@ -71,12 +72,26 @@ def test_models_are_compared_where_all_have_been():
     """Drives that are aligned for each of them begin and end a little apart: a stretch or a section more or less."""
     base = comparison(9.0, 5.0, by_stretch=[[9.0] * 7, [1.0] + [5.0] * 6])
     later = comparison(9.0, 3.0, by_stretch=[[9.0] * 7, [4.0] * 6 + [99.0]], start=100.0)
-    graded = {"base": sections((0, 0, 0, 0), (2, 0, 1, 0)), "one": sections((0, 0, 0, 0), (0, 1, 0, 9), measured=(1, 2, 0, 0), start=5.0)}
+    graded = {"base": sections((0, 0, 0, 0), (2, 0, 1, 0)), "one": sections((0, 0, 0, 0), (0, 1, 0, 9), measured=(1, 2, 0, 0), first=1)}
     found = ladder({"ts1": Measured({"base": base, "one": later}, graded, True)}, ["base", "one"], ["+ one"]).sel(site="ts1", rung="+ one")
     for group in ("fitted", "held out"):
         chosen = found.sel(group=group)
         assert float(chosen["falling"]) == 1.0 and float(chosen["fall_p_value"]) == pytest.approx(1 / 64)
         assert (chosen["compared"] == 3).all() and (chosen["changed"] == 0).all()
+
+
+def test_sections_are_the_same_whatever_their_length_and_a_drive_counts_where_it_is_known_of_all_models():
+    still, models = [comparison(9.0, 5.0), comparison(9.0, 5.0)], ("base", "one")
+    calm = np.zeros(400)
+    base, one = (sections(calm, calm, measured=calm, first=first, length=4.6) for first in (3, 4))
+    found = ladder({"ts1": Measured(dict(zip(models, still)), {"base": base, "one": one}, True)}, models, ["+ one"])
+    assert (found["compared"].sel(rung="+ one") == 399).all()
+
+    base, one = (sections((0, 0, 0, 0), (0, 0, 0, 0), measured=(0, 1, 2, 0)) for _ in models)
+    base["grade"][:, :, 1, 0] = critical.NOT_DRIVEN  # where the second drive is not compared yet
+    found = ladder({"ts1": Measured(dict(zip(models, still)), {"base": base, "one": one}, True)}, models, ["+ one"]).sel(site="ts1", rung="+ one")
+    assert (found["compared"].sel(group="held out") == 3).all() and (found["compared"].sel(group="fitted") == 4).all()
+    assert (found["changed"] == 0).all() and (found["changed_in_all"] == 0).all()
 
 
 def test_a_fall_is_as_sure_as_the_stretches_that_it_is_met_in():

@@ -181,6 +181,7 @@ def test_what_an_effect_does_late_is_no_error_of_a_clock_once_the_model_has_it(f
     realigned.main(**elsewhere | {"config": elsewhere["config"] | {"alignment": {"search": 0.0}}})
     assert f"{NOTE}here: drives stay as they were aligned before, since for top_mount" in capsys.readouterr().err
     xr.testing.assert_identical(store.read(folder / "own.nc")["s"], before["s"])
+    assert store.read(folder / "own.nc").attrs["alignment_doubt"] and store.read(folder / "aligned.nc").attrs["alignment_doubt"] == ""
 
 
 def backwards(table):

@@ -31,12 +31,12 @@ rule realigned:
         before=lambda wildcards: models.aligned_before(study, wildcards.site, wildcards.model),
         below=lambda wildcards: expand(
             "results/{site}/{model}/calibration.nc",
-            site=wildcards.site if study.calibrated_on(wildcards.site) == wildcards.site else [],
+            site=wildcards.site if study.is_fitted(wildcards.site) else [],
             model=models.below(study, wildcards.model) or [],
         ),
         calibration=lambda wildcards: expand(
             "results/{site}/{model}/calibration.nc",
-            site=study.calibrated_elsewhere(wildcards.site) or [],
+            site=[] if study.is_fitted(wildcards.site) else study.calibrated_elsewhere(wildcards.site) or [],
             model=wildcards.model,
         ),
     output:

@@ -24,7 +24,7 @@ SITES = Path("config/sites")
 STANDIN = Path("config/standin.yaml")
 
 TAKEN = frozenset(
-    "all compare diagnose report blind survey road inspect measured calibrate sample simulate handed_in space thresholds "
+    "all compare diagnose report blind survey road inspect measured realigned calibrate sample simulate handed_in space thresholds "
     "iso2631 iri comparison agreement maps comfort tables figures diagnosis critical ladder compared diagnosed score logs "
     "benchmarks bench none located standin_score paper pooled".split()
 )

@@ -52,8 +52,8 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
         case "measured":
             return {**_aligned(study, site), **at, "simulation": simulation}
         case "realigned":
-            is_fitted = study.calibrated_on(site) == site
-            return {**_aligned(study, site), **simulated, "calibration": calibration if is_fitted else None}
+            roughly = {key: calibration[key] for key in ("parameters", "bounds", "signals", "start")}
+            return {**_aligned(study, site), **simulated, "calibration": roughly if study.is_fitted(site) else None}
         case "calibrate":
             return {**simulated, "calibration": calibration}
         case "compare":

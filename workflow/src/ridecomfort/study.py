@@ -108,6 +108,10 @@ class Study:
             return site if has_fit(self.sites[site]) else None
         return None if named == NO_CALIBRATION else named
 
+    def is_fitted(self, site: str) -> bool:
+        """Whether a vehicle is calibrated on the drives of a site: its own, or that of another site."""
+        return self.calibrated_on(site) == site or site in self.calibrations
+
     def calibrated_elsewhere(self, site: str) -> str | None:
         """Another site on whose drives the vehicle of this site is calibrated, if any."""
         other = self.calibrated_on(site)

@@ -107,12 +107,15 @@ def judge(
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error)
 
 
-def with_remainder(verdict: Verdict, remainder: Mapping[str, float], at_first: Mapping[str, float]) -> Verdict:
-    """A verdict that says what share of the power of each signal is left, and was ``at_first``, before anything was found."""
+def with_remainder(
+    verdict: Verdict, remainder: Mapping[str, float], at_first: Mapping[str, float], accepted: Sequence[str] = ()
+) -> Verdict:
+    """A verdict that says what share of the power of each signal is left by the effects that were ``accepted``, and was ``at_first``, before
+    anything was found."""
     largest = sorted(remainder, key=lambda name: -remainder[name])[:TOLD]
     told = [f"{100 * remainder[name]:.1f} % of the power of {name}" for name in largest if remainder[name] >= LEAST_TOLD]
     left = " and ".join([", ".join(told[:-1]), told[-1]]) if len(told) > 1 else "".join(told)
-    names = ", ".join(effect.name for effect in verdict.effects)
+    names = ", ".join(accepted)
     words = f"left above the floor{f' with {names}' if names else ''}: {left}" if told else f"less than {100 * LEAST_TOLD:g} % of the power of any signal is left above the floor"
     reasons = verdict.reasons if verdict.verdict == "suspect" else (*verdict.reasons, words)
     return replace(verdict, reasons=reasons, remainder=dict(remainder), at_first=dict(at_first))

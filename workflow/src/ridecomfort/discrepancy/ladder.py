@@ -48,9 +48,16 @@ class Measured:
     fitted: bool
 
     def in_common(self) -> Measured:
-        """The same with the stretches and sections that it has of all models: drives aligned for each end millimetres apart."""
-        sections = {model: each.assign_coords(window=each["window_start"]) for model, each in self.sections.items()}
-        return replace(self, comparisons=_alike(self.comparisons, "stretch_of_road"), sections=_alike(sections, "window"))
+        """The same with the stretches, and of every drive the sections, that it has of all models: aligned for each, drives end millimetres
+        apart."""
+        number = lambda each: np.rint(each["window_start"] / each.attrs["critical_length"]).astype(int)
+        sections = _alike({model: each.assign_coords(window=number(each)) for model, each in self.sections.items()}, "window")
+        grades = [each["grade"].sel(source="measured", drop=True) for each in sections.values()]
+        driven = np.logical_and.reduce([(grade != critical.NOT_DRIVEN).values for grade in grades])
+        sections = {
+            model: each.assign(grade=each["grade"].where(grades[0].copy(data=driven), critical.NOT_DRIVEN)) for model, each in sections.items()
+        }
+        return replace(self, comparisons=_alike(self.comparisons, "stretch_of_road"), sections=sections)
 
 
 def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequence[str]) -> xr.Dataset:

@@ -48,7 +48,7 @@ def align(
     """The drive brought into line with the road, gravity removed, and what was found as attributes.
 
     ``drive`` is a record (``drive.record``), ``road`` a road or a prepared one (``simulate.prepare``),
-    ``vehicle`` the nominal one (it need not fit), driven with ``effects``; ``simulate`` has the signature of ``simulate.run``
+    ``vehicle`` the one to begin from (it need not fit), driven with ``effects``; ``simulate`` has the signature of ``simulate.run``
     and ``search`` (s) bounds the clock offset. A place that was integrated from speed is that on the road after so much way,
     but for a scale and an offset. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
     gain, mounting and bias; ``e`` becomes the path that was found.

@@ -75,8 +75,9 @@ def below(study: Study, model: str) -> str | None:
 
 
 def aligned_before(study: Study, site: str, model: str) -> str:
-    """File of a site's measured drives as they are aligned for the model before this one; for base, as they were aligned first."""
-    before = below(study, model)
+    """File of a site's measured drives from which their alignment for a model begins: as they are aligned for the model before it where
+    a vehicle is fitted to them; else, and for base, as they were aligned first."""
+    before = below(study, model) if study.is_fitted(site) else None
     return f"results/{site}/measured.nc" if before is None else study.aligned(site, before)
 
 

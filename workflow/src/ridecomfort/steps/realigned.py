@@ -14,10 +14,10 @@ from ridecomfort.steps import measured
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
-ROUGH = {"applied": "joint", "sequence": False, "profiles": [], "restarts": 0, "tolerance": calibrate.COARSE}
-"""Settings of the rough calibration."""
+ROUGH = {"applied": "joint", "sequence": False, "profiles": [], "restarts": 0, "seed": 0, "tolerance": calibrate.COARSE}
+"""Settings of the rough calibration, beside those of which the step is told."""
 
-STAYS = "{site}: drives stay as they were aligned before, since for {model} {why}"
+STAYS = "drives stay as they were aligned before, since for {model} {why}"
 
 
 def main(road, vehicle, drives, before, config, output, workers, below=None, calibration=None):
@@ -30,14 +30,16 @@ def main(road, vehicle, drives, before, config, output, workers, below=None, cal
         found = calibration_step.fitted(store.read(before), course, car, settings, int(workers), lower)
     own, effects = calibrated.apply(found, car, effects)
     model = ", ".join(effects) or "the calibrated vehicle"
+    title, doubt = f"Measured drives on {config['site']}, aligned for {model}", ""
     try:
         aligned = measured.of_files(drives, course, car, config, int(workers), own, effects)
     except InputError as why:
-        note(STAYS.format(site=config["site"], model=model, why=why))
-        aligned = store.read(before)
+        aligned, doubt = store.read(before), STAYS.format(model=model, why=why)
+        title = f"Measured drives on {config['site']}, not aligned for {model}"
+        note(f"{config['site']}: {doubt}")
     for name, offset in zip(aligned["drive"].values, 1e3 * aligned["clock_offset"].values):
         print(f"{name}: clock offset {offset:.2f} ms", file=sys.stderr)
-    store.write(aligned, output, title=f"Measured drives on {config['site']}, aligned for {model}", configuration=config)
+    store.write(aligned.assign_attrs(alignment_doubt=doubt), output, title=title, configuration=config)
 
 
 if __name__ == "__main__":

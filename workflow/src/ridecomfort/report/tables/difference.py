@@ -15,6 +15,9 @@ from ..units import printed
 JUDGED = f"From {judged.LOWEST:g} Hz on, this model"
 """Heading of what is told of the frequencies that a model answers for."""
 
+DOUBTS = ("distance_doubt", "alignment_doubt")
+"""Attributes of aligned drives with what speaks against their distances, and why they are not aligned for the model."""
+
 
 def alignment(study: Difference) -> Table:
     """What stood between each record and its road."""
@@ -48,7 +51,7 @@ def alignment(study: Difference) -> Table:
         "the road (below 0.2 Hz; none where it hardly bends). Clock, speed scale, path, mounting and the gain against gravity are put right before "
         "anything is compared, the gain against bends is not: what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. "
         "Role check: nothing is fitted to the drive; nor is it to any of a site whose vehicle is calibrated on another.",
-        *(f"{site.label}: {doubt}." for site in study.sites if (doubt := site.measured.attrs.get("distance_doubt"))),
+        *(f"{site.label}: {site.measured.attrs[doubt]}." for site in study.sites for doubt in DOUBTS if site.measured.attrs.get(doubt)),
     )
     return _table(study, "alignment", columns, rows, sources, notes, breaks[1:])
 

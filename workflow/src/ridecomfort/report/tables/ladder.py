@@ -72,7 +72,7 @@ def error_ladder(study: Difference) -> Table:
     notes = (
         f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
-        "Every model is calibrated anew on the fitted drives, and all drives are aligned for it; nothing else is ever fitted to the others. All "
+        "Every model is calibrated anew on the fitted drives, and all drives are aligned for it (for uncalibrated as for calibrated); nothing else is ever fitted to the others. All "
         "signals: each weighs as "
         f"much as there was to explain of its own error. Fall: from the row above, and in how many of the stretches of {STRETCH:g} m that "
         f"these drives have. A model helps where chance makes it fall so in at most one of {1 / rungs.LEVEL:.0f} cases (Wilcoxon's signed ranks of "
