@@ -12,6 +12,7 @@ from ridecomfort import calibrate, calibrated, simulate
 from ridecomfort.drive import align, record
 from ridecomfort.standin import drives as standin
 from ridecomfort.standin import instrument
+from ridecomfort.steps import realigned
 from tests.blind.trials import SENSOR, a_road
 
 SPEED = 22.0
@@ -62,6 +63,6 @@ def make(seed: int, vehicle, measurement: Mapping) -> Trial:
 def _aligned(drives: Sequence[xr.Dataset], course, vehicle) -> list[xr.Dataset]:
     """Drives aligned as those of a study: first for the nominal vehicle, then for that of a rough fit."""
     first = [align.align(drive, course, vehicle, simulate=simulate.run) for drive in drives]
-    rough = calibrate.calibrate(first, course, vehicle, sequence=False, restarts=0, tolerance=calibrate.COARSE)
+    rough = calibrate.calibrate(first, course, vehicle, **realigned.ROUGH)
     own, _ = calibrated.apply(rough, vehicle)
     return [align.align(drive, course, own, simulate=simulate.run) for drive in drives]

@@ -207,7 +207,7 @@ def missing_effects(found: Diagnosis) -> Table:
         "study calibrates anew, site by site. They are of all sizes of an effect together and stand beside its first. Absorbed: "
         "share of the effect's response that calibration can take up, and so hide. What only shapes an effect (a frequency, a place) is fitted "
         "where the drives asked for another value, else held at its typical one or the best of a few.",
-        "Where calibrated.md has another size, prefer the one here: drives are aligned for the effects, what is uncertain of the rest of the vehicle "
+        "Where calibrated.md has another size, prefer the one here: what is uncertain of the rest of the vehicle "
         "counts, and so does another effect that the drives leave open; calibrated.md holds these and rests on one site, but fits what only "
         "shapes an effect, which may be held here. Where the size of one there and here are farther apart than the wider interval, the effect "
         "may stand in for another, or what calibration holds "
