@@ -42,7 +42,7 @@ def test_intervals_are_widened_by_what_held_out_drives_disagree_and_the_verdict_
 
 
 @pytest.mark.parametrize(("wider", "is_said"), [(1.0, False), (60.0, True)])
-def test_an_effect_whose_interval_holds_none_once_it_is_widened_is_told_with_a_word_on_it(monkeypatch, wider, is_said):
+def test_an_effect_whose_interval_holds_none_once_it_is_widened_is_told_with_a_word_on_it_and_may_be_something_else(monkeypatch, wider, is_said):
     monkeypatch.setattr(select, "birge_ratio", lambda *_: wider)
     model = Linear(60, {SIZE: 0.6})
     selection = select.select(model, {"stiffness": 0.0}, most=1)
@@ -50,6 +50,20 @@ def test_an_effect_whose_interval_holds_none_once_it_is_widened_is_told_with_a_w
     lower, upper = found.effects[0].sizes[0]["interval"]
     assert (lower <= 0.0 <= upper) is is_said
     assert any("the interval of its size holds none, too" in reason for reason in found.reasons) is is_said
+    assert found.verdict == ("cluster" if is_said else "named") and found.json()["effects"][0]["is_open"] is is_said
+    assert found.words().startswith(f"Missing: effect_2{' or something else; the data do not tell those apart' if is_said else ''}.")
+
+
+def test_beside_an_error_of_the_measurement_what_may_as_well_be_none_leaves_the_data_suspect(monkeypatch):
+    """As of an instrument of a bandwidth of a few Hz, for which three effects of the vehicle and two of the instrument did 85 and 90 %."""
+    model = Linear(2, {SIZE: 1.2, "effect_4.size": 0.9})
+    model.candidates = tuple(replace(one, instrument=one.name == "effect_4") for one in model.candidates)
+    selection = select.select(model, {"stiffness": 0.0}, most=2)
+    assert set(selection.accepted) == {"effect_2", "effect_4"}
+    named = judge.judge(selection, model.candidates)
+    assert named.verdict == "named" and [effect.name for effect in named.effects] == ["effect_2"]
+    found = judge.judge(replace(selection, birge_ratio=60.0, intervals=dict.fromkeys(selection.intervals, (-9.0, 9.0))), model.candidates)
+    assert found.verdict == "suspect" and found.words().startswith("The data are suspect: effect_4.")
 
 
 def test_what_no_fitted_drive_meets_is_not_widened_beyond_its_bounds():

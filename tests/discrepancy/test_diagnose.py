@@ -200,6 +200,14 @@ def test_less_than_half_is_not_named(change):
     assert named_all_the_same(replace(left, **change), replace(SURE, share=0.3)).verdict == replace(left, **change).verdict
 
 
+def test_nor_is_what_may_as_well_be_none_where_repeats_share_an_error_still():
+    """As of a trailer that nods: a payload of -254 to 560 kg did 70 and 88 %."""
+    weak, is_none = replace(SURE, share=0.3, held_out_share=0.3), replace(FOUND, is_open=True)
+    assert named_all_the_same(replace(OUTSIDE, effects=(FOUND,)), weak).verdict == "named"
+    assert named_all_the_same(left := replace(OUTSIDE, effects=(is_none,)), weak) is left
+    assert named_all_the_same(replace(OUTSIDE, effects=(is_none, KNEE)), weak).verdict == "named"
+
+
 @pytest.mark.parametrize("better", [{"share": 0.65, "held_out_share": 0.58}, {"share": 0.6, "held_out_share": 0.62}])
 def test_nor_is_what_a_force_does_better_than(better):
     left = replace(OUTSIDE, effects=(FOUND,))
@@ -304,6 +312,8 @@ def test_noise_of_the_road_does_not_speak_against_what_was_found():
     assert reconsidered(LITTLE, weak, is_road_open=False).verdict == "outside"
     alike = replace(LITTLE, effects=(replace(FOUND, like=("knee",)),))
     assert reconsidered(alike, weak, is_road_open=True).verdict == "cluster"
+    none_too = replace(LITTLE, effects=(replace(FOUND, is_open=True),))
+    assert reconsidered(none_too, weak, is_road_open=True).words().startswith("Missing: friction or something else; the data do not tell")
 
 
 def test_little_on_such_a_road_may_be_the_road():

@@ -17,13 +17,16 @@ from .off_file import OffFile
 from .propose import LEVEL, SURE
 from .selection import Selection, shares
 from .tries import LEAST_MOVED
-from .verdict import Named, Verdict
+from .verdict import Named, Verdict, are_open, kind_of
 
 MOST = 0.8
 """Share of what repeats share that an error of the measurement must take to be all that is wrong."""
 
 TOLD, LEAST_TOLD = 3, 0.001
 """Signals of which it is told what is left, and share of their power below which it is not."""
+
+UNSURE = "what is missing may be something else: no size of what helps is surely another than none"
+"""What is said where effects explain enough, and each may as well be none."""
 
 MAY_DRIVE = "something that is missing may drive it there"
 """What is said of parameters of the vehicle that end at their bounds..."""
@@ -70,7 +73,8 @@ def judge(
         names = ", ".join(effect.name for effect in wrong)
         # An error of the measurement that leaves much, or that drives held out refute, is what something else, not in the library, looks like.
         is_little = is_little or balance.is_refuted or balance.held_out <= 0 or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
-        if is_little or sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong):
+        is_lesser = sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong)
+        if is_little or is_lesser and not are_open(vehicle):
             # Beside what explains most, one that removes little may be a part of what is left, as any effect may.
             is_like_error = sum(effect.share for effect in wrong) >= LITTLE * (1.0 - balance.share)
             effects, wrong = vehicle, []
@@ -93,7 +97,8 @@ def judge(
         kind = "outside"
         reasons.append(_unexplained(selection, balance, is_little))
     elif effects:
-        kind = "cluster" if any(effect.like for effect in effects) else "named"
+        kind = kind_of(effects)
+        reasons += [UNSURE] if are_open(effects) else []
         reasons += [_alike(effect) for effect in effects if effect.like]
         reasons += [said for effect in effects for said in _nearly(selection, effect)]
     else:
@@ -269,7 +274,7 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
             kept.append(effect)
             reasons += _set(selection, by_name[effect.name])
             reasons += [_beyond(effect, size) for size in effect.beyond()]
-            reasons += _open(selection, by_name[effect.name])
+            reasons += [_open(effect)] if effect.is_open else []
             if effect.name in unmet:
                 reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
     return kept, reasons
@@ -282,12 +287,14 @@ def _beyond(effect: Named, size: Mapping) -> str:
     return f"{told}, beyond what is plausible ({lower:g} to {upper:g}): it may stand in for something beside it"
 
 
-def _open(selection: Selection, candidate: Candidate) -> list[str]:
+def _open(effect: Named) -> str:
     """What is said of an effect that is there where what is told of each of its sizes, wider than the evidence for it, reaches to none."""
+    return f"{effect.name} explains what chance would not, but the interval of its size holds none, too: how large it is these drives leave open"
+
+
+def _is_open(selection: Selection, candidate: Candidate) -> bool:
     intervals = [(size.neutral, selection.told(size.key)) for size in candidate.sizes if size.key in selection.intervals]
-    if not intervals or any(not lower <= neutral <= upper for neutral, (lower, upper) in intervals):
-        return []
-    return [f"{candidate.name} explains what chance would not, but the interval of its size holds none, too: how large it is these drives leave open"]
+    return bool(intervals) and all(lower <= neutral <= upper for neutral, (lower, upper) in intervals)
 
 
 def _set(selection: Selection, candidate: Candidate) -> list[str]:
@@ -336,6 +343,7 @@ def _named(selection: Selection, number: int, by_name: Mapping[str, Candidate]) 
     return Named(
         winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]),
         *shares(selection, before, after), float(turn.absorbed[place]), like, turn.differ_on, by_name[winner.name].instrument, tuple(held),
+        _is_open(selection, by_name[winner.name]),
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from .discover import Discovery
 from .places import settings as shaping
 from .propose import SURE
 from .selection import Selection
-from .verdict import Named, Verdict
+from .verdict import Named, Verdict, are_open, kind_of
 
 BETTER = 1.2
 """Times the share that the library explains which a force of any form must explain to stand for something else."""
@@ -115,8 +115,7 @@ def _road_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
         if is_more and _is_more_than_noise(proposal):
             return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}")
         return with_reason(verdict, "suspect", "no form of a force that was tried explains more, and what the road is otherwise may be all of it")
-    kind = "cluster" if any(effect.like for effect in verdict.effects) else "named"
-    return with_reason(verdict, kind, "no form of a force that was tried explains more, and what the road is otherwise is shared by repeats, too")
+    return with_reason(verdict, kind_of(verdict.effects), "no form of a force that was tried explains more, and what the road is otherwise is shared by repeats, too")
 
 
 def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool:
@@ -153,7 +152,8 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     """What the library explains at least half of is named, though repeats share an error still, where no force of any form does better: of
     many small things that a model lacks none explains the rest (but where an error of the measurement does some of that).
 
-    An effect that removes LITTLE of the rest, on fitted drives or on those held out, may be a part of it, and is not named.
+    An effect that removes LITTLE of the rest, on fitted drives or on those held out, may be a part of it, and is not named; nor are effects
+    each of which may as well be none.
     """
     shares = [share for share in (verdict.share, verdict.held_out_share) if np.isfinite(share)]
     if verdict.verdict != "outside" or not verdict.effects or not min(shares, default=0.0) >= ENOUGH or verdict.is_like_error:
@@ -163,11 +163,12 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     if theirs and is_better:
         return verdict
     kept = tuple(effect for effect in verdict.effects if _is_much(effect, verdict)) or verdict.effects[:1]
+    if are_open(kept):
+        return verdict
     reasons = [*verdict.reasons, _no_better(theirs, shares, proposal)]
     reasons += [_not_named(effect) for effect in verdict.effects if effect not in kept]
     share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
-    kind = "cluster" if any(effect.like for effect in kept) else "named"
-    return replace(verdict, verdict=kind, effects=kept, reasons=tuple(reasons), share=share, held_out_share=held_out)
+    return replace(verdict, verdict=kind_of(kept), effects=kept, reasons=tuple(reasons), share=share, held_out_share=held_out)
 
 
 def _no_better(theirs: Sequence[float], shares: Sequence[float], proposal: Discovery) -> str:

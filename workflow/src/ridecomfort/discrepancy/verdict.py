@@ -19,6 +19,9 @@ SAID = {
 }
 """What every kind of verdict says of the ``names`` of effects."""
 
+SOMETHING_ELSE = "something else"
+"""What effects are not told from of which each may as well be none."""
+
 UNNAMED = "Nothing is missing that would have a name; what is left above the floor, the search cannot explain."
 """What the verdict "nothing" says where more is left than SMALL."""
 
@@ -54,6 +57,8 @@ class Named:
     """Whether it is an error of the measurement, not of the vehicle."""
     held: tuple[dict, ...] = ()
     """What shapes it and was not fitted, or came out as is typical: ``parameter``, ``size``, ``unit``, and ``is_typical``."""
+    is_open: bool = False
+    """Whether the intervals of all its sizes hold none: something is there, but these drives do not tell how large it is."""
 
     def beyond(self) -> list[dict]:
         """The sizes whose intervals do not reach into what is plausible."""
@@ -97,12 +102,24 @@ class Verdict:
         told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
         names = [" or ".join((effect.name, *effect.like)) for effect in told]
         other = other_name(self.beyond_bounds.names()) if self.beyond_bounds and self.beyond_bounds.is_another_name else ""
+        other = other or (SOMETHING_ELSE if self.verdict == "cluster" and are_open(self.effects) else "")
         return " ".join([first_sentence(self.verdict, names, self.remainder, self.at_first, other), *map(sentence, self.reasons)])
+
+
+def kind_of(effects: Sequence[Named]) -> str:
+    """What effects that explain enough are: a "cluster" where one has others like it, and where all are open: what may as well be none may
+    as well be something else."""
+    return "cluster" if any(effect.like for effect in effects) or are_open(effects) else "named"
+
+
+def are_open(effects: Sequence[Named]) -> bool:
+    """Whether none of these effects, of which there are any, has a size that is surely another than none."""
+    return bool(effects) and all(effect.is_open for effect in effects)
 
 
 def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, float], at_first: Mapping[str, float], other: str = "") -> str:
     """What a verdict begins with; ``remainder``: share of the power of each signal that is left, ``at_first``: that was before anything was
-    found; ``other``: what all of the ``names`` are not told from (``beyond.other_name``)."""
+    found; ``other``: what all of the ``names`` are not told from (``beyond.other_name``, SOMETHING_ELSE)."""
     if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
         return UNNAMED
     told = ", ".join(names) + (f" or {other}" if other else "")
