@@ -17,6 +17,10 @@ from .selection import Selection
 LEAST_LEFT = 0.001
 """Share of the power of a signal that must be left more with the values of the file for them to be worth a word."""
 
+LEAST_OF_FLOOR = 0.5
+"""Share of the floor of a signal (mean square) that suffices, too: beside quiet instruments a thousandth of the power may be most of what an
+error ladder shows."""
+
 LEAST_POWER = 0.05
 """White power of what one of them does alone, against the most that any does, from which on it is told."""
 
@@ -43,16 +47,23 @@ class Held:
 @dataclass(frozen=True)
 class OffFile:
     """``parameters`` that calibration holds beside the values that drives give them; ``left``: share of the power of each signal that is left
-    more by it, of what is judged."""
+    more by it, of what is judged; ``of_floor``: the same as a multiple of its floor, where that is known."""
 
     parameters: tuple[Held, ...]
     left: Mapping[str, float] = field(default_factory=dict)
+    of_floor: Mapping[str, float] = field(default_factory=dict)
 
     def words(self) -> str:
         """What they are, and what holding them costs."""
-        most = sorted((name for name in self.left if self.left[name] >= LEAST_LEFT), key=lambda name: -self.left[name])[:TOLD]
-        left = " and ".join(f"{100 * self.left[name]:.1f} % of the power of {name}" for name in most)
+        told = [f"{100 * self.left[name]:.1f} % of the power of {name}" for name in _most(self.left, LEAST_LEFT)]
+        told = told or [f"{self.of_floor[name]:.2g} times the floor of {name}" for name in _most(self.of_floor, LEAST_OF_FLOOR)]
+        left = " and ".join(told)
         return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds fixed: with the values of the file another {left} is left"
+
+
+def _most(costs: Mapping[str, float], least: float) -> list[str]:
+    """The signals of the largest costs that are no less than ``least``."""
+    return sorted((name for name in costs if costs[name] >= least), key=lambda name: -costs[name])[:TOLD]
 
 
 def beside_given(parameter: str, unit: str, value: float, interval: tuple[float, float], given: float) -> str:
@@ -79,11 +90,14 @@ def off_file(selection: Selection, told: Collection[str] = ()) -> OffFile | None
         return None
     measured = {index: frame.experiment.measured(index) for index in frame.indices}
     with_file, with_own = (floor.squares(frame.experiment, frame.all_cleaned(those)) for those in (residuals, fit.residuals))
-    left = (with_file - with_own).mean(axis=0) / floor.squares(frame.experiment, measured).mean(axis=0)
-    if not np.max(left) >= LEAST_LEFT:
+    more, known = (with_file - with_own).mean(axis=0), selection.floor_squares.mean(axis=0)
+    left = more / floor.squares(frame.experiment, measured).mean(axis=0)
+    of_floor = np.divide(more, known, out=np.zeros_like(more), where=known > 0)
+    if not (np.max(left) >= LEAST_LEFT or np.max(of_floor) >= LEAST_OF_FLOOR):
         return None
+    channels = frame.experiment.channels
     those = (Held(size.key, size.unit, size.neutral, final.values[size.key], selection.intervals[size.key]) for size in held)
-    return OffFile(tuple(those), dict(zip(frame.experiment.channels, left.tolist())))
+    return OffFile(tuple(those), dict(zip(channels, left.tolist())), dict(zip(channels, of_floor.tolist())))
 
 
 def _is_off(size: Size, selection: Selection) -> bool:
