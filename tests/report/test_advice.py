@@ -155,6 +155,15 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
         assert said.startswith("verdict Something is missing that is not in the library. (outside)") and "Nothing is to be switched on" not in said
 
 
+def test_effects_each_of_which_may_as_well_be_none_are_not_told_from_something_else():
+    effects = [{**effect, "like": [], "is_open": True} for effect in made_up.VERDICT["effects"]]
+    said = {**made_up.VERDICT, "verdict": "cluster", "effects": effects}
+    first = rows(diagnosed.tables(made_up.diagnosis(said))["verdict"])[0]["in_words"]
+    assert first.endswith(" or something else; the data do not tell those apart. (cluster)"), first
+    for other in ({**said, "verdict": "suspect"}, {**said, "effects": [{**effects[0], "is_open": False}, *effects[1:]]}):
+        assert "something else" not in rows(diagnosed.tables(made_up.diagnosis(other))["verdict"])[0]["in_words"]
+
+
 def test_parameters_that_calibration_holds_beside_the_drives_are_to_be_calibrated_too():
     inertia = {"parameter": "roll_inertia", "unit": "kg m2", "given": 572.0, "value": 589.0, "interval": [588.0, 590.0]}
     off = {"parameters": [inertia, {**inertia, "parameter": "damping_front"}], "left": {"roll_rate": 0.002}}
