@@ -54,7 +54,7 @@ def test_an_effect_whose_interval_holds_none_once_it_is_widened_is_told_with_a_w
     assert found.words().startswith(f"Missing: effect_2{' or something else; the data do not tell those apart' if is_said else ''}.")
 
 
-def test_beside_an_error_of_the_measurement_what_may_as_well_be_none_leaves_the_data_suspect(monkeypatch):
+def test_beside_an_error_of_the_measurement_what_may_as_well_be_none_leaves_the_data_suspect():
     """As of an instrument of a bandwidth of a few Hz, for which three effects of the vehicle and two of the instrument did 85 and 90 %."""
     model = Linear(2, {SIZE: 1.2, "effect_4.size": 0.9})
     model.candidates = tuple(replace(one, instrument=one.name == "effect_4") for one in model.candidates)
@@ -62,7 +62,7 @@ def test_beside_an_error_of_the_measurement_what_may_as_well_be_none_leaves_the_
     assert set(selection.accepted) == {"effect_2", "effect_4"}
     named = judge.judge(selection, model.candidates)
     assert named.verdict == "named" and [effect.name for effect in named.effects] == ["effect_2"]
-    found = judge.judge(replace(selection, birge_ratio=60.0, intervals=dict.fromkeys(selection.intervals, (-9.0, 9.0))), model.candidates)
+    found = judge.judge(replace(selection, intervals=dict.fromkeys(selection.intervals, (-9.0, 9.0))), model.candidates)
     assert found.verdict == "suspect" and found.words().startswith("The data are suspect: effect_4.")
 
 

@@ -101,9 +101,8 @@ class Verdict:
         """The verdict as a few sentences."""
         told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
         names = [" or ".join((effect.name, *effect.like)) for effect in told]
-        other = other_name(self.beyond_bounds.names()) if self.beyond_bounds and self.beyond_bounds.is_another_name else ""
-        other = other or (SOMETHING_ELSE if self.verdict == "cluster" and are_open(self.effects) else "")
-        return " ".join([first_sentence(self.verdict, names, self.remainder, self.at_first, other), *map(sentence, self.reasons)])
+        first = first_sentence(self.verdict, names, self.remainder, self.at_first, not_told_from(self.json()))
+        return " ".join([first, *map(sentence, self.reasons)])
 
 
 def kind_of(effects: Sequence[Named]) -> str:
@@ -117,9 +116,23 @@ def are_open(effects: Sequence[Named]) -> bool:
     return bool(effects) and all(effect.is_open for effect in effects)
 
 
+def not_told_from(said: Mapping) -> str:
+    """What all effects of a verdict, as ``Verdict.json`` gives it, are not told from, in words: parameters of the vehicle beyond their bounds,
+    or, where each may as well be none, something else; empty where there is nothing."""
+    beyond = said.get("beyond_bounds") or {}
+    if beyond.get("is_as_good") and not beyond.get("effects"):
+        return other_name([one["parameter"] for one in told_beyond(beyond)])
+    return SOMETHING_ELSE if said["verdict"] == "cluster" and all(effect.get("is_open") for effect in said["effects"]) else ""
+
+
+def told_beyond(beyond: Mapping) -> list[Mapping]:
+    """All parameters of the vehicle that a verdict tells beyond their bounds."""
+    return [*beyond["parameters"], *beyond.get("less_sure", ())]
+
+
 def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, float], at_first: Mapping[str, float], other: str = "") -> str:
     """What a verdict begins with; ``remainder``: share of the power of each signal that is left, ``at_first``: that was before anything was
-    found; ``other``: what all of the ``names`` are not told from (``beyond.other_name``, SOMETHING_ELSE)."""
+    found; ``other``: what all of the ``names`` are not told from."""
     if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
         return UNNAMED
     told = ", ".join(names) + (f" or {other}" if other else "")

@@ -8,7 +8,7 @@ from pathlib import Path
 from ...discrepancy.balance import ENOUGH, LITTLE
 from ...discrepancy.confirm import EQUAL
 from ...discrepancy.explain import NIL
-from ...discrepancy.verdict import SMALL, is_of_little
+from ...discrepancy.verdict import SMALL, is_of_little, told_beyond
 from ...effects import library
 from ...schema import as_written
 from ...vehicle.parameters import PARAMETERS
@@ -121,11 +121,6 @@ def library_helps(verdict: Mapping) -> bool:
     """Whether something is missing that the library does not have, and effects of it help on drives held out yet."""
     helps = verdict["held_out_share"] is None or verdict["held_out_share"] > 0
     return verdict["verdict"] == "outside" and bool(verdict["effects"]) and helps
-
-
-def told_beyond(beyond: Mapping) -> list[Mapping]:
-    """All parameters of the vehicle that a verdict tells beyond their bounds."""
-    return [*beyond["parameters"], *beyond.get("less_sure", ())]
 
 
 def farther(beyond: Mapping) -> str:

@@ -9,12 +9,11 @@ import xarray as xr
 
 from ...discrepancy import ranking
 from ...discrepancy.balance import LITTLE
-from ...discrepancy.beyond import other_name
 from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.terms import SIDE
-from ...discrepancy.verdict import SOMETHING_ELSE, first_sentence, sentence
+from ...discrepancy.verdict import first_sentence, not_told_from, sentence
 from ...effects.contract import PORTS
 from ...study import BASE, JOIN
 from .. import catalogue
@@ -71,7 +70,7 @@ def verdict(found: Diagnosis) -> Table:
     names = [_alike(effect) for effect in told]
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
     known = [said.get(key) or {} for key in ("remainder", "at_first")]
-    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, *known, _other(said))
+    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, *known, not_told_from(said))
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [(words(effect["name"]), _found(effect)) for effect in told if said["verdict"] in NAMING]
     if said["verdict"] == "suspect":
@@ -104,15 +103,6 @@ def verdict(found: Diagnosis) -> Table:
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)
-
-
-def _other(verdict: Mapping) -> str:
-    """What the effects of a verdict are not told from, in words: parameters of the vehicle beyond their bounds, or, where each may as well be
-    none, something else; empty where there is nothing."""
-    beyond = verdict.get("beyond_bounds") or {}
-    if beyond.get("is_as_good") and not beyond.get("effects"):
-        return other_name([one["parameter"] for one in advice.told_beyond(beyond)])
-    return SOMETHING_ELSE if verdict["verdict"] == "cluster" and all(effect.get("is_open") for effect in verdict["effects"]) else ""
 
 
 def _found(effect: Mapping) -> str:
