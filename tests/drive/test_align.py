@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from ridecomfort.drive import align, mounting, place, record, replay
 from ridecomfort.errors import InputError
+from ridecomfort.vocabulary import SIGNALS
 from tests import quarter_cars
 
 LATERAL = 0.13
@@ -165,6 +168,18 @@ def test_a_road_that_is_even_across_does_not_tell_the_path(road, truth, nominal)
     found = aligned(quarter_cars.recorded(driven(even, truth), clock=0.0307, noise=1.0), even, nominal)
     assert found.attrs["clock_offset"] == pytest.approx(0.0307, abs=1e-3)
     assert abs(found.attrs["lateral_correction"]) < 0.3
+
+
+def test_rounding_of_a_signal_that_the_model_does_not_move_agrees_with_nothing(drive, road, nominal):
+    """A roll rate of 1e-9 rad/s for some 1e-2 that was recorded: however its digits lie, they are no reason for a path or a clock."""
+    again = replay.replay(mounting.level(quarter_cars.recorded(drive, lateral_position=LATERAL)), road, quarter_cars.run)
+    simulated = again(nominal)
+    roll = SIGNALS.index("roll_rate")
+    still, rounded = simulated.signals.copy(), simulated.signals.copy()
+    still[roll] = 0.0
+    rounded[roll] = 1e-9 * np.random.default_rng(1).standard_normal(still.shape[1])
+    agreement = [place.shaken(again, replace(simulated, signals=signals), 1.0)[1] for signals in (still, rounded)]
+    np.testing.assert_array_equal(*agreement)
 
 
 def test_a_wandering_path_and_place_are_followed(road, truth, nominal):

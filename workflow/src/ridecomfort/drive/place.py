@@ -32,6 +32,9 @@ END = 0.5
 SHAKEN, SHAKEN_BAND = ("a_z", "roll_rate", "pitch_rate"), (0.5, 20.0)
 """Signals that the road makes, and Hz in which it does: by them one stretch of it, and one path, is told from another."""
 
+STANDS_STILL = 1e-4
+"""Times the standard deviation of a measured signal below which what the model does is rounding: rolling on a road that is even across."""
+
 FARTHEST = 20.0
 """s around the expected clock at which a record is looked for, beyond what is accepted: GPS runs 18 s ahead of UTC."""
 
@@ -149,11 +152,12 @@ def shaken(again: Replay, simulated: Simulated, farthest: float) -> tuple[np.nda
 def _agreement(measured: np.ndarray, model: np.ndarray, reach: int) -> np.ndarray:
     """Sum over the signals of their correlation, at lags -reach ... reach of the measurement behind the model.
 
-    Signals count by how well they correlate at their best, so one that the model misses adds nothing.
+    Signals count by how well they correlate at their best, so one that the model misses adds nothing; nor does one in which it stands still.
     """
     total = np.zeros(2 * reach + 1)
     centre = measured.shape[1] - 1
-    for one, other in zip(_standardised(measured), _standardised(model)):
+    moves = model.std(axis=1) > STANDS_STILL * measured.std(axis=1)
+    for one, other in zip(_standardised(measured[moves]), _standardised(model[moves])):
         lags = correlate(one, other, mode="full", method="fft") / one.size
         lags = lags[max(centre - reach, 0) : centre + reach + 1]
         total += max(lags.max(), 0.0) * lags
