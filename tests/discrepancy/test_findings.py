@@ -127,6 +127,15 @@ def test_a_place_that_holds_much_of_the_error_of_most_signals_is_told(located):
     assert findings.gathered(of_two) == []
 
 
+def test_a_floor_that_moments_make_is_told_behind_all_else(located):
+    """Half of what repeats differ by in a_x lies within a hundredth of the time."""
+    assert findings.of_floor(located) == []
+    moments = located.copy(deep=True)
+    moments["floor_time_share"].loc[dict(signal="a_x")] = 0.01
+    (said,) = findings.of_floor(moments)
+    assert said == findings.words(moments)[-1] and said.startswith("half of what repeats differ by in a_x lies within 1.0 % of the time")
+
+
 def test_nothing_is_said_of_what_is_not_worth_a_sentence(located):
     numbers = {name: 0.0 * values for name, values in located.items() if values.dtype.kind == "f"}
     assert findings.words(located.assign(numbers)) == []

@@ -114,6 +114,7 @@ VARIABLES = _table(
     ("nrmse", "1", "rmse over the range of the measured signal"),
     ("floor_rmse", "", "rmse that repeats of the drive differ by, in the unit of the signal"),
     ("explainable_rmse", "", "root of the mean square error above the floor, in the unit of the signal"),
+    ("floor_time_share", "1", "least share of the time that holds half of what repeats of the drive differ by"),
     ("explained_share", "1", "share of the first state's mean square error above the floor that is gone"),
     ("suspension_velocity", "m/s", "velocity of compression of the suspension, rms over the wheels"),
     ("tyre_velocity", "m/s", "velocity of compression of the tyre, rms over the wheels"),

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from . import bursts
 from .judged import LOWEST_OF_DRIVER, doubt
 
 NAMED = 0.01
@@ -148,9 +149,14 @@ def doubts(located: xr.Dataset) -> list[str]:
     return [said for of_it in found if (said := doubt(*of_it))]
 
 
+def of_floor(compared: xr.Dataset) -> list[str]:
+    """What is to be said of a floor that is no noise, in words (``bursts.words``)."""
+    return bursts.words(dict(zip(compared["signal"].values.tolist(), compared["floor_time_share"].values.tolist())))
+
+
 def words(located: xr.Dataset, count: int = 5) -> list[str]:
     """Doubts and, behind them, findings as sentences, and the place where errors gather."""
-    return [*doubts(located), *(finding.words() for finding in findings(located, count)), *gathered(located)]
+    return [*doubts(located), *(finding.words() for finding in findings(located, count)), *gathered(located), *of_floor(located)]
 
 
 def _stretch(located: xr.Dataset, share: np.ndarray) -> tuple[float, float] | None:

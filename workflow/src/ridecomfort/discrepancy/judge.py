@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import floor
+from . import bursts, floor
 from .allowance import Allowance
 from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced
 from .beyond import AtBound, BeyondBounds
@@ -107,7 +107,7 @@ def judge(
         reasons.append(f"repeats share an error yet, but nowhere more than a driver's foot and hands may make, or than matters; most surely {selection.remaining.band}")
     if effects and selection.birge_ratio > 1.0:
         reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
-    said = (*reasons, *_of_drives(selection, bool(effects)))
+    said = (*reasons, *_of_drives(selection, bool(effects)), *bursts.words(selection.in_time))
     left = balance.is_left, balance.is_shared or not selection.has_repeats
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error)
 
@@ -260,12 +260,15 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
     kept, reasons = [], []
     for effect in found:
         same = _shaped_by(selection, effect, found, by_name)
+        moments = _of_moments(selection, effect.name)
         if effect.name in selection.needless:
             reasons.append(f"{effect.name} helped when it was found, but what was found with it does as well without it")
         elif not any(size.key in selection.sure for size in by_name[effect.name].sizes):
             reasons.append(f"{effect.name} helps, but its size may as well be none")
         elif same:
             reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
+        elif moments:
+            reasons.append(f"{effect.name} helps in {moments}, less than what drives differ by there within moments: it may stand in for what a driver did")
         elif not shared and effect.p_value > SURE:
             reasons.append(f"{effect.name} may be chance: repeats share no error for certain")
         elif effect.name in unmet and effect.p_value > SURE:
@@ -307,6 +310,23 @@ def _set(selection: Selection, candidate: Candidate) -> list[str]:
     ]
     held = ", ".join(told)
     return [f"{candidate.name} was found with {held} held, the best of a few values that were tried"] if told else []
+
+
+def _of_moments(selection: Selection, name: str) -> str:
+    """The signals in which an effect does most of what it does, where it does less than their floors hold and these are made by moments, in
+    words; empty where it does not."""
+    winner = next(turn.winner for turn in selection.rounds if turn.winner is not None and turn.winner.name == name)
+    if winner.before is None:
+        return ""
+    before, after, first, least = (
+        squares.mean(axis=0) for squares in (winner.before.squares, winner.after.squares, selection.states[0].squares, selection.floor_squares)
+    )
+    channels = selection.frame.experiment.channels
+    of_moments = bursts.of_moments(selection.in_time)
+    removed = np.maximum(before - after, 0.0) / first
+    doubtful = np.array([channel in of_moments for channel in channels]) & (before - after < least)
+    told = [channel for channel, is_so, own in zip(channels, doubtful, removed) if is_so and own > 0]
+    return ", ".join(told) if removed[doubtful].sum() > 0.5 * removed.sum() else ""
 
 
 def _shaped_by(selection: Selection, effect: Named, found: Sequence[Named], by_name) -> str:

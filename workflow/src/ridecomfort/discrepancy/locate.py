@@ -10,7 +10,7 @@ import xarray as xr
 from scipy.signal import stft
 
 from ..drive.sampling import rate_of
-from . import classes, explain, judged
+from . import bursts, classes, explain, judged
 from .response import responses
 
 BANDS = ((judged.LOWEST, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
@@ -61,7 +61,8 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; what ``classes.by_condition`` says of
     conditions, the floor of which is ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated, the ``ratio(signal)`` of their rms, what of the
     first speaks for a wrong sign, ``against(signal)`` (``judged.against``), and another signal that it goes with instead,
-    ``goes_with(signal)`` (``judged.taken_for``); and what ``response.responses`` says of transfer functions.
+    ``goes_with(signal)`` (``judged.taken_for``); ``floor_time_share(signal)``, the least share of the time that holds half of what repeats differ by
+    (``bursts.time_share``), nan without repeats; and what ``response.responses`` says of transfer functions.
     Attribute ``located_state`` names the state, ``floor`` where the floor is known from.
     """
     name = str(comparison["state"].values[-1] if state is None else state)
@@ -75,7 +76,9 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     errors, own_noises = [(d.place, d.error) for d in drives], [(d.own.place, d.own.noise) for d in drives if d.own]
     power, seconds = _by_stretch(errors, edges, bands, rate)
     floor = np.broadcast_to(white_floor[:, None, :], power.shape).copy()
+    time_share = np.full(comparison.sizes["signal"], np.nan)
     if noise:
+        time_share = bursts.time_share([own for _, own in own_noises], rate)
         own, length = _by_stretch(own_noises, edges, bands, rate)
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
         floor = np.where(length[:, None] > 0, own, mean)
@@ -112,6 +115,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
             "band_lower": ("band", [band[0] for band in bands], {"units": "Hz"}),
             "band_upper": ("band", [band[1] for band in bands], {"units": "Hz"}),
             "band_floor": (("signal", "band"), np.average(floor, axis=1, weights=seconds)),
+            "floor_time_share": ("signal", time_share, {"units": "1"}),
         },
         {
             "signal": comparison["signal"].values,

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import allowance, cluster, probe, refit
+from . import allowance, bursts, cluster, probe, refit
 from . import experiment as exp
 from .allowance import Allowance
 from .confirm import LEAST_SHARE, Confirmation, best
@@ -136,7 +136,7 @@ class _Search:
             tuple(rounds), tuple(states), rung.floor_squares, rung.held_out_floor_squares, rung.has_repeats, rung.frame,
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,
             rung.check_frame, wider, self.probed, self._allowed(final, frame), frozenset(self.needless),
-            rung.is_floor_known,
+            bursts.of_repeats(rung.frame, rung.fit.residuals), rung.is_floor_known,
         )  # fmt: skip
 
     def _final_fit(self) -> tuple[Fit, Frame, set[str]]:

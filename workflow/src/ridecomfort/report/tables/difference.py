@@ -134,8 +134,8 @@ def explainable(study: Difference) -> Table:
 
 
 def floor_note(site: Compared) -> str:
-    """How the floor of a site is known, as a sentence."""
-    return f"the floor is {_known(str(site.comparison.attrs['floor']))}."
+    """How the floor of a site is known, as a sentence, and what of it is no noise."""
+    return "; ".join([f"the floor is {_known(str(site.comparison.attrs['floor']))}", *located.of_floor(site.comparison)]) + "."
 
 
 def _known(attribute: str) -> str:
