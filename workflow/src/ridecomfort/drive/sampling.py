@@ -6,12 +6,14 @@ from functools import lru_cache
 
 import numpy as np
 from numba import njit
+from scipy.ndimage import uniform_filter1d
 from scipy.sparse import csr_array
 
 from ..errors import InputError
 
-LARGEST_JITTER = 0.2
-"""Largest distance of a time stamp from a uniform clock, in sampling intervals, for inertial signals."""
+LARGEST_JITTER, NEIGHBOURS, FARTHEST_STAMP = 0.2, 11, 0.5
+"""Largest rms distance of NEIGHBOURS consecutive time stamps from a uniform clock, in sampling intervals, for inertial signals, and the largest of
+one alone. A sample that is missing moves all that follow; a stamp that came late moves none, and one of ten thousand does."""
 
 LARGEST_SHIFT = 0.02
 """Distance in intervals within which samples stand on a clock: at 20 Hz and 100 Hz sampling a phase of 1.4 degrees."""
@@ -56,27 +58,31 @@ def check_clock(time: np.ndarray, *, file=None, place: str = "time") -> None:
         )
 
 
-def uniform_clock(time: np.ndarray) -> tuple[float, float, float]:
-    """Start in s, interval in s and jitter (largest distance from them in intervals) of nearly uniform time stamps."""
+def uniform_clock(time: np.ndarray) -> tuple[float, float, np.ndarray]:
+    """Start in s and interval in s of nearly uniform time stamps, and how far each lies behind them in intervals, (sample,)."""
     index = np.arange(len(time))
     interval, start = np.polyfit(index, time - time[0], 1)
-    jitter = np.abs(time - time[0] - start - interval * index).max() / interval
-    return time[0] + start, interval, jitter
+    return time[0] + start, interval, (time - time[0] - start) / interval - index
 
 
 def require_uniform(time: np.ndarray, *, file=None, place: str = "time") -> tuple[float, float, float]:
-    """``uniform_clock``, or InputError where the jitter is beyond LARGEST_JITTER."""
-    start, interval, jitter = uniform_clock(time)
-    if jitter > LARGEST_JITTER:
+    """Start in s and interval in s of time stamps, and their jitter: the largest distance of any from this clock in intervals. Raises InputError
+    where it is beyond FARTHEST_STAMP, or that of NEIGHBOURS beyond LARGEST_JITTER."""
+    start, interval, late = uniform_clock(time)
+    alone = np.abs(late)
+    together = np.sqrt(np.maximum(uniform_filter1d(late**2, min(NEIGHBOURS, len(late)), mode="nearest"), 0.0))
+    if alone.max() > FARTHEST_STAMP or together.max() > LARGEST_JITTER:
         gaps = np.diff(time)
-        i = int(np.argmax(np.abs(gaps - np.median(gaps))))
+        widest = int(np.argmax(np.abs(gaps - np.median(gaps))))
         raise InputError(
-            f"irregular sampling: a step of {gaps[i]:.4g} s at {time[i]:.6g} s where {np.median(gaps):.4g} s is usual "
-            f"(expected time stamps within {LARGEST_JITTER:g} intervals of a uniform clock)",
+            f"irregular sampling: sample {int(alone.argmax()) + 1}, at {time[alone.argmax()]:.6g} s, lies {late[alone.argmax()]:+.2g} intervals from a "
+            f"uniform clock, and a step of {gaps[widest]:.4g} s follows on {time[widest]:.6g} s where {np.median(gaps):.4g} s is usual (expected time "
+            f"stamps within {FARTHEST_STAMP:g} intervals of a uniform clock, {NEIGHBOURS} in a row within {LARGEST_JITTER:g} rms; where "
+            "samples are lost, cut the record; where a computer stamped them late, write their number over the rate)",
             file=file,
             place=place,
         )
-    return start, interval, jitter
+    return start, interval, float(alone.max())
 
 
 def _kernel(distance: np.ndarray, interval: float, cut_off: float) -> np.ndarray:
