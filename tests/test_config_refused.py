@@ -110,6 +110,8 @@ STUDY_MISTAKES = [
     ({"comfort": {"exposure": {"trip": 0}}}, "trip: 0, expected at least 1"),
     ({"comfort": {"maps": {"probability": 1.5}}}, "probability: 1.5, expected at most 1"),
     ({"sites": []}, "sites: [], expected at least 1 entry (Names"),
+    ({"sites": [None]}, "sites: entry 1: None, expected text; YAML reads what stands there as nothing (null, ~), write it in quotes if it is a name"),
+    ({"sites": [True]}, "sites: entry 1: True, expected text; YAML reads what stands there as yes or no (true, false), write it in quotes"),
     ({"sites": ["nowhere"]}, "unknown site 'nowhere'; known sites: "),
     ({"vehicle": "tank"}, "vehicle: unknown vehicle 'tank'; known vehicles: "),
     ({"effects": ["magic"]}, "effects: unknown effect 'magic'"),

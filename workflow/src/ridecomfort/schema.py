@@ -98,6 +98,10 @@ def as_written(number: float) -> str:
     return str(_plain(float(f"{number:.3g}")))
 
 
+NOT_TEXT = {type(None): "nothing (null, ~)", bool: "yes or no (true, false)"}
+"""What YAML makes of words that are no text; of all else a number or a date."""
+
+
 def _ascending(validator, wanted, instance, schema):
     numbers = [value for value in instance if isinstance(value, (int, float))] if isinstance(instance, list) else []
     if wanted and numbers != sorted(numbers):
@@ -152,7 +156,10 @@ def _explain(error: ValidationError) -> str:
         case "type":
             kinds = [expected] if isinstance(expected, str) else expected
             hint = f"; YAML reads this as text, write {_plain(float(value))!r}" if _is_number_as_text(error) else ""
-            return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{hint}{meaning}"
+            name = ""
+            if "string" in kinds and not isinstance(value, (str, dict, list)):
+                name = f"; YAML reads what stands there as {NOT_TEXT.get(type(value), 'a number or a date')}, write it in quotes if it is a name"
+            return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{hint}{meaning}{name}"
         case "minimum":
             return f"{value!r}, expected at least {expected}{meaning}"
         case "maximum":
