@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import bursts, judge
+from ridecomfort.discrepancy.verdict import Verdict
 
 from .linear import Linear, judged
 
@@ -59,6 +60,13 @@ def test_what_removes_less_than_moments_hold_is_not_named(noisy, part, is_named)
     assert [effect.name for effect in found.effects] == ["effect_2"] * is_named
     assert any(reason.startswith("effect_2 helps in ") and "what a driver did" in reason for reason in found.reasons) is not is_named
     assert any("lies within 1.0 % of the time" in reason for reason in found.reasons)
+    assert found.json()["of_moments"] == ["a", "b", "c", "d"]
+
+
+def test_nothing_is_said_beside_the_moments_that_are_not_told_from_noise():
+    verdict = Verdict("nothing", (), (), 0.0, 0.0, of_moments=("a_x", "pitch_rate"))
+    assert verdict.words().startswith("Nothing is missing that would be worth a name, beside what drives differ by within moments in a_x, pitch_rate")
+    assert replace(verdict, of_moments=()).words().startswith("Nothing is missing beyond the noise")
 
 
 def test_without_repeats_nothing_is_known(noisy):

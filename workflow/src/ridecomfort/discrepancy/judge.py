@@ -109,7 +109,8 @@ def judge(
         reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
     said = (*reasons, *_of_drives(selection, bool(effects)), *bursts.words(selection.in_time))
     left = balance.is_left, balance.is_shared or not selection.has_repeats
-    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error)
+    moments = tuple(bursts.of_moments(selection.in_time))
+    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error, of_moments=moments)
 
 
 def with_remainder(

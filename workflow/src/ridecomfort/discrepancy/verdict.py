@@ -25,6 +25,9 @@ SOMETHING_ELSE = "something else"
 UNNAMED = "Nothing is missing that would have a name; what is left above the floor, the search cannot explain."
 """What the verdict "nothing" says where more is left than SMALL."""
 
+BESIDE_MOMENTS = "Nothing is missing that would be worth a name, beside what drives differ by within moments in {signals}: that these drives do not tell from noise."
+"""What it says where such moments make the floor."""
+
 SMALL = 0.02
 """Share of a signal's power; an error below it changes its rms by a hundredth at most."""
 
@@ -90,6 +93,8 @@ class Verdict:
     """Whether an error of the measurement would help beside the effects, which stands in for something else."""
     remainder: Mapping[str, float] = field(default_factory=dict)
     """Share of the power of each signal, of what is judged, that the last model leaves above the floor."""
+    of_moments: tuple[str, ...] = ()
+    """Signals of which half of what repeats differ by lies within moments (``bursts``)."""
     at_first: Mapping[str, float] = field(default_factory=dict)
     """The same of the model that was diagnosed, before anything was found."""
 
@@ -101,8 +106,7 @@ class Verdict:
         """The verdict as a few sentences."""
         told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
         names = [" or ".join((effect.name, *effect.like)) for effect in told]
-        first = first_sentence(self.verdict, names, self.remainder, self.at_first, not_told_from(self.json()))
-        return " ".join([first, *map(sentence, self.reasons)])
+        return " ".join([first_sentence(self.json(), names), *map(sentence, self.reasons)])
 
 
 def kind_of(effects: Sequence[Named]) -> str:
@@ -130,14 +134,17 @@ def told_beyond(beyond: Mapping) -> list[Mapping]:
     return [*beyond["parameters"], *beyond.get("less_sure", ())]
 
 
-def first_sentence(kind: str, names: Sequence[str], remainder: Mapping[str, float], at_first: Mapping[str, float], other: str = "") -> str:
-    """What a verdict begins with; ``remainder``: share of the power of each signal that is left, ``at_first``: that was before anything was
-    found; ``other``: what all of the ``names`` are not told from."""
+def first_sentence(said: Mapping, names: Sequence[str]) -> str:
+    """What a verdict, as ``Verdict.json`` gives it, begins with; ``names`` of its effects, each with what it is not told from."""
+    kind, remainder, at_first = said["verdict"], said.get("remainder") or {}, said.get("at_first") or {}
     if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
         return UNNAMED
+    if kind == "nothing" and said.get("of_moments"):
+        return BESIDE_MOMENTS.format(signals=", ".join(said["of_moments"]))
+    other = not_told_from(said)
     told = ", ".join(names) + (f" or {other}" if other else "")
-    said = SAID[kind].format(names=f": {told}" if kind == "suspect" and told else told)
-    return said + LITTLE_TO_EXPLAIN.format(most=100 * max(at_first.values())) if is_of_little(kind, at_first) else said
+    first = SAID[kind].format(names=f": {told}" if kind == "suspect" and told else told)
+    return first + LITTLE_TO_EXPLAIN.format(most=100 * max(at_first.values())) if is_of_little(kind, at_first) else first
 
 
 def is_of_little(kind: str, at_first: Mapping[str, float]) -> bool:

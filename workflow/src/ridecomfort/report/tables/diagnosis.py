@@ -13,7 +13,7 @@ from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.terms import SIDE
-from ...discrepancy.verdict import first_sentence, not_told_from, sentence
+from ...discrepancy.verdict import first_sentence, sentence
 from ...effects.contract import PORTS
 from ...study import BASE, JOIN
 from .. import catalogue
@@ -69,8 +69,7 @@ def verdict(found: Diagnosis) -> Table:
     told = [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
     names = [_alike(effect) for effect in told]
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
-    known = [said.get(key) or {} for key in ("remainder", "at_first")]
-    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said["verdict"], names, *known, not_told_from(said))
+    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said, names)
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [(words(effect["name"]), _found(effect)) for effect in told if said["verdict"] in NAMING]
     if said["verdict"] == "suspect":
