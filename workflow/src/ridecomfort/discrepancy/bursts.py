@@ -42,7 +42,7 @@ def of_repeats(frame: Frame, residuals: Mapping[int, np.ndarray]) -> dict[str, f
         parts = deviations(records, [frame.cleaned(index, residuals[index]) for index in own])
         kept = [np.stack([band(row, rate, (least, upper)) for row, least in zip(part, lowest)]) for part in parts]
         found.append(time_share(kept, rate))
-    return dict(zip(experiment.channels, np.nanmin(found, axis=0).tolist())) if found else {}
+    return dict(zip(experiment.channels, np.fmin.reduce(found, axis=0).tolist())) if found else {}
 
 
 def of_moments(share: Mapping[str, float]) -> list[str]:
