@@ -55,8 +55,8 @@ def words(share: Mapping[str, float]) -> list[str]:
     channels = of_moments(share)
     if not channels:
         return []
-    least = 100 * max(share[channel] for channel in channels)
+    within = 100 * max(share[channel] for channel in channels)
     return [
-        f"half of what repeats differ by in {', '.join(channels)} lies within {max(least, 0.1):.1f} % of the time: what a driver does there "
+        f"half of what repeats differ by in {', '.join(channels)} lies within {max(within, 0.1):.1f} % of the time: what a driver does there "
         "(a shift of gear, a brake), or what one drive met and another did not, stands in the floor as if it were noise"
     ]
