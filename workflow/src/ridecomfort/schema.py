@@ -26,6 +26,9 @@ _TYPES = {
     "null": "null",
 }
 
+NOT_TEXT = {type(None): "nothing (null, ~)", bool: "yes or no (true, false)"}
+"""What YAML makes of words that are no text; of all else a number or a date."""
+
 
 class _Loader(yaml.SafeLoader):
     """Refuses a key that stands twice, of which YAML takes the last."""
@@ -96,10 +99,6 @@ def load(kind: str) -> Mapping:
 def as_written(number: float) -> str:
     """A number to three digits as a configuration takes it: YAML reads one with an exponent and no point as text."""
     return str(_plain(float(f"{number:.3g}")))
-
-
-NOT_TEXT = {type(None): "nothing (null, ~)", bool: "yes or no (true, false)"}
-"""What YAML makes of words that are no text; of all else a number or a date."""
 
 
 def _ascending(validator, wanted, instance, schema):

@@ -93,10 +93,10 @@ class Verdict:
     """Whether an error of the measurement would help beside the effects, which stands in for something else."""
     remainder: Mapping[str, float] = field(default_factory=dict)
     """Share of the power of each signal, of what is judged, that the last model leaves above the floor."""
-    of_moments: tuple[str, ...] = ()
-    """Signals of which half of what repeats differ by lies within moments (``bursts``)."""
     at_first: Mapping[str, float] = field(default_factory=dict)
     """The same of the model that was diagnosed, before anything was found."""
+    of_moments: tuple[str, ...] = ()
+    """Signals of which half of what repeats differ by lies within moments (``bursts``)."""
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
