@@ -43,8 +43,8 @@ def noisy():
 
 def test_what_repeats_differ_by_is_that_of_the_model_in_the_end(noisy):
     _, selection, found = noisy
-    assert set(selection.in_time) == set(selection.frame.experiment.channels)
-    assert min(selection.in_time.values()) > bursts.FEW and not any("what repeats differ by" in reason for reason in found.reasons)
+    assert set(selection.floor_time_share) == set(selection.frame.experiment.channels)
+    assert min(selection.floor_time_share.values()) > bursts.FEW and not any("what repeats differ by" in reason for reason in found.reasons)
 
 
 @pytest.mark.parametrize(("part", "is_named"), [(0.5, False), (2.0, True)])
@@ -55,7 +55,7 @@ def test_what_removes_less_than_moments_hold_is_not_named(noisy, part, is_named)
     squares = selection.floor_squares + part * selection.floor_squares
     trial = replace(winner, before=replace(winner.before, squares=squares), after=replace(winner.after, squares=selection.floor_squares))
     within = dict.fromkeys(selection.frame.experiment.channels, 0.01)
-    of_moments = replace(selection, rounds=(replace(turn, winner=trial), *others), in_time=within)
+    of_moments = replace(selection, rounds=(replace(turn, winner=trial), *others), floor_time_share=within)
     found = judge.judge(of_moments, model.candidates)
     assert [effect.name for effect in found.effects] == ["effect_2"] * is_named
     assert any(reason.startswith("effect_2 helps in ") and "what a driver did" in reason for reason in found.reasons) is not is_named

@@ -162,6 +162,7 @@ def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_fil
     other = verdict.beyond_bounds
     if other is None:
         assert "Parameters of the vehicle beyond their bounds were tried, too: they are no better explanation" in verdict.words()
+        assert "tyre_radial_damping" in [one.parameter for one in verdict.at_bounds] and verdict.remainder["yaw_rate"] > 0.9
         return
     beyond = {one.parameter: one.value for one in (*other.parameters, *other.less_sure)}
     assert other.is_instead and set(other.effects) == {"damper_asymmetry", "damper_knee"}

@@ -155,10 +155,10 @@ def _explain(error: ValidationError) -> str:
         case "type":
             kinds = [expected] if isinstance(expected, str) else expected
             hint = f"; YAML reads this as text, write {_plain(float(value))!r}" if _is_number_as_text(error) else ""
-            name = ""
+            quoted = ""
             if "string" in kinds and not isinstance(value, (str, dict, list)):
-                name = f"; YAML reads what stands there as {NOT_TEXT.get(type(value), 'a number or a date')}, write it in quotes if it is a name"
-            return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{hint}{meaning}{name}"
+                quoted = f"; YAML reads what stands there as {NOT_TEXT.get(type(value), 'a number or a date')}, write it in quotes if it is a name"
+            return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{hint}{meaning}{quoted}"
         case "minimum":
             return f"{value!r}, expected at least {expected}{meaning}"
         case "maximum":

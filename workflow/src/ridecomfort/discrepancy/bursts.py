@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from .experiment import Frame
-from .floor import deviations, repeats
+from .floor import own_noises
 from .judged import band
 
 MOMENT = 0.5
@@ -33,16 +33,14 @@ def time_share(series: Sequence[np.ndarray], rate: float) -> np.ndarray:
 def of_repeats(frame: Frame, residuals: Mapping[int, np.ndarray]) -> dict[str, float]:
     """By channel the ``time_share`` of what repeats among the records of a frame do not share, within their band: of the condition in which it
     is least. Empty without repeats."""
-    experiment = frame.experiment
+    channels = frame.experiment.channels
     found = []
-    for own in repeats(experiment, frame.indices).values():
-        records = [experiment.records[index] for index in own]
-        rate, (lower, upper) = records[0].rate, records[0].band
-        lowest = np.maximum(lower, records[0].lowest or np.zeros(len(experiment.channels)))
-        parts = deviations(records, [frame.cleaned(index, residuals[index]) for index in own])
-        kept = [np.stack([band(row, rate, (least, upper)) for row, least in zip(part, lowest)]) for part in parts]
-        found.append(time_share(kept, rate))
-    return dict(zip(experiment.channels, np.fmin.reduce(found, axis=0).tolist())) if found else {}
+    for record, parts in own_noises(frame.experiment, frame.all_cleaned({index: residuals[index] for index in frame.indices})):
+        lower, upper = record.band
+        lowest = np.maximum(lower, record.lowest or np.zeros(len(channels)))
+        kept = [np.stack([band(row, record.rate, (least, upper)) for row, least in zip(part, lowest)]) for part in parts]
+        found.append(time_share(kept, record.rate))
+    return dict(zip(channels, np.fmin.reduce(found, axis=0).tolist())) if found else {}
 
 
 def of_moments(share: Mapping[str, float]) -> list[str]:

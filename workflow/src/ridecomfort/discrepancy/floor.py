@@ -64,13 +64,14 @@ def repeats(experiment: Experiment, indices: Iterable[int]) -> dict[str, list[in
 def floor(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> dict[str, Spectrum]:
     """Spectrum of the noise of every condition that was driven at least twice, from its residuals less nuisances."""
     return {
-        condition: cross_spectrum(
-            deviations([experiment.records[i] for i in own], [cleaned[i] for i in own]),
-            experiment.records[own[0]].rate,
-            experiment.records[own[0]].lowest,
-        )
-        for condition, own in repeats(experiment, cleaned).items()
+        record.condition: cross_spectrum(parts, record.rate, record.lowest) for record, parts in own_noises(experiment, cleaned)
     }
+
+
+def own_noises(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> list[tuple[Record, list[np.ndarray]]]:
+    """``deviations`` of every condition that was driven at least twice, from its residuals less nuisances, with the first of its records."""
+    groups = [([experiment.records[i] for i in own], [cleaned[i] for i in own]) for own in repeats(experiment, cleaned).values()]
+    return [(records[0], deviations(records, parts)) for records, parts in groups]
 
 
 def assumed(record: Record) -> np.ndarray:

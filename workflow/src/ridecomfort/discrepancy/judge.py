@@ -15,7 +15,7 @@ from .cluster import SAME_PORT
 from .experiment import Candidate, Size
 from .off_file import OffFile
 from .propose import LEVEL, SURE
-from .selection import Selection, shares
+from .selection import Round, Selection, shares
 from .tries import LEAST_MOVED
 from .verdict import Named, Verdict, are_open, kind_of
 
@@ -107,9 +107,9 @@ def judge(
         reasons.append(f"repeats share an error yet, but nowhere more than a driver's foot and hands may make, or than matters; most surely {selection.remaining.band}")
     if effects and selection.birge_ratio > 1.0:
         reasons.append(f"drives held out ask for other sizes by {selection.birge_ratio:.1f} times what noise allows: intervals are that much wider")
-    said = (*reasons, *_of_drives(selection, bool(effects)), *bursts.words(selection.in_time))
+    said = (*reasons, *_of_drives(selection, bool(effects)), *bursts.words(selection.floor_time_share))
     left = balance.is_left, balance.is_shared or not selection.has_repeats
-    moments = tuple(bursts.of_moments(selection.in_time))
+    moments = tuple(bursts.of_moments(selection.floor_time_share))
     return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error, of_moments=moments)
 
 
@@ -219,7 +219,7 @@ def _alike(effect: Named) -> str:
 
 def _nearly(selection: Selection, effect: Named) -> list[str]:
     """What would have done nearly as much in the place of an effect, in words."""
-    turn = next(turn for turn in selection.rounds if turn.winner is not None and turn.winner.name == effect.name)
+    turn = _turn(selection, effect.name)
     removed = lambda trial: shares(selection, trial.before, trial.after)
     told = []
     for trial in turn.trials:
@@ -313,17 +313,22 @@ def _set(selection: Selection, candidate: Candidate) -> list[str]:
     return [f"{candidate.name} was found with {held} held, the best of a few values that were tried"] if told else []
 
 
+def _turn(selection: Selection, name: str) -> Round:
+    """The round that accepted an effect."""
+    return next(turn for turn in selection.rounds if turn.winner is not None and turn.winner.name == name)
+
+
 def _of_moments(selection: Selection, name: str) -> str:
     """The signals in which an effect does most of what it does, where it does less than their floors hold and these are made by moments, in
     words; empty where it does not."""
-    winner = next(turn.winner for turn in selection.rounds if turn.winner is not None and turn.winner.name == name)
-    if winner.before is None:
+    of_moments = bursts.of_moments(selection.floor_time_share)
+    if not of_moments:
         return ""
+    winner = _turn(selection, name).winner
     before, after, first, least = (
         squares.mean(axis=0) for squares in (winner.before.squares, winner.after.squares, selection.states[0].squares, selection.floor_squares)
     )
     channels = selection.frame.experiment.channels
-    of_moments = bursts.of_moments(selection.in_time)
     removed = np.maximum(before - after, 0.0) / first
     doubtful = np.array([channel in of_moments for channel in channels]) & (before - after < least)
     told = [channel for channel, is_so, own in zip(channels, doubtful, removed) if is_so and own > 0]

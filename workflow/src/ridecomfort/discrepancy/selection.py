@@ -115,7 +115,7 @@ class Selection:
     """By key of a size of an accepted effect, what its interval has to allow for beside ``intervals`` (``allowance``)."""
     needless: frozenset[str] = frozenset()
     """Names of accepted effects without which the last fit is no worse: nil in ``final``, with no ``intervals``."""
-    in_time: Mapping[str, float] = field(default_factory=dict)
+    floor_time_share: Mapping[str, float] = field(default_factory=dict)
     """By signal the least share of the time that holds half of what repeats differ by with the last model (``bursts.of_repeats``); empty
     without repeats."""
     is_floor_known: bool = False
