@@ -24,6 +24,19 @@ def quantities(**changed):
     return {name: (TIME, row) for name, row in values.items()} | changed
 
 
+def test_what_samples_show_of_a_fault_before_they_are_filtered_stays_with_the_drive():
+    rng = np.random.default_rng(0)
+    clock = np.arange(0, 20, 0.005)
+    shaken = {name: (clock, rng.standard_normal(clock.size) + STANDARD_GRAVITY * (name == "a_z")) for name in SIGNALS}
+    sound = record.from_arrays(quantities(**shaken))
+    assert sound.attrs["faults"] == "" and "low-pass" in sound.attrs["treatment"]
+    shaken["a_z"] = clock, np.minimum(shaken["a_z"][1], 11.0)
+    limited = record.from_arrays(quantities(**shaken))
+    assert limited.attrs["faults"].startswith("a_z: ") and "the largest value, 11 m/s2" in limited.attrs["faults"]
+    (back,) = record.unstack(record.stack([limited]))
+    assert back.attrs["faults"] == limited.attrs["faults"]
+
+
 def test_level_vehicle_at_rest_reads_one_g_upwards():
     np.testing.assert_allclose(record.specific_force(np.zeros(3), 0.0, 0.0), [0, 0, STANDARD_GRAVITY])
 

@@ -206,6 +206,7 @@ VARIABLES = _table(
     ("jerk_source", "1", "where the limits of the jerk are from"),
     ("treated", "1", "what was done to the height of the cell"),
     ("treatment", "1", "what was done to the record before it was aligned"),
+    ("faults", "1", "what the samples of the record show of an instrument or a logger that fails; empty for nothing"),
     ("class", "1", "class of the unevenness (ISO 8608)"),
     ("direction", "1", "direction that was smoothed"),
     ("parameter", "1", "parameter of the vehicle, or `effect.parameter` of an effect"),

@@ -1,4 +1,4 @@
-"""Signs that the measurement, and not the model, is wrong: noise in the scanned road, clock, gain, sign."""
+"""Signs that the measurement, and not the model, is wrong: noise in the scanned road, clock, gain, sign, instruments that fail."""
 
 from __future__ import annotations
 
@@ -100,10 +100,11 @@ def noise_share(experiment: Car, index: int, values, deviation: float, explainab
 
 
 def of_drives(experiment: Car) -> list[str]:
-    """Reasons in words to doubt a record, from what its alignment found and from how far it turned."""
+    """Reasons in words to doubt a record, from what its samples show, what its alignment found and how far it turned."""
     reasons = []
     for record, again in zip(experiment.records, experiment.replays):
         found = again.drive.attrs
+        reasons += [f"{record.name}: {fault}" for fault in found.get("faults", "").split("; ") if fault]
         error, gain = found.get("clock_offset_error", 0.0), found.get("acceleration_gain", 1.0)
         if np.isfinite(error) and error > CLOCK:
             reasons.append(f"{record.name}: the clock offset is known to {1e3 * error:.1f} ms only")

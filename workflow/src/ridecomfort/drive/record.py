@@ -15,7 +15,7 @@ import xarray as xr
 from ..errors import InputError
 from ..vehicle.parameters import PARAMETERS
 from ..vocabulary import DRIVE, SIGNALS, STANDARD_GRAVITY, VARIABLES, describe
-from . import sampling
+from . import faults, sampling
 
 REASONABLE = {
     "v_x": (-5.0, 90.0),
@@ -74,8 +74,8 @@ def from_arrays(
 
     Returns a Dataset over ``time`` (s, from 0); attributes name, role, gravity,
     sensor_x/y/z, lateral_position (nan: unknown), road_friction, place_measured, cut_off (Hz, of the anti-alias
-    filter; half the rate where nothing was resampled), start_time and ``treatment`` (what was
-    done to the data). Raises InputError.
+    filter; half the rate where nothing was resampled), start_time, ``treatment`` (what was
+    done to the data) and ``faults`` (what they show of an instrument that fails). Raises InputError.
     """
     missing = [signal for signal in SIGNALS if signal not in quantities]
     if missing:
@@ -133,6 +133,7 @@ def from_arrays(
         cut_off=float(cut_off),
         start_time=float(first),
         treatment="; ".join(treatment) or "none",
+        faults="; ".join(faults.found({name: arrays[name] for name in SIGNALS})),
     )
     return check(describe(drive), file=file)
 

@@ -1,0 +1,83 @@
+"""What a record shows of instruments and loggers that fail, and what it does not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.ndimage import gaussian_filter1d
+
+from ridecomfort.drive import faults
+from ridecomfort.vocabulary import SIGNALS
+
+TIME = np.arange(0.0, 60.0, 0.01)
+
+
+def signals(spoil=lambda name, values: values, step=0.0):
+    """Six signals of some hertz with noise, spoilt, as an instrument of this ``step`` tells them."""
+    rng = np.random.default_rng(3)
+    shaken = {name: gaussian_filter1d(rng.standard_normal(TIME.size), 4) + 0.03 * rng.standard_normal(TIME.size) for name in SIGNALS}
+    read = lambda values: np.round(values / step) * step if step else values
+    return {name: (TIME, read(spoil(name, values.copy()))) for name, values in shaken.items()}
+
+
+@pytest.mark.parametrize("step", [0.0, 0.001, 0.01, 0.1, 0.5])
+def test_a_record_without_faults_shows_none_however_coarse_its_steps(step):
+    assert faults.found(signals(step=step)) == []
+
+
+@pytest.mark.parametrize("which, sign", [("largest", 1), ("smallest", -1)])
+def test_a_signal_at_a_limit_is_told_with_the_limit(which, sign):
+    limited = lambda name, values: sign * np.minimum(sign * values, 0.7) if name == "a_z" else values
+    (said,) = faults.found(signals(limited))
+    assert said.startswith("a_z: ") and f"at the {which} value, {sign * 0.7:g} m/s2: does the instrument reach a limit" in said
+
+
+def test_the_largest_value_in_one_place_is_no_limit():
+    def bump(name, values):
+        values[3000:3007] = 3.0, 6.0, 6.0, 6.0, 6.0, 6.0, 3.0
+        return values
+
+    assert faults.found(signals(bump)) == []
+
+
+def test_a_signal_that_stays_at_nought_half_of_the_time_is_held_not_at_a_limit():
+    (*said,) = faults.found(signals(lambda name, values: np.maximum(values, 0.0)))
+    assert said and all("a value is held" in words for words in said)
+
+
+def test_values_that_are_held_are_told_with_the_first_place_once_for_all_signals():
+    def interrupted(name, values):
+        for begin in (1000, 2500, 4000):
+            values[begin : begin + 12] = values[begin]
+        return values
+
+    (said,) = faults.found(signals(interrupted))
+    assert said == f"{', '.join(SIGNALS)}: a value is held for up to 12 samples in 3 places, the first at 10.00 s: was the record interrupted?"
+
+
+@pytest.mark.parametrize("times", [2, 5])
+def test_a_slow_signal_in_a_fast_table_is_told(times):
+    slow = lambda name, values: np.repeat(values[::times], times)[: values.size] if "rate" in name else values
+    (said,) = faults.found(signals(slow))
+    assert said.startswith(f"roll_rate, pitch_rate, yaw_rate: every value stands {times} times in a row")
+
+
+def test_samples_that_stand_alone_are_told_and_bumps_of_the_road_are_not():
+    def wrong(name, values):
+        values[[700, 1500, 5200]] += [4.0, -4.0, 4.0]
+        return values
+
+    (said,) = faults.found(signals(wrong))
+    assert "3 samples stand alone, far from those before and behind, the first at 7.00 s" in said
+    bump = 4.0 * np.exp(-0.5 * (np.arange(-10, 11) / 1.2) ** 2)  # of 30 ms, as a wheel makes at 25 m/s
+
+    def bumps(name, values):
+        for place in (700, 1500, 5200):
+            values[place - 10 : place + 11] += bump
+        return values
+
+    assert faults.found(signals(bumps)) == []
+
+
+def test_a_signal_that_never_changes_shows_nothing():
+    assert faults.found(signals(lambda name, values: np.zeros_like(values))) == []
