@@ -136,9 +136,24 @@ def test_what_would_have_done_nearly_as_much_is_told(part, is_told):
     squares = winner.before.squares - part * (winner.before.squares - winner.after.squares)
     rival = replace(winner, name="effect_4", after=replace(winner.after, squares=squares), gain=winner.gain - 12.0)
     found = judge.judge(replace(selection, rounds=(replace(turn, trials=(winner, rival)), *others)), model.candidates)
-    told = [reason for reason in found.reasons if reason.startswith("effect_4 in the place of effect_2 removes nearly as much")]
+    told = [reason for reason in found.reasons if reason.startswith("effect_4 in the place of effect_2 removes nearly as much (")]
     assert bool(told) is is_told and found.verdict == "named" and [effect.name for effect in found.effects] == ["effect_2"]
     assert not told or told[0].endswith("2 ln L is lower by 12")
+
+
+def test_what_is_missing_too_does_not_stand_in_for_another():
+    """Refitted in the first round, each of two takes as much; once the first is there, the second gains what it did before."""
+    model = Linear(1, {"effect_2.size": 1.5, "effect_4.size": 1.5})
+    selection, found = judged(model)
+    turn, winner = selection.rounds[0], selection.rounds[0].winner
+    other = {"effect_2": "effect_4", "effect_4": "effect_2"}[winner.name]
+    alone = replace(selection, accepted=(winner.name,), rounds=(replace(turn, trials=(winner, replace(winner, name=other, gain=winner.gain - 12.0))), *selection.rounds[1:]))
+    assert {effect.name for effect in found.effects} == {"effect_2", "effect_4"}
+    (named,) = (effect for effect in found.effects if effect.name == winner.name)
+    assert other in selection.rounds[1].names and judge._nearly(alone, named) == []
+    without = replace(selection.rounds[1], gain=0.0 * selection.rounds[1].gain)
+    (said,) = judge._nearly(replace(alone, rounds=(alone.rounds[0], without)), named)
+    assert said.startswith(f"{other} in the place of {winner.name} removes as much (")
 
 
 def test_what_no_candidate_explains_is_said_to_lie_outside_the_library():

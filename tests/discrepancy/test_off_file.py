@@ -9,7 +9,7 @@ import pytest
 
 from ridecomfort.discrepancy import judge, select
 from ridecomfort.discrepancy.experiment import Size
-from ridecomfort.discrepancy.off_file import off_file
+from ridecomfort.discrepancy.off_file import Held, OffFile, off_file
 
 from .coloured import coloured
 from .linear import SAMPLES, Linear
@@ -94,3 +94,15 @@ def test_what_is_told_already_is_not_told_again_and_is_fitted_beside_the_others(
     assert {one.parameter for one in off_file(selection).parameters} == {"inertia", "height"}
     (inertia,) = off_file(selection, ["height"]).parameters
     assert inertia.parameter == "inertia" and inertia.value == pytest.approx(1.5, abs=0.1)
+
+
+def test_one_at_its_bound_has_no_value_that_drives_give_it():
+    selection = searched(OfVehicle({"inertia": 1.5, "effect_1.size": 1.0}))
+    (size,) = (size for size in selection.frame.experiment.free if size.key == "inertia")
+    at_its_bound = replace(selection, final=replace(selection.final, values={**selection.final.values, "inertia": size.upper}))
+    assert off_file(selection) is not None and off_file(at_its_bound) is None
+
+
+def test_what_holding_it_makes_better_is_said_beside_what_it_costs():
+    found = OffFile((Held("inertia", "kg m2", 460.0, 416.0, (413.0, 418.0)),), {"a_y": 0.081, "a_x": -0.041, "a_z": 1e-5})
+    assert found.words().endswith("another 8.1 % of the power of a_y is left, and 4.1 % less of that of a_x")

@@ -12,7 +12,7 @@ import numpy as np
 
 from .calibrated import with_values
 from .drive.leftover import FLOOR, INDEPENDENT, Projection, corrected, leftover
-from .drive.replay import CLOCK_LEFT, Replay
+from .drive.replay import ASTRAY, CLOCK_LEFT, CORRECTED, Replay
 from .drive.sampling import low_pass, low_pass_matrix
 from .errors import InputError
 from .vocabulary import SIGNALS
@@ -82,8 +82,10 @@ class Problem:
         replays = list(self.each(lambda again: again.tuned(vehicle, effects), self.replays))
         nearer = replace(self, replays=replays, vehicle=vehicle, effects=effects, uncorrected=replays)
         for _ in range(ROUNDS):
-            as_asked = lambda i: corrected(nearer.replays[i], nearer._left_over[i], nearer._residual(nearer.replays[i], i, vehicle, effects))
+            run = lambda i: nearer.replays[i].run(vehicle, effects)
+            as_asked = lambda i: corrected(nearer.replays[i], nearer._left_over[i], nearer._scaled(nearer.replays[i], i, run(i)))
             nearer.replays, nearer._left_over = map(list, zip(*self.each(as_asked, range(len(replays)))))
+        nearer.replays = list(self.each(lambda again: again.keeping(again.run(vehicle, effects)), nearer.replays))
         return nearer
 
     def point(self, values) -> np.ndarray:
@@ -148,7 +150,13 @@ class Problem:
         return with_values(self.vehicle, self.effects, dict(zip(self.parameters, self.values(point))))
 
     def _residual(self, again: Replay, i: int, vehicle, effects) -> np.ndarray:
-        residual = again.residual(again(vehicle, effects))[np.ix_(self._used, again.compared)]
+        """With a driver who makes up for what moves a vehicle aside, as the measured one did: wheels that steer as they rise else lead it over
+        another road, and come out at half of their size."""
+        found = again.following(vehicle, effects, ASTRAY, CORRECTED)
+        return self._scaled(found.replay, i, found.run)
+
+    def _scaled(self, again: Replay, i: int, run) -> np.ndarray:
+        residual = again.residual(again.sample(run))[np.ix_(self._used, again.compared)]
         return self._filtered(again, residual.T).T / self._scale[i][:, None]
 
     @staticmethod

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import simulate as simulator
 from ..calibrated import with_values
-from ..drive.replay import Following, Replay, Simulated, slowly
+from ..drive.replay import ASTRAY, CORRECTED, Following, Replay, Simulated, slowly
 from ..drive.sampling import rate_of
 from ..drive.steered import Steered
 from ..effects import library
@@ -17,10 +17,6 @@ from ..effects.contract import COMPILED
 from ..vocabulary import SIGNALS
 from . import nuisances
 from .experiment import Candidate, Record, Size, by_record
-
-ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
-"""m/s and m (rms) that a model may be off the measured speed and path before its driver is corrected while sizes are fitted, and how often
-that is done. What is missing of the path then is made good without driving again."""
 
 LONGEST = 0.002
 """s; in such steps most changes of a drive differ by less than half a percent from those in steps of 1 ms."""
@@ -64,7 +60,8 @@ class Car:
         return again.measured()[:, again.compared]
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
-        """Simulated minus measured signals (6, sample) behind the run-in of the model."""
+        """Simulated minus measured signals (6, sample) behind the run-in of the model. What is missing of the path is made good without
+        driving again."""
         found = self._following(values, index, ASTRAY, CORRECTED)
         return self._on_path(index, found, found.replay.sample(found.run)) + self.exactness.get(index, 0.0)
 

@@ -74,11 +74,12 @@ def diagnose(
 
 
 def _beside_the_file(verdict: Verdict, outcome: Outcome, found: BeyondBounds | None) -> OffFile | None:
-    """Parameters that calibration holds beside the drives, where what was found explains nearly all: else what is missing may drive them there.
-    Beside those ``found`` beyond their bounds, only where these came first: else no model has all of it."""
+    """Parameters that calibration holds beside the drives, where what was found explains most, or nothing is missing: else what is missing may
+    drive them there. Beside those ``found`` beyond their bounds, only where these came first: else no model has all of it."""
     is_in_model = found is None or found.is_first
     if verdict.verdict in ("named", "cluster", "nothing"):
-        return off_file(outcome.selection, found.names() if found else ()) if is_in_model else None
+        is_explained = verdict.verdict == "nothing" or left(verdict) <= 1.0 - DOUBTFUL
+        return off_file(outcome.selection, found.names() if found else ()) if is_in_model and is_explained else None
     if found is not None:
         return None
     explains = outcome.proposed is not None and left(outcome.proposed) <= 1.0 - DOUBTFUL

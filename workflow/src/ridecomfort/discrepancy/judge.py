@@ -37,8 +37,9 @@ BEYOND = "; if the car may lie beyond, have it calibrated in wider bounds (calib
 TOO_NOISY = 1.5
 """Times the error that is left, the median of the signals, from which on noise that is told of instruments is asked about."""
 
-NEARLY = 0.9
-"""Share of what an effect removes, of fitted and of held-out drives, from which on another that was refitted is told beside it."""
+NEARLY, STAYS = 0.9, 0.5
+"""Share of what an effect removes, of fitted and of held-out drives, from which on another that was refitted is told beside it; and share of
+its gain in the score test that the other has once that effect is there, from which on it is missing, too, and does not stand in for it."""
 
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
@@ -225,10 +226,19 @@ def _nearly(selection: Selection, effect: Named) -> list[str]:
     for trial in turn.trials:
         known = [(own, most) for own, most in zip(removed(trial), removed(turn.winner)) if np.isfinite(own) and np.isfinite(most)]
         is_rival = trial.name not in (*selection.accepted, *effect.like) and all(own >= NEARLY * most > 0.0 for own, most in known)
-        if is_rival and known:
+        if is_rival and known and not _is_missing_too(selection, turn, trial.name):
             much, less = " and ".join(_percent(own) for own, _ in known), turn.winner.gain - trial.gain
-            told.append(f"{trial.name} in the place of {effect.name} removes nearly as much ({much}), but drives are less likely with it: 2 ln L is lower by {less:.0f}")
+            as_much = "as much" if all(own >= most for own, most in known) else "nearly as much"
+            told.append(f"{trial.name} in the place of {effect.name} removes {as_much} ({much}), but drives are less likely with it: 2 ln L is lower by {less:.0f}")
     return told
+
+
+def _is_missing_too(selection: Selection, turn: Round, name: str) -> bool:
+    """Whether a candidate gains in the round after this one, beside the winner, what it gained in its place."""
+    after = selection.rounds[selection.rounds.index(turn) + 1 :]
+    if not after or name not in after[0].names:
+        return False
+    return bool(after[0].gain[after[0].names.index(name)] > STAYS * turn.gain[turn.names.index(name)])
 
 
 def _of_drives(selection: Selection, is_found: bool) -> list[str]:

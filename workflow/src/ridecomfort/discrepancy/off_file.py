@@ -11,7 +11,7 @@ from ..errors import InputError
 from . import evidence, floor
 from . import experiment as exp
 from .experiment import Size
-from .refit import Fit
+from .refit import Fit, is_within
 from .selection import Selection
 
 LEAST_LEFT = 0.001
@@ -57,8 +57,9 @@ class OffFile:
         """What they are, and what holding them costs."""
         told = [f"{100 * self.left[name]:.1f} % of the power of {name}" for name in _most(self.left, LEAST_LEFT)]
         told = told or [f"{self.of_floor[name]:.2g} times the floor of {name}" for name in _most(self.of_floor, LEAST_OF_FLOOR)]
-        left = " and ".join(told)
-        return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds fixed: with the values of the file another {left} is left"
+        less = [f"{-100 * self.left[name]:.1f} % less of that of {name}" for name in _most({name: -cost for name, cost in self.left.items()}, LEAST_LEFT)]
+        left = f"another {' and '.join(told)} is left" + (f", and {' and '.join(less)}" if less else "")
+        return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds fixed: with the values of the file {left}"
 
 
 def _most(costs: Mapping[str, float], least: float) -> list[str]:
@@ -101,9 +102,9 @@ def off_file(selection: Selection, told: Collection[str] = ()) -> OffFile | None
 
 
 def _is_off(size: Size, selection: Selection) -> bool:
-    """Whether the interval of a parameter does not hold the value that it is given with."""
+    """Whether the interval of a parameter does not hold the value that it is given with. One at its bound has no value that drives give it."""
     lower, upper = selection.intervals[size.key]
-    return not lower <= size.neutral <= upper
+    return is_within(size, selection.final.values) and not lower <= size.neutral <= upper
 
 
 def _much(off: Sequence[Size], fit: Fit, normal: np.ndarray) -> list[Size]:

@@ -7,7 +7,7 @@ passes through the same low-pass as the measured one.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -47,6 +47,10 @@ for; the changes of speed of a driver reach to 1 Hz."""
 CLOSE, CORRECTIONS = {"speed": 0.0025, "lateral": 0.0004}, 6
 """m/s and m (rms) that a driver who is brought to the measured speed and path may miss them by, and how often at most he is
 corrected for that. A millimetre of path once in 2 s is as much side acceleration as the noise of an instrument."""
+
+ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
+"""m/s and m (rms) that a model may be off the speed and path of its driver before he is corrected while values are fitted, and how often
+that is done."""
 
 HELPED = 0.5
 """Share of what was missing that the right correction leaves at most."""
@@ -118,6 +122,8 @@ class Replay:
     compared: np.ndarray
     is_late: bool = True
     """Whether the driver comes to a path some time after it is asked for, as one who steers for a point ahead does."""
+    kept_to: Mapping[str, np.ndarray] = field(default_factory=dict)
+    """Speed ``v_x`` and path ``e`` that the driver is held to at the measured instants, (time,), if not to what was measured."""
 
     def __call__(self, vehicle, effects=(), clock: float = 0.0) -> Simulated:
         """Simulate and sample at equal place; ``clock`` (s) shifts the inertial signals against place and speed by what alignment has not
@@ -192,10 +198,16 @@ class Replay:
         """
         found, rate, travelled = {}, rate_of(self.time), np.maximum.accumulate(run["s"].values)
         for quantity, name in (("speed", "v_x"), ("lateral", "e")):
-            missing = self.drive[name].values - np.interp(self.place, travelled, run[name].values)
+            goal = self.kept_to.get(name, self.drive[name].values)
+            missing = goal - np.interp(self.place, travelled, run[name].values)
             if np.isfinite(missing).all():
                 found[quantity] = slowly(missing, rate, quantity)
         return found
+
+    def keeping(self, run: xr.Dataset) -> Replay:
+        """The same with its driver held to what he drives in a ``run``, whatever the vehicle: ``following`` then corrects what another one does."""
+        travelled = np.maximum.accumulate(run["s"].values)
+        return replace(self, kept_to={name: np.interp(self.place, travelled, run[name].values) for name in ("v_x", "e")})
 
     def corrected(self, missing: Mapping[str, np.ndarray]) -> Replay:
         """The same, asking the driver for so much more speed (m/s), and for a path so much farther left (m), at the measured instants."""

@@ -12,6 +12,7 @@ from ...discrepancy.balance import LITTLE
 from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
+from ...discrepancy.refit import AT_BOUND
 from ...discrepancy.terms import SIDE
 from ...discrepancy.verdict import first_sentence, sentence
 from ...effects.contract import PORTS
@@ -139,6 +140,13 @@ def _digits(numbers: Sequence[float]) -> int:
     return 3 if width == 0.0 else min(max(int(np.ceil(np.log10(largest / width))) + 1, 3), 6)
 
 
+def _is_at_bound(size: Mapping) -> bool:
+    """Whether a size that was fitted lies at an end of what is plausible which is not nil: the drives ask for more than that."""
+    value, (least, most) = size.get("size"), size["plausible"]
+    is_fitted = value is not None and size.get("interval") is not None
+    return is_fitted and any(end != 0.0 and abs(value - end) <= AT_BOUND * (most - least) for end in (least, most))
+
+
 def missing_effects(found: Diagnosis) -> Table:
     """Sizes of the named effects with intervals and plausible range, and the error that each removed."""
     columns = (
@@ -174,7 +182,7 @@ def missing_effects(found: Diagnosis) -> Table:
             if size.get("is_held"):
                 plausible = HELD[size["is_typical"]]
             if size.get("plausible"):
-                plausible += " ({:.4g} to {:.4g})".format(*size["plausible"])
+                plausible += " ({:.4g} to {:.4g})".format(*size["plausible"]) + (", at its bound" if _is_at_bound(size) else "")
             rows.append(
                 (name, words(size.get("parameter", "")), unit(size.get("unit", "")), size.get("size"), lower, upper,
                  plausible, *(of_all if number == 0 else (*(None,) * 4, "")))
