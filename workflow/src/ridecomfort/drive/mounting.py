@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,9 @@ EXPECTED = np.array([0.01, 0.03, 0.03, 0.03, 0.02, 0.02, 0.02])
 
 LEFT = np.array([0.002, 0.002, 0.002, 0.005, 5e-4, 5e-4, 5e-4])
 """Usual size of what is left of them after alignment."""
+
+TURNED = np.radians(1.0)
+"""rad by which an instrument sits otherwise than on the other drives from which on it was moved: a load tilts a body by half of that."""
 
 INDEPENDENT = 0.5
 """s; residuals closer than this count as one observation against EXPECTED."""
@@ -99,3 +103,17 @@ def corrected(drive: xr.Dataset, mounting: Mounting) -> xr.Dataset:
     rates = rates + np.cross(np.broadcast_to(turn, rates.shape), rates, axis=0)
     values = np.concatenate([record.acceleration(force, drive["roll"].values, drive["pitch"].values), rates])
     return drive.assign({name: drive[name].copy(data=row) for name, row in zip(SIGNALS, values)})
+
+
+def moved(drives: Sequence[xr.Dataset]) -> list[str]:
+    """Which of three aligned drives or more had its instrument mounted otherwise than the most of them, in words."""
+    axes = ("roll", "pitch", "yaw")
+    angles = np.array([[drive.attrs[f"mounting_{axis}"] for axis in axes] for drive in drives])
+    if len(drives) < 3:
+        return []
+    said = []
+    for drive, off in zip(drives, angles - np.median(angles, axis=0)):
+        if np.max(np.abs(off)) > TURNED:
+            turned = ", ".join(f"{angle:+.1f} deg in {axis}" for axis, angle in zip(axes, np.degrees(off)))
+            said.append(f"{drive.attrs['name']}: the instrument is turned by {turned} against the other drives: was it moved? (alignment turns it back)")
+    return said

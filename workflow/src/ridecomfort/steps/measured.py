@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import xarray as xr
 
 from ridecomfort import pool, simulate, store
-from ridecomfort.drive import align, configured, lead, record
+from ridecomfort.drive import align, configured, lead, mounting, record
 from ridecomfort.errors import InputError
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
@@ -18,6 +18,8 @@ def main(road, vehicle, drives, config, output, workers):
     for name, faults in zip(aligned["drive"].values, aligned["faults"].values):
         if faults:
             note(f"{config['site']}: {name}: {faults}")
+    for words in mounting.moved(record.unstack(aligned)):
+        note(f"{config['site']}: {words}")
     if aligned.attrs["distance_doubt"]:
         note(f"{config['site']}: {aligned.attrs['distance_doubt']}")
 
