@@ -105,6 +105,12 @@ def test_a_form_is_told_with_its_size_at_typical_motion_of_what_it_sees():
     assert both.startswith("velocity direction: 57 N front at") and "; velocity signed square: " in both
 
 
+@pytest.mark.parametrize(("clearance", "size"), [(0.015, 190), (0.002, 450), (0.03, 0)])
+def test_of_a_stop_that_size_is_with_the_clearance_that_was_found(clearance, size):
+    told = typically("strut", {"bump_damping_beyond": {"front": 8.59e4, "rear": 0.0}}, {"bump_damping_beyond": {"clearance": clearance}})
+    assert told == f"{size} N front and 0 N rear at deflection 0.024 m, velocity 0.24 m/s"
+
+
 @pytest.mark.parametrize("place", PLACES)
 def test_every_term_has_a_size_in_words(place):
     for name, term in PLACES[place].terms.items():

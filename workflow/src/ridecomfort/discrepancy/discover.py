@@ -97,8 +97,8 @@ class Discovery:
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
         names = ("name", "place", "port", "form", "terms", "settings", "sizes", "share", "held_out_share", "p_value", "by_place")
-        said = {"such_as": such_as, "here": senses, "typically": typically}
-        more = {name: tell(self.place, self.terms) for name, tell in said.items()} | {"beside": self.names_beside()}
+        more = {"such_as": such_as(self.place, self.terms), "here": senses(self.place, self.terms), "beside": self.names_beside()}
+        more["typically"] = typically(self.place, self.terms, self.settings)
         more |= {f"own_{key}": getattr(self, key) - sum(getattr(effect, key) for effect in self.beside) for key in ("share", "held_out_share")}
         return plain({name: getattr(self, name) for name in names} | more)
 

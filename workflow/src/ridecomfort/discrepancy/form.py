@@ -49,16 +49,17 @@ SEEN = {
 """Unit of what a place sees, where it is told."""
 
 
-def typically(place: str, terms: Factors) -> str:
-    """How large each term of a force is at typical motion of what it sees, by part of the car; with signs where parts push against one another."""
-    told = {name: _typically(place, name, factors) for name, factors in terms.items() if factors}
+def typically(place: str, terms: Factors, shaped: Factors = {}) -> str:
+    """How large each term of a force is at typical motion of what it sees, ``shaped`` as it was found, by part of the car; with signs where
+    parts push against one another."""
+    told = {name: _typically(place, name, factors, shaped.get(name, {})) for name, factors in terms.items() if factors}
     of = lambda name: f"{_spaced(name)}: " if len(told) > 1 else ""
     return "; ".join(f"{of(name)}{size}" for name, size in told.items())
 
 
-def _typically(place: str, name: str, factors: Mapping[str, float]) -> str:
+def _typically(place: str, name: str, factors: Mapping[str, float], shaped: Mapping[str, float]) -> str:
     term = PLACES[place].terms[name]
-    one, seen = at_typical(place, name)
+    one, seen = at_typical(place, name, shaped)
     unit = RETURNED.get(term.result.partition("_")[0], "")
     times = 1e3 * one if unit == "mrad" else one
     sizes = {part: size for part, (size, _) in term.amplitudes(factors).items()} if term.turn else factors

@@ -205,7 +205,7 @@ def _unexplained(selection: Selection, balance: Balance, is_little: bool) -> str
         names = ", ".join(answered(selection))
         return f"but the error answers to {names} on drives held out, too, more than noise does, and none of them explains it"
     if not is_little:
-        return f"but repeats share an error that no candidate explains: {selection.remaining}"
+        return f"but repeats share an error that nothing in the library explains: {selection.remaining}"
     if balance.explained < ENOUGH:
         return "that is less than half" + (" of what repeats share" if selection.has_repeats else "")
     if balance.is_refuted or not selection.has_repeats:  # without repeats nothing is known of what all share

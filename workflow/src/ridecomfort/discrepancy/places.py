@@ -320,17 +320,22 @@ def scale(place: str, term: str) -> float:
     return _size(place, term, own.expression) * PLACES[place].worth.get(own.result, 1.0)
 
 
-def at_typical(place: str, term: str) -> tuple[float, dict[str, float]]:
-    """What a term with a factor of one returns at typical motion, in the unit of that per unit of the factor, and what it sees there by name."""
+def at_typical(place: str, term: str, shaped: Mapping[str, float]) -> tuple[float, dict[str, float]]:
+    """What a term with a factor of one returns at typical motion, in the unit of that per unit of the factor, and what it sees there by name;
+    ``shaped``: what shapes it, where that is not as is typical."""
     own = PLACES[place].terms[term]
-    known = _known(place, term, own.expression)
+    known = _known(place, term, own.expression) | {setting.name: shaped[setting.name] for setting in own.settings if setting.name in shaped}
     seen = {name: known[name] for name in dict.fromkeys(re.findall(r"[a-z_]+", own.expression)) if name in PLACES[place].typical}
     seen |= {name: getattr(MOTION, name) for name in dict.fromkeys(re.findall(r"motion\.(\w+)", own.expression))}
-    return _size(place, term, own.expression), {name: abs(value) for name, value in seen.items() if not isinstance(value, SimpleNamespace)}
+    return _evaluated(own.expression, known), {name: abs(value) for name, value in seen.items() if not isinstance(value, SimpleNamespace)}
 
 
 def _size(place: str, term: str, expression: str) -> float:
-    return abs(float(eval(expression, {"__builtins__": {}}, _known(place, term, expression))))  # an expression of this file, not of a user
+    return _evaluated(expression, _known(place, term, expression))
+
+
+def _evaluated(expression: str, known: Mapping[str, object]) -> float:
+    return abs(float(eval(expression, {"__builtins__": {}}, dict(known))))  # an expression of this file, not of a user
 
 
 def _known(place: str, term: str, expression: str) -> dict[str, object]:
