@@ -235,10 +235,10 @@ def _nearly(selection: Selection, effect: Named) -> list[str]:
 
 def _is_missing_too(selection: Selection, turn: Round, name: str) -> bool:
     """Whether a candidate gains in the round after this one, beside the winner, what it gained in its place."""
-    after = selection.rounds[selection.rounds.index(turn) + 1 :]
-    if not after or name not in after[0].names:
+    after = next((later for before, later in zip(selection.rounds, selection.rounds[1:]) if before is turn), None)
+    if after is None or name not in after.names:
         return False
-    return bool(after[0].gain[after[0].names.index(name)] > STAYS * turn.gain[turn.names.index(name)])
+    return bool(after.gain[after.names.index(name)] > STAYS * turn.gain[turn.names.index(name)])
 
 
 def _of_drives(selection: Selection, is_found: bool) -> list[str]:
