@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 from scipy.optimize import least_squares
 
-from ridecomfort import calibrate, calibrated, descent, identifiability, problem, simulate
+from ridecomfort import calibrate, calibrated, descent, simulate
 from ridecomfort.discrepancy import compare
 from ridecomfort.drive import record
 from ridecomfort.effects import library
@@ -267,108 +267,6 @@ def test_bad_settings_are_refused(road, nominal):
         calibrate.calibrate(drives, road, nominal, simulate=quarter_cars.run, applied="both")
 
 
-def test_intervals_hold_the_truth_as_often_as_they_say_though_residuals_are_correlated():
-    """Linear model with residuals correlated over 30 samples: 90 % by blocks, far fewer by the usual formula."""
-    rng = np.random.default_rng(3)
-    count, trials, held, naive = 3000, 400, 0, 0
-    time = np.arange(count)
-    jacobian = np.stack([np.sin(time / 40), np.cos(time / 17)], axis=1)[None]
-    kernel = np.ones(30) / 30**0.5
-    for _ in range(trials):
-        residual = np.convolve(rng.standard_normal(count + 29), kernel, mode="valid")
-        error = np.linalg.lstsq(jacobian[0], residual, rcond=None)[0]
-        left = (residual - jacobian[0] @ error)[None]
-        known = identifiability.assess(jacobian, left, time // 100)
-        held += abs(error[0]) < known.half_width[0]
-        naive += abs(error[0]) < 1.645 * left.std() / np.linalg.norm(jacobian[0, :, 0])
-    assert held / trials == pytest.approx(0.90, abs=0.06)  # four standard errors of 400 trials
-    assert naive / trials < 0.5
-
-
-def test_intervals_are_those_of_the_fit_that_takes_errors_out():
-    """Local errors of a usual size, taken out as far as the data ask for it: scores of the residual itself are too wide."""
-    rng = np.random.default_rng(8)
-    count, errors, trials, size = 2000, 100, 300, 0.5
-    time = np.arange(count)
-    columns = np.maximum(0.0, 1.0 - np.abs(time[:, None] / 20 - np.arange(errors)))
-    own = np.convolve(rng.standard_normal(count + 29), np.ones(30) / 30**0.5, mode="valid") + 0.3 * rng.standard_normal(count)
-    project = np.eye(count) - columns @ np.linalg.solve(columns.T @ columns + np.eye(errors) / size**2, columns.T)
-    jacobian = (project @ own)[None, :, None]
-    influence = (project @ project @ own)[None, :, None]
-    held, wide = 0, 0
-    for _ in range(trials):
-        residual = columns @ (size * rng.standard_normal(errors)) + rng.standard_normal(count)
-        error = float(jacobian[0, :, 0] @ project @ residual) / float(np.sum(jacobian**2))
-        left = (residual - error * own)[None]
-        held += abs(error) < identifiability.assess(jacobian, left, time // 50, influence).half_width[0]
-        wide += abs(error) < identifiability.assess(jacobian, left, time // 50).half_width[0]
-    assert held / trials == pytest.approx(0.90, abs=0.07)  # four standard errors of 300 trials
-    assert wide > held
-
-
-def test_what_a_single_block_knows_is_not_known():
-    """One bend in a straight road: no second one says how well the first is understood."""
-    rng = np.random.default_rng(1)
-    block = np.arange(2000) // 100
-    jacobian = np.stack([rng.standard_normal(2000), rng.standard_normal(2000) * (block == 7)], axis=1)[None]
-    known = identifiability.assess(jacobian, 0.01 * rng.standard_normal((1, 2000)), block)
-    assert known.half_width[0] < 0.01 and known.half_width[1] > 100
-
-
-def test_a_record_of_one_block_knows_nothing():
-    """A stretch of two seconds fits as well as any; no other says by how much it would differ."""
-    rng = np.random.default_rng(2)
-    known = identifiability.assess(rng.standard_normal((1, 200, 2)), 0.01 * rng.standard_normal((1, 200)), np.zeros(200, int))
-    assert np.isinf(known.half_width).all()
-
-
-def test_a_collinear_pair_is_named():
-    rng = np.random.default_rng(0)
-    first = rng.standard_normal(2000)
-    jacobian = np.stack([first, first + 0.05 * rng.standard_normal(2000), rng.standard_normal(2000)], axis=1)[None]
-    known = identifiability.assess(jacobian, 0.01 * rng.standard_normal((1, 2000)), np.arange(2000) // 50)
-    (words,) = identifiability.remarks(["a", "b", "c"], np.full(3, 0.5), known)
-    assert words.startswith("a and b are hard to tell apart (correlation -1.00)")
-
-
-@pytest.mark.parametrize(("name", "is_of_effect"), [("tyre_friction", False), ("suspension_friction.front", True)])
-def test_what_ends_at_a_bound_is_said_of_an_effect_it_may_be_none(name, is_of_effect):
-    known = identifiability.Knowledge(0.01 * np.eye(1), np.array([0.01]), np.ones(1), np.ones((1, 6)))
-    (words,) = identifiability.remarks([name], np.zeros(1), known)
-    assert words.startswith(f"{name} is at its lower bound: the data ask for less than the bounds allow")
-    assert ("none of it" in words) is is_of_effect
-
-
-class Overshooting:
-    """A problem of one parameter whose first step leads far beyond its optimum of 0.3, where nothing can be driven."""
-
-    parameters, evaluations = ("one",), 0
-
-    def flat(self, point):
-        if point[0] < 0.1:
-            raise InputError("cannot be driven")
-        return np.arctan(20.0 * (point - 0.3))
-
-    def jacobian(self, point, free):
-        return (20.0 / (1.0 + (20.0 * (point - 0.3)) ** 2))[:, None][:, free]
-
-    def nrmse(self, point):
-        return np.zeros((1, 1))
-
-
-def test_a_search_turns_back_where_a_vehicle_cannot_be_driven_but_must_not_start_there():
-    found = descent.descend(Overshooting(), np.array([0.5]), [0], 1e-6, exact=True)
-    assert found.point[0] == pytest.approx(0.3, abs=1e-3)
-    with pytest.raises(InputError, match="cannot be driven"):
-        descent.descend(Overshooting(), np.array([0.05]), [0], 1e-6)
-
-
-def test_a_point_whose_vehicle_there_cannot_be_is_one_that_cannot_be_driven(nominal):
-    car = lambda point: calibrated.with_values(nominal, {}, {"cg_to_front_axle": point[0]})
-    task = SimpleNamespace(replays=[None], _car=car, _residual=None)
-    assert "lies behind the rear axle" in str(problem.Problem._piece(task, 0, np.array([1.01 * nominal["wheelbase"]])))
-
-
 def test_starts_that_end_elsewhere_are_said_with_the_parameter_they_differ_in():
     task = SimpleNamespace(parameters=("one", "two"), values=lambda point: 10.0 * point)
     best, near, far = (
@@ -383,24 +281,6 @@ def test_starts_that_end_elsewhere_are_said_with_the_parameter_they_differ_in():
     assert words.startswith("2 of 3 starts end at the best, the worst of 3 ends at a cost 20.0 % above") and words.endswith("most in two, 1 against 5")
     assert not in_doubt
     assert calibrate._of_starts(task, [best, near], best, ["spins"])[1] == ["1 of 3 starts led to a vehicle that does not drive (spins)"]
-
-
-@pytest.mark.parametrize("other", [0.0, 1e-6])
-def test_what_only_shows_as_a_sum_is_not_identified(other):
-    rng = np.random.default_rng(0)
-    first, third = rng.standard_normal((2, 2000))
-    jacobian = np.stack([first, 2.0 * first * (1.0 + other), third], axis=1)[None]
-    known = identifiability.assess(jacobian, 0.01 * rng.standard_normal((1, 2000)), np.arange(2000) // 50)
-    assert np.isinf(known.half_width[:2]).all() and known.half_width[2] < 0.01
-    assert identifiability.verdict(0.5, known.half_width[0]) == "not identified"
-
-
-def test_many_that_are_alike_are_named_together():
-    covariance = np.full((5, 5), 0.95) + 0.05 * np.eye(5)
-    covariance[4, :4] = covariance[:4, 4] = 0.0
-    known = identifiability.Knowledge(covariance, np.full(5, 0.1), np.ones(5), np.ones((5, 1)))
-    (words,) = identifiability.remarks(["a", "b", "c", "d", "e"], np.full(5, 0.5), known)
-    assert words == "a, b, c and d are hard to tell apart (correlation up to +0.95)"
 
 
 def test_an_effect_is_calibrated_along_with_the_vehicle(nominal):
@@ -437,7 +317,6 @@ def test_an_effect_is_calibrated_along_with_the_vehicle(nominal):
     assert float(result["nrmse"].sel(state="calibrated", signal="a_z").item()) < 0.2 * float(
         result["nrmse"].sel(state="reference", signal="a_z").item()
     )
-
 
 
 def test_what_steers_is_calibrated_to_its_size_since_its_driver_keeps_to_the_path(nominal):

@@ -8,10 +8,11 @@ import xarray as xr
 from ridecomfort.drive import mounting
 
 
-def drives(*yaws: float) -> list[xr.Dataset]:
+def drives(*yaws: float) -> xr.Dataset:
     """Aligned drives whose instruments are turned about the vertical by these angles in degrees."""
-    angles = lambda yaw: {"mounting_roll": 0.005, "mounting_pitch": -0.003, "mounting_yaw": np.radians(yaw)}
-    return [xr.Dataset(attrs={"name": f"lap_{number}", **angles(yaw)}) for number, yaw in enumerate(yaws, 1)]
+    angles = {"roll": np.full(len(yaws), 0.005), "pitch": np.full(len(yaws), -0.003), "yaw": np.radians(yaws)}
+    names = [f"lap_{number}" for number in range(1, len(yaws) + 1)]
+    return xr.Dataset({f"mounting_{axis}": ("drive", found) for axis, found in angles.items()}, {"drive": names})
 
 
 def test_an_instrument_that_was_moved_for_one_drive_is_told_with_its_angles():

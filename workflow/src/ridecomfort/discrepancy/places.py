@@ -335,7 +335,7 @@ def _size(place: str, term: str, expression: str) -> float:
 
 
 def _evaluated(expression: str, known: Mapping[str, object]) -> float:
-    return abs(float(eval(expression, {"__builtins__": {}}, dict(known))))  # an expression of this file, not of a user
+    return abs(float(eval(expression, {"__builtins__": {}}, known)))  # an expression of this file, not of a user
 
 
 def _known(place: str, term: str, expression: str) -> dict[str, object]:

@@ -38,24 +38,22 @@ def found(signals: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
     said: dict[str, list[str]] = {}
     for name in SIGNALS:
         time, values = (np.asarray(part, dtype=float) for part in signals[name])
-        changes = np.abs(np.diff(values))
-        if np.any(changes > 0) and np.median(changes[changes > 0]) > COARSE * np.median(np.diff(np.unique(values))):
-            stays = _at_limits(name, values) or [_told_again(values) or _held(time, values)]
+        changes, (levels, counts) = np.abs(np.diff(values)), np.unique(values, return_counts=True)
+        if np.any(changes > 0) and np.median(changes[changes > 0]) > COARSE * np.median(np.diff(levels)):
+            ends = ("largest", levels[::-1], counts[::-1]), ("smallest", levels, counts)
+            stays = [words for end in ends if (words := _at_limit(name, values, *end))] or [_told_again(values) or _held(time, values)]
             for words in (*stays, _alone(time, values)):
                 said.setdefault(words, []).append(name)
     return [f"{', '.join(names)}: {words}" for words, names in said.items() if words]
 
 
-def _at_limits(name: str, values: np.ndarray) -> list[str]:
-    said = []
-    for sign, which in ((1.0, "largest"), (-1.0, "smallest")):
-        levels, counts = np.unique(sign * values, return_counts=True)
-        most = max(counts[-1 - LEVELS : -1], default=0)
-        places = np.count_nonzero(np.diff(np.flatnonzero(sign * values == levels[-1])) > 1) + 1
-        if counts[-1] >= max(AT_LIMIT, TIMES * most) and places > 1 and levels[-1] - sign * values.mean() > AWAY * values.std():
-            level = f"{sign * levels[-1]:.4g} {VARIABLES[name].unit}"
-            said.append(f"{counts[-1]} samples are at the {which} value, {level}: does the instrument reach a limit there?")
-    return said
+def _at_limit(name: str, values: np.ndarray, which: str, levels: np.ndarray, counts: np.ndarray) -> str:
+    """Where a signal is at the first of its ``levels`` again and again, each taken on so often as ``counts`` tells."""
+    places = np.count_nonzero(np.diff(np.flatnonzero(values == levels[0])) > 1) + 1
+    is_often = counts[0] >= max(AT_LIMIT, TIMES * max(counts[1 : 1 + LEVELS], default=0)) and places > 1
+    if not (is_often and abs(levels[0] - values.mean()) > AWAY * values.std()):
+        return ""
+    return f"{counts[0]} samples are at the {which} value, {levels[0]:.4g} {VARIABLES[name].unit}: does the instrument reach a limit there?"
 
 
 def _told_again(values: np.ndarray) -> str:

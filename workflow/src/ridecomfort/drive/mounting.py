@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -105,15 +104,13 @@ def corrected(drive: xr.Dataset, mounting: Mounting) -> xr.Dataset:
     return drive.assign({name: drive[name].copy(data=row) for name, row in zip(SIGNALS, values)})
 
 
-def moved(drives: Sequence[xr.Dataset]) -> list[str]:
-    """Which of three aligned drives or more had its instrument mounted otherwise than the most of them, in words."""
+def moved(measured: xr.Dataset) -> list[str]:
+    """Which of three aligned drives or more (``record.stack``) had its instrument mounted otherwise than the most of them, in words."""
     axes = ("roll", "pitch", "yaw")
-    angles = np.array([[drive.attrs[f"mounting_{axis}"] for axis in axes] for drive in drives])
-    if len(drives) < 3:
-        return []
+    angles = np.stack([measured[f"mounting_{axis}"].values for axis in axes], axis=1)
     said = []
-    for drive, off in zip(drives, angles - np.median(angles, axis=0)):
-        if np.max(np.abs(off)) > TURNED:
+    for name, off in zip(measured["drive"].values, angles - np.median(angles, axis=0)):
+        if len(angles) > 2 and np.max(np.abs(off)) > TURNED:
             turned = ", ".join(f"{angle:+.1f} deg in {axis}" for axis, angle in zip(axes, np.degrees(off)))
-            said.append(f"{drive.attrs['name']}: the instrument is turned by {turned} against the other drives: was it moved? (alignment turns it back)")
+            said.append(f"{name}: the instrument is turned by {turned} against the other drives: was it moved? (alignment turns it back)")
     return said

@@ -196,18 +196,21 @@ class Replay:
 
         By the quantity that is asked for; one that was not measured, or that the simulator does not tell, is left out.
         """
-        found, rate, travelled = {}, rate_of(self.time), np.maximum.accumulate(run["s"].values)
+        found, rate, driven = {}, rate_of(self.time), self._driven(run)
         for quantity, name in (("speed", "v_x"), ("lateral", "e")):
-            goal = self.kept_to.get(name, self.drive[name].values)
-            missing = goal - np.interp(self.place, travelled, run[name].values)
+            missing = self.kept_to.get(name, self.drive[name].values) - driven[name]
             if np.isfinite(missing).all():
                 found[quantity] = slowly(missing, rate, quantity)
         return found
 
     def keeping(self, run: xr.Dataset) -> Replay:
         """The same with its driver held to what he drives in a ``run``, whatever the vehicle: ``following`` then corrects what another one does."""
+        return replace(self, kept_to=self._driven(run))
+
+    def _driven(self, run: xr.Dataset) -> dict[str, np.ndarray]:
+        """Speed ``v_x`` and path ``e`` of a simulated drive at the places of the measured instants, (time,)."""
         travelled = np.maximum.accumulate(run["s"].values)
-        return replace(self, kept_to={name: np.interp(self.place, travelled, run[name].values) for name in ("v_x", "e")})
+        return {name: np.interp(self.place, travelled, run[name].values) for name in ("v_x", "e")}
 
     def corrected(self, missing: Mapping[str, np.ndarray]) -> Replay:
         """The same, asking the driver for so much more speed (m/s), and for a path so much farther left (m), at the measured instants."""

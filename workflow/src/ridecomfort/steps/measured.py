@@ -15,10 +15,8 @@ def main(road, vehicle, drives, config, output, workers):
     car = parameters.read(vehicle)
     aligned = of_files(drives, simulate.prepare(store.read(road)), car, config, int(workers), car)
     store.write(aligned, output, title=f"Measured drives on {config['site']}", configuration=config)
-    for name, faults in zip(aligned["drive"].values, aligned["faults"].values):
-        if faults:
-            note(f"{config['site']}: {name}: {faults}")
-    for words in mounting.moved(record.unstack(aligned)):
+    failing = [f"{name}: {faults}" for name, faults in zip(aligned["drive"].values, aligned["faults"].values) if faults]
+    for words in (*failing, *mounting.moved(aligned)):
         note(f"{config['site']}: {words}")
     if aligned.attrs["distance_doubt"]:
         note(f"{config['site']}: {aligned.attrs['distance_doubt']}")
