@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 
 from ridecomfort.discrepancy import judge, select
@@ -17,6 +19,7 @@ class Linear:
 
     channels = ("a", "b", "c", "d")
     each_record = staticmethod(map)
+    inexact: ClassVar[dict] = {}
 
     def __init__(self, seed, truth, noise=1.0, twins=None, library=6):
         rng = np.random.default_rng(seed)

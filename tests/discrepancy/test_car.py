@@ -214,6 +214,32 @@ def test_steps_twice_as_long_change_directions_by_little(made):
         assert not np.array_equal(one, other)
 
 
+def test_what_a_wheel_does_in_a_pothole_at_another_moment_of_a_step_weighs_little(repository, monkeypatch):
+    """A hole of 4 cm under the left wheels at 22 m/s, 2 cm of road a step. A little drag, which changes nothing else yet, shifts where steps fall."""
+    plain = trials.a_road
+
+    def pitted(rng):
+        road = plain(rng)
+        is_in_hole = (road.u > 300.0) & (road.u < 300.6) & (road.v > 0.2)
+        return road.assign(elevation=road["elevation"] - 0.04 * is_in_hole)
+
+    monkeypatch.setattr(trials, "a_road", pitted)
+    vehicle = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+    car = opening.car(opening.sites_of(trials.make(31, vehicle, {}).measured), vehicle, library_names=["aerodynamic_drag"])
+    values = opening.start_values(car)
+    exact, residuals = car.retuned(values, [0], exactly=True)
+    coarse, _ = probe.coarsely(exact, values, residuals)
+    nuisances_of = exp.nuisances(exact, values, residuals)
+
+    def jumps(experiment):
+        frame = exp.frame(experiment, residuals, nuisances_of)
+        loss = lambda area: float(np.sum(frame.flat_of(0, coarse.residual({**values, "aerodynamic_drag.area": area}, 0)) ** 2))
+        return max(abs(loss(area) - loss(0.0)) for area in (0.003, 0.01, 0.03))
+
+    known, unknown = jumps(exact), jumps(replace(exact, exactness={}))
+    assert known < 100.0 < 1000.0 < unknown
+
+
 def test_a_model_that_steps_twice_as_long_do_not_hold_is_probed_in_its_own(made):
     class Fragile:
         def coarser(self, values, residuals):

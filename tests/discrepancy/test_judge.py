@@ -90,6 +90,19 @@ def test_what_removes_little_of_an_error_that_was_not_worth_explaining_is_neithe
         assert not found.effects and found.share == 0.0 and "effect_2 would help, but removes too little" in found.reasons[0]
 
 
+@pytest.mark.parametrize(("is_material", "left", "said"), [(False, 0.1, "named"), (False, 0.5, "outside"), (True, 0.1, "outside")])
+def test_what_removes_nearly_all_that_is_worth_explaining_is_named_however_much_a_driver_leaves_beside_it(is_material, left, said):
+    model = Linear(1, {"effect_2.size": 1.0})
+    selection, _ = judged(model)
+    first, last = selection.states
+    held_out = first.held_out_squares - 0.1 * (first.held_out_squares - selection.held_out_floor_squares)
+    little = replace(selection, states=(first, replace(last, held_out_squares=held_out)))
+    found = judge.judge(little, model.candidates, is_material=is_material, material_left=left)
+    assert found.verdict == said
+    told = "that is 90 % of what repeats share and is worth explaining: the rest is no more than a driver's foot and hands may make"
+    assert (told in found.reasons) is (said == "named")
+
+
 @pytest.mark.parametrize(("size", "is_like_error"), [(0.5, False), (0.9, True)])
 def test_an_error_of_the_measurement_stands_in_for_something_else_only_where_it_removes_much(size, is_like_error):
     """Beside an effect, and with something missing that the library does not have; else it may be a part of what is left."""

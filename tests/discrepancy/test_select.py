@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -38,6 +39,34 @@ def test_sizes_of_opposite_signs_are_found_though_each_alone_and_their_sum_show_
     assert found.verdict == "named" and [e.name for e in found.effects] == ["effect_2"]
     sizes = {size["parameter"]: size["size"] for size in found.effects[0].sizes}
     assert sizes["front"] == pytest.approx(0.3, abs=0.1) and sizes["rear"] == pytest.approx(-0.3, abs=0.1)
+
+
+class Edged(Linear):
+    """The same with an edge of the road for 0.1 s, which the steps of the integration meet anew at any value: an error there that is another at
+    each, far larger than the noise, and nil at the values of the calibrated model."""
+
+    def residual(self, values, index):
+        if not any(name.startswith("effect_") for name in values):
+            return super().residual(values, index)
+        any_size = np.random.default_rng([crc32(repr(sorted(values.items())).encode()), index]).standard_normal()
+        return super().residual(values, index) + any_size * self.edge()
+
+    def edge(self):
+        error = np.zeros((4, SAMPLES))
+        error[:, 2000:2010] = 30.0
+        return error
+
+
+@pytest.mark.parametrize("is_known", [True, False])
+def test_an_edge_that_every_simulation_meets_otherwise_hides_no_effect_where_it_is_known_to(is_known):
+    model = Edged(8, {"stiffness": 0.7, "effect_2.size": 0.5})
+    model.inexact = {index: model.edge() for index in range(4)} if is_known else {}
+    selection, found = judged(model)
+    if is_known:
+        assert found.verdict == "named" and [e.name for e in found.effects] == ["effect_2"]
+        assert found.effects[0].sizes[0]["size"] == pytest.approx(0.5, abs=0.1)
+    else:
+        assert "effect_2" not in selection.accepted
 
 
 IN_BAND = (40.0 - 0.3) / 50.0 * 28.0 / 30.0

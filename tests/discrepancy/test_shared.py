@@ -11,7 +11,7 @@ import pytest
 from ridecomfort.discrepancy import balance, judge, select, shared
 from ridecomfort.discrepancy.experiment import Record
 from ridecomfort.discrepancy.judged import band
-from ridecomfort.discrepancy.shared import is_material, shared_error
+from ridecomfort.discrepancy.shared import is_material, material_left, shared_error
 
 from .linear import RATE, SAMPLES, Linear
 
@@ -103,6 +103,19 @@ def test_what_a_foot_leaves_of_slow_longitudinal_acceleration_does_not_matter_ho
     residuals = dict.fromkeys((0, 1), size * shared / shared.std())
     measured = dict.fromkeys((0, 1), size * (shared / shared.std() + np.sqrt(2.0) * own / own.std() + 0.1 * fast))
     assert is_material(frame, residuals, measured) is matters
+
+
+def test_what_is_left_of_what_mattered_is_told_of_the_bands_in_which_it_did():
+    """Two repeats that share a slow error, which a driver's foot may make, and one at 30 to 34 Hz, of whose power a tenth is left."""
+    record = Record("drive", "fit", "road", "usual", RATE, (0.8, 40.0), 0.2 * np.arange(6000), 20.0)
+    frame = SimpleNamespace(experiment=SimpleNamespace(records=[record, record], channels=("pitch_rate",)), indices=[0, 1], all_cleaned=dict)
+    noise = np.random.default_rng(5).standard_normal((3, 1, 6000))
+    foot, fast, signal = band(noise[0], RATE, (1.2, 2.4)), band(noise[1], RATE, (30.0, 34.0)), noise[2]
+    shared = lambda share: dict.fromkeys((0, 1), 0.2 * foot + np.sqrt(share) * 0.2 * fast)
+    measured = dict.fromkeys((0, 1), signal)
+    assert material_left(frame, shared(1.0), shared(0.1), measured) == pytest.approx(0.1, abs=0.01)
+    assert is_material(frame, shared(1.0), measured) and not is_material(frame, shared(0.01), measured)
+    assert np.isnan(material_left(frame, shared(0.0), shared(0.0), measured))
 
 
 def test_a_fast_error_is_seen_whichever_site_comes_first():

@@ -10,7 +10,7 @@ import numpy as np
 from . import floor
 from .propose import HELD_OUT_Z, SURE
 from .selection import Selection, State, shares
-from .shared import is_material
+from .shared import is_material, material_left
 
 ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
@@ -99,6 +99,14 @@ def is_worth_explaining(selection: Selection, state: State, measured: Mapping[in
         return is_material(selection.frame, state.fit.residuals, measured)
     power = floor.squares(selection.frame.experiment, measured)
     return bool(np.any(state.squares - selection.floor_squares > OF_SIGNAL * power))
+
+
+def left_of_material(selection: Selection, measured: Mapping[int, np.ndarray]) -> float:
+    """Share that is left of what was worth explaining of what repeats shared at first; nan where nothing was, or nothing was repeated."""
+    if not selection.has_repeats:
+        return float("nan")
+    first, last = (selection.states[number].fit.residuals for number in (0, -1))
+    return material_left(selection.frame, first, last, measured)
 
 
 def something_left(selection: Selection) -> bool:

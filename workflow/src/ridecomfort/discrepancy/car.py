@@ -22,6 +22,11 @@ LONGEST = 0.002
 """s; in such steps most changes of a drive differ by less than half a percent from those in steps of 1 ms."""
 
 
+COARSER = 8.0
+"""Times an error of the integration that is made good is smaller than one in steps twice as long which is not: by its order four, where a
+wheel meets an edge or leaves the ground up to eight."""
+
+
 @dataclass
 class Car:
     """Drives on one or several sites beside a vehicle with ``effects`` (those the model already has)."""
@@ -42,6 +47,12 @@ class Car:
     """By record, how it answers to the path that its driver is asked for."""
     driven: Mapping[int, tuple[Mapping[str, float], Simulated]] = field(default_factory=dict)
     """By record, the values at which its replay was driven last, and what the model did."""
+
+    @property
+    def inexact(self) -> dict[int, np.ndarray]:
+        """By record, what a residual lacks in steps twice as long, in which fits are made: other values meet an edge of the road, or the ground
+        after a jump, at another moment of a step, and what is made good at some is not at others."""
+        return {index: COARSER * wrong for index, wrong in self.exactness.items() if np.ndim(wrong)}
 
     set_aside: tuple[str, ...] = ()
     """Words on drives that were left out, since they are too short."""

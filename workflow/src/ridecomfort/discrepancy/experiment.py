@@ -100,6 +100,8 @@ class Experiment(Protocol):
     candidates: Sequence[Candidate]
     each_record: Callable
     """A ``map`` over records, whose residuals may be asked for side by side."""
+    inexact: Mapping[int, np.ndarray]
+    """By record, by how much a residual (channel, sample) may differ for no better reason than the step of integration, where that is known."""
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """Simulated minus measured, (channel, sample), of a record."""
@@ -226,7 +228,9 @@ def frame(
     def whitening(index: int) -> Whitening:
         record = experiment.records[index]
         plain = Whitening(found[record.condition], record.rate, record.band)
-        return replace(plain, scale=spectrum.local_scale(plain((cleaned or residuals)[index]), record.rate))
+        scale = spectrum.local_scale(plain((cleaned or residuals)[index]), record.rate)
+        wrong = experiment.inexact.get(index)
+        return replace(plain, scale=scale if wrong is None else spectrum.beside(scale, plain(wrong), record.rate))
 
     made = Frame(experiment, indices, by_record(experiment, whitening, indices), dict(nuisances))
     if cleaned is not None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import tanh
+from typing import ClassVar
 
 import numpy as np
 from numba import njit
@@ -126,6 +127,7 @@ class OneMass:
         return response
 
     each_record = staticmethod(map)
+    inexact: ClassVar[Mapping] = {}
 
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         return (self.simulated(values, index) - self.outputs[index])[None, :]

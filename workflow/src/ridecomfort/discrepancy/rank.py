@@ -10,7 +10,7 @@ import xarray as xr
 
 from .. import pool
 from . import floor, opening, suspect, turns
-from .balance import CONFIRMED, ENOUGH, is_slow, is_worth_explaining, may_share, total_shares
+from .balance import CONFIRMED, ENOUGH, is_slow, is_worth_explaining, left_of_material, may_share, total_shares
 from .car import Car
 from .judge import judge, standing, with_remainder
 from .ranking import dataset
@@ -77,7 +77,7 @@ def ranked(
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
-    verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered)
+    verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered, left_of_material(selection, measured))
     verdict = with_remainder(verdict, *_left_by(selection, measured, (-1, 0)), selection.accepted)
     verdict = replace(verdict, reasons=(*verdict.reasons, *experiment.set_aside))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))

@@ -122,6 +122,21 @@ def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Map
 
     ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure.
     """
+    return bool(_agreement(frame, residuals, measured)[1].any())
+
+
+def material_left(
+    frame: Frame, before: Mapping[int, np.ndarray], after: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]
+) -> float:
+    """Share of what repeats shared ``before`` in the bands where that was worth explaining, each by the power that is ``measured`` in it, that
+    they share ``after``; nan where nothing was worth it."""
+    first, was_material = _agreement(frame, before, measured)
+    last = _agreement(frame, after, measured)[0]
+    return float(last[was_material].sum() / first[was_material].sum()) if was_material.any() else float("nan")
+
+
+def _agreement(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """What repeats share by (channel, band), as a share of the measured power there, and whether it is worth explaining."""
     pairs = list(_pairs(frame, frame.all_cleaned({index: residuals[index] for index in frame.indices})))
     edges, agreement, variance = _bands(frame.experiment.channels, pairs)
     power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
@@ -130,7 +145,8 @@ def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Map
     least = np.where(is_slow, slow[:, None], OF_BAND) * power
     foot = np.array([FOOT if channel == "a_x" else 0.0 for channel in frame.experiment.channels])
     least = np.maximum(least, np.where(is_slow, foot[:, None] ** 2 * _of_one(pairs), 0.0))
-    return bool(((agreement > least) & (agreement > LIKELY * np.sqrt(variance))).any())
+    is_material = (agreement > least) & (agreement > LIKELY * np.sqrt(variance))
+    return agreement / np.where(power > 0.0, power, np.inf), is_material
 
 
 def _of_one(pairs) -> float:

@@ -115,6 +115,10 @@ def _faster(series: np.ndarray, rate: float, lowest: tuple[float, ...]) -> np.nd
     return np.fft.irfft(np.where(kept, np.fft.rfft(series, axis=1), 0.0), series.shape[1], axis=1)
 
 
+BURST = 0.3
+"""s over which an error of the integration is taken together: it is made where a wheel meets an edge or leaves the ground."""
+
+
 @dataclass(frozen=True)
 class Whitening:
     """Makes series with a known spectrum white within a band (Hz); outside it nothing is left.
@@ -193,6 +197,12 @@ def local_scale(white: np.ndarray, rate: float, seconds: float = 4.0) -> np.ndar
     mean, share = power[inside].mean(), over(inside.astype(float))
     local = over(power) / np.where(share > 0.0, share, 1.0)
     return np.sqrt(np.maximum(local / mean, SMOOTHEST))
+
+
+def beside(scale: np.ndarray, wrong: np.ndarray, rate: float, seconds: float = BURST) -> np.ndarray:
+    """A ``scale`` (sample,) with the running rms over all channels of a white error (channel, sample) beside it."""
+    power = uniform_filter1d(np.mean(wrong**2, axis=0), max(1, int(seconds * rate)), mode="nearest")
+    return np.sqrt(scale**2 + power)
 
 
 def _regular(density: np.ndarray) -> np.ndarray:
