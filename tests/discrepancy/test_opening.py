@@ -36,7 +36,7 @@ def told(seed, own):
     random, place = np.random.default_rng(seed), np.arange(0.0, ROAD + 1.0, 0.1)
     error, effect = (gaussian_filter1d(random.standard_normal(place.size), 4) for _ in range(2))
     at = lambda line: {index: np.interp(record.place, place, line)[None] for index, record in enumerate(own)}
-    experiment = SimpleNamespace(records=own, channels=("a_z",), each_record=map, free=())
+    experiment = SimpleNamespace(records=own, channels=("a_z",), each_record=map, inexact={}, free=())
     residuals = {index: part + 0.02 * random.standard_normal(part.shape) for index, part in at(error).items()}
     flat = {index: taken_apart(np.full((1, *part.shape), 1e-3)) for index, part in residuals.items()}
     frame = exp.frame(experiment, residuals, flat)
