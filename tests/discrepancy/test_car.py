@@ -12,8 +12,8 @@ from ridecomfort import simulate
 from ridecomfort.calibrated import with_values
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import nuisances, opening, probe
-from ridecomfort.discrepancy.car import ASTRAY
-from ridecomfort.drive.replay import CLOSE
+from ridecomfort.drive.replay import ASTRAY, CLOSE, CORRECTED, slowly
+from ridecomfort.drive.sampling import rate_of
 from ridecomfort.errors import InputError
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS
@@ -184,6 +184,34 @@ def test_realigning_moves_the_path_that_is_to_be_driven(made):
     gone = np.std((bent.replays[0].drive["e"] - made.replays[0].drive["e"]).values[made.replays[0].compared])
     assert aside(moved, moved.replays[0], values) < 0.003
     assert aside(bent, bent.replays[0], values) < 0.3 * gone
+
+
+def test_a_driver_who_is_corrected_follows_what_the_model_drove_and_no_more_of_what_is_fast_in_a_recorded_path(made):
+    """A wind of 0.8 m/s leads the model 6 mm aside. Corrected by what was recorded, it would follow that a little farther than without wind."""
+    still, wind = opening.start_values(made), {"crosswind.gust": 0.0, "crosswind.wind": 0.8}
+    held, _ = made.retuned(still, [0])
+
+    def faster(car) -> float:
+        """What is fast (m, rms) of the change of the path by the wind."""
+        paths = []
+        for values in (still, {**still, **wind}):
+            found = car._following(values, 0, ASTRAY, CORRECTED)
+            paths.append(car.replays[0]._driven(found.run)["e"])
+        assert found.replay is not car.replays[0]
+        change = paths[1] - paths[0]
+        return float((change - slowly(change, rate_of(car.replays[0].time)))[car.replays[0].compared].std())
+
+    free = replace(held, replays=[replace(again, kept_to={}) for again in held.replays])
+    assert faster(held) < 0.4 * faster(free)
+
+
+def test_what_a_driver_is_held_to_is_forgotten_where_drives_are_aligned_anew(made):
+    values = opening.start_values(made)
+    held, _ = made.retuned(values, [0])
+    assert set(held.replays[0].kept_to) == {"v_x", "e"} and 0 in held.left
+    moved = held.realigned({0: np.zeros(len(made.nuisances(values, 0)))})
+    assert not moved.replays[0].kept_to and 0 not in moved.left
+    assert moved.taking(held, [0]).replays[0].kept_to and 0 in moved.taking(held, [0]).left
 
 
 def test_a_coarse_step_is_made_good_in_residuals_and_not_in_their_changes(made):
