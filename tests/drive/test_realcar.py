@@ -150,14 +150,13 @@ def test_as_the_readme_calibrates_a_car_of_which_little_is_known_most_of_its_err
 
 @pytest.mark.long
 def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_file_of_the_vehicle_is_wrong(drives, road, car, calibration):
-    """Within a tenth or two of a file of another car: three of the effects that are found where its inertias and bars are calibrated, and what the
-    drives do not tell from one another beside them; or two of them and those parameters, as good. That it is friction, not bump steer, goes by the
-    sixth digit of the speed's scale, and whether the second search ends as well by how the processor rounds: it is told that it was made."""
+    """Within a tenth or two of a file of another car: the five effects that are found where its inertias and bars are calibrated; or three of them
+    and those parameters, as good. Whether the second search ends as well goes by how the processor rounds: it is told that it was made."""
     _, verdict, _ = diagnose({"realcar": (road, drives)}, car, calibration=calibration, bounds=BOUNDS)
     assert verdict.share > 0.4 and verdict.held_out_share > 0.5
     assert verdict.verdict == ("named" if verdict.share > 0.5 else "outside")
     assert verdict.effects[0].name == "damper_asymmetry"
-    names = {"damper_asymmetry", "damper_knee", "wheel_recession", "roll_centre_height", "suspension_friction"}
+    names = {"damper_asymmetry", "damper_knee", "wheel_recession", "roll_centre_height", "bump_steer"}
     assert {effect.name for effect in verdict.effects} == names
     other = verdict.beyond_bounds
     if other is None:
@@ -165,7 +164,7 @@ def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_fil
         assert "tyre_radial_damping" in [one.parameter for one in verdict.at_bounds] and verdict.remainder["yaw_rate"] > 0.9
         return
     beyond = {one.parameter: one.value for one in (*other.parameters, *other.less_sure)}
-    assert other.is_instead and set(other.effects) == {"damper_asymmetry", "damper_knee"}
+    assert other.is_instead and set(other.effects) == {"damper_asymmetry", "damper_knee", "wheel_recession"}
     assert beyond["roll_inertia"] < 0.8 * car["roll_inertia"] and beyond["anti_roll_stiffness_rear"] > 2 * car["anti_roll_stiffness_rear"]
     assert min(other.share, other.held_out_share) > 0.5
 
