@@ -77,14 +77,18 @@ def test_an_error_of_the_measurement_is_suspect_by_name_unless_drives_held_out_r
     assert found.verdict == "outside" and not found.effects and found.is_like_error
 
 
-@pytest.mark.parametrize(("was_material", "said"), [(True, "outside"), (False, "nothing")])
-def test_what_removes_little_of_an_error_that_was_not_worth_explaining_is_neither_named_nor_a_sign_of_something_else(was_material, said):
-    model = Linear(1, {"effect_2.size": 1.0})
+def of_which_drives_held_out_know_little(model):
+    """The selection of a model whose effects remove a tenth of the explainable error of drives held out."""
     selection, _ = judged(model)
     first, last = selection.states
     held_out = first.held_out_squares - 0.1 * (first.held_out_squares - selection.held_out_floor_squares)
-    little = replace(selection, states=(first, replace(last, held_out_squares=held_out)))
-    found = judge.judge(little, model.candidates, is_material=False, was_material=was_material)
+    return replace(selection, states=(first, replace(last, held_out_squares=held_out)))
+
+
+@pytest.mark.parametrize(("was_material", "said"), [(True, "outside"), (False, "nothing")])
+def test_what_removes_little_of_an_error_that_was_not_worth_explaining_is_neither_named_nor_a_sign_of_something_else(was_material, said):
+    model = Linear(1, {"effect_2.size": 1.0})
+    found = judge.judge(of_which_drives_held_out_know_little(model), model.candidates, is_material=False, was_material=was_material)
     assert found.verdict == said
     if said == "nothing":
         assert not found.effects and found.share == 0.0 and "effect_2 would help, but removes too little" in found.reasons[0]
@@ -93,11 +97,7 @@ def test_what_removes_little_of_an_error_that_was_not_worth_explaining_is_neithe
 @pytest.mark.parametrize(("is_material", "left", "said"), [(False, 0.1, "named"), (False, 0.5, "outside"), (True, 0.1, "outside")])
 def test_what_removes_nearly_all_that_is_worth_explaining_is_named_however_much_a_driver_leaves_beside_it(is_material, left, said):
     model = Linear(1, {"effect_2.size": 1.0})
-    selection, _ = judged(model)
-    first, last = selection.states
-    held_out = first.held_out_squares - 0.1 * (first.held_out_squares - selection.held_out_floor_squares)
-    little = replace(selection, states=(first, replace(last, held_out_squares=held_out)))
-    found = judge.judge(little, model.candidates, is_material=is_material, material_left=left)
+    found = judge.judge(of_which_drives_held_out_know_little(model), model.candidates, is_material=is_material, material_left=left)
     assert found.verdict == said
     told = "that is 90 % of what repeats share and is worth explaining: the rest is no more than a driver's foot and hands may make"
     assert (told in found.reasons) is (said == "named")

@@ -50,14 +50,14 @@ class Car:
     driven: Mapping[int, tuple[Mapping[str, float], Simulated]] = field(default_factory=dict)
     """By record, the values at which its replay was driven last, and what the model did."""
 
+    set_aside: tuple[str, ...] = ()
+    """Words on drives that were left out, since they are too short."""
+
     @property
     def inexact(self) -> dict[int, np.ndarray]:
         """By record, what a residual lacks in steps twice as long, in which fits are made: other values meet an edge of the road, or the ground
         after a jump, at another moment of a step, and what is made good at some is not at others."""
         return {index: COARSER * wrong for index, wrong in self.exactness.items() if np.ndim(wrong)}
-
-    set_aside: tuple[str, ...] = ()
-    """Words on drives that were left out, since they are too short."""
 
     def looking_for(self, candidates: Sequence[Candidate], folder) -> Car:
         """The same with these candidates, whose effects are in the files of a folder."""
@@ -98,8 +98,11 @@ class Car:
 
         An effect that moves a vehicle aside makes it meet another road, unless its driver makes up for it as the measured one did.
         """
+        return self._led(self.replays[index], values, *limits)
+
+    def _led(self, again: Replay, values: Mapping[str, float], *limits) -> Following:
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        return self.replays[index].following(vehicle, {**self.quiet, **effects}, *limits)
+        return again.following(vehicle, {**self.quiet, **effects}, *limits)
 
     def nuisances(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """What alignment and the road's file leave open of a record, (direction, 6, sample)."""
@@ -134,7 +137,7 @@ class Car:
         """
 
         def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float, np.ndarray | float]:
-            following = self._free(index)._following(values, index)
+            following = self._led(replace(self.replays[index], kept_to={}), values)
             again, simulated = following.replay, following.replay.sample(following.run)
             residual = self._on_path(index, following, simulated)
             missing = self._missing(values, index, again, residual) if exactly else self.exactness.get(index, 0.0)
@@ -149,11 +152,6 @@ class Car:
             driven={**self.driven, **{index: (dict(values), simulated) for index, (_, simulated, *_) in found.items()}},
         )
         return retuned, {index: residual + missing for index, (_, _, residual, missing, _) in found.items()}
-
-    def _free(self, index: int) -> Car:
-        """The same with the driver of a record held to what was measured, not to what he drove."""
-        again = replace(self.replays[index], kept_to={})
-        return replace(self, replays=[*self.replays[:index], again, *self.replays[index + 1 :]])
 
     def _missing(self, values: Mapping[str, float], index: int, again: Replay, residual: np.ndarray) -> np.ndarray | float:
         """What a ``residual`` (6, sample) lacks because the step of integration is not nil."""

@@ -33,6 +33,9 @@ LEAST = 1e-8
 copies another."""
 
 
+BURST = 0.3
+"""s over which an error of the integration is taken together: it is made where a wheel meets an edge or leaves the ground."""
+
 SMOOTHEST = 0.05
 """Share of its mean below which local power does not count as less: a sample on a smooth stretch weighs at most twenty times as much."""
 
@@ -113,10 +116,6 @@ def _faster(series: np.ndarray, rate: float, lowest: tuple[float, ...]) -> np.nd
     frequency = np.fft.rfftfreq(series.shape[1], 1.0 / rate)
     kept = frequency >= np.array(lowest)[:, None]
     return np.fft.irfft(np.where(kept, np.fft.rfft(series, axis=1), 0.0), series.shape[1], axis=1)
-
-
-BURST = 0.3
-"""s over which an error of the integration is taken together: it is made where a wheel meets an edge or leaves the ground."""
 
 
 @dataclass(frozen=True)
