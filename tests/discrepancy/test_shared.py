@@ -11,7 +11,7 @@ import pytest
 from ridecomfort.discrepancy import balance, judge, select, shared
 from ridecomfort.discrepancy.experiment import Record
 from ridecomfort.discrepancy.judged import band
-from ridecomfort.discrepancy.shared import is_material, material_left, shared_error
+from ridecomfort.discrepancy.shared import shared_error, worth
 
 from .linear import RATE, SAMPLES, Linear
 
@@ -90,7 +90,7 @@ def test_an_error_of_drives_that_were_not_repeated_matters_from_some_percent_of_
     powers = dict(zip(selection.frame.indices, state.squares / share))
     measured = {index: np.sin(instant / 7.0) * np.sqrt(2.0 * power)[:, None] for index, power in powers.items()}
     known = replace(selection, floor_squares=noise / share * state.squares)
-    assert balance.is_worth_explaining(known, state, measured) is matters
+    assert balance.worth_explaining(known, measured)[:2] == (matters, matters)
 
 
 @pytest.mark.parametrize(("channel", "size", "matters"), [("a_x", 0.006, False), ("a_x", 0.02, True), ("a_z", 0.006, True)])
@@ -102,7 +102,7 @@ def test_what_a_foot_leaves_of_slow_longitudinal_acceleration_does_not_matter_ho
     fast = np.random.default_rng(4).standard_normal((1, 6000))  # of the signal alone
     residuals = dict.fromkeys((0, 1), size * shared / shared.std())
     measured = dict.fromkeys((0, 1), size * (shared / shared.std() + np.sqrt(2.0) * own / own.std() + 0.1 * fast))
-    assert is_material(frame, residuals, measured) is matters
+    assert worth(frame, residuals, measured).matters is matters
 
 
 def test_what_is_left_of_what_mattered_is_told_of_the_bands_in_which_it_did():
@@ -113,9 +113,10 @@ def test_what_is_left_of_what_mattered_is_told_of_the_bands_in_which_it_did():
     foot, fast, signal = band(noise[0], RATE, (1.2, 2.4)), band(noise[1], RATE, (30.0, 34.0)), noise[2]
     shared = lambda share: dict.fromkeys((0, 1), 0.2 * foot + np.sqrt(share) * 0.2 * fast)
     measured = dict.fromkeys((0, 1), signal)
-    assert material_left(frame, shared(1.0), shared(0.1), measured) == pytest.approx(0.1, abs=0.01)
-    assert is_material(frame, shared(1.0), measured) and not is_material(frame, shared(0.01), measured)
-    assert np.isnan(material_left(frame, shared(0.0), shared(0.0), measured))
+    first, tenth, hundredth, foot_alone = (worth(frame, shared(share), measured) for share in (1.0, 0.1, 0.01, 0.0))
+    assert tenth.left_of(first) == pytest.approx(0.1, abs=0.01)
+    assert first.matters and not hundredth.matters
+    assert np.isnan(foot_alone.left_of(foot_alone))
 
 
 def test_a_fast_error_is_seen_whichever_site_comes_first():

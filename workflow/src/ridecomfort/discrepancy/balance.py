@@ -10,7 +10,7 @@ import numpy as np
 from . import floor
 from .propose import HELD_OUT_Z, SURE
 from .selection import Selection, State, shares
-from .shared import is_material, material_left
+from .shared import worth
 
 ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
@@ -64,11 +64,13 @@ class Balance:
     """Whether they share one that is worth explaining."""
     is_little: bool
     """Whether what was found is too little to be what is missing."""
+    is_all_that_matters: bool = False
+    """Whether it would be, were it not nearly all that was worth explaining: what a driver's foot and hands do may be most of the error."""
 
 
-def balanced(selection: Selection, notes: Sequence[str], matters: bool) -> Balance:
+def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: float) -> Balance:
     """The balance of a selection; ``notes`` say that the road may be another than that of its file, ``matters`` whether what repeats share
-    is worth explaining."""
+    is worth explaining, ``left`` which share of what was is left (``worth_explaining``)."""
     share, held_out = total_shares(selection)
     band = selection.remaining.band
     # A road that is another makes errors that repeats share, but fast ones.
@@ -84,7 +86,8 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool) -> Balan
     may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
     enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
-    return Balance(share, held_out, explained, is_refuted, still, is_left, is_little)
+    is_all = is_little and not matters and left <= 1.0 - DOUBTFUL
+    return Balance(share, held_out, explained, is_refuted, still, is_left, is_little and not is_all, is_all)
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:
@@ -92,21 +95,17 @@ def total_shares(selection: Selection) -> tuple[float, float]:
     return shares(selection, selection.states[0], selection.states[-1])
 
 
-def is_worth_explaining(selection: Selection, state: State, measured: Mapping[int, np.ndarray]) -> bool:
-    """Whether what repeats share of what the model of a state leaves is worth explaining, by the signals (channel, sample) that were measured in
-    every record; where nothing was repeated, whether what it leaves of any above the floor is."""
+def worth_explaining(selection: Selection, measured: Mapping[int, np.ndarray]) -> tuple[bool, bool, float]:
+    """Whether what repeats share was worth explaining before anything was found, whether it is yet, by the signals (channel, sample) that were
+    ``measured`` in every record, and what share of it is left (nan where it never was); where nothing was repeated, whether what the model leaves
+    of any signal above the floor was and is (nan)."""
+    first, last = selection.states[0], selection.states[-1]
     if selection.has_repeats:
-        return is_material(selection.frame, state.fit.residuals, measured)
+        was, now = (worth(selection.frame, state.fit.residuals, measured) for state in (first, last))
+        return was.matters, now.matters, now.left_of(was)
     power = floor.squares(selection.frame.experiment, measured)
-    return bool(np.any(state.squares - selection.floor_squares > OF_SIGNAL * power))
-
-
-def left_of_material(selection: Selection, measured: Mapping[int, np.ndarray]) -> float:
-    """Share that is left of what was worth explaining of what repeats shared at first; nan where nothing was, or nothing was repeated."""
-    if not selection.has_repeats:
-        return float("nan")
-    first, last = (selection.states[number].fit.residuals for number in (0, -1))
-    return material_left(selection.frame, first, last, measured)
+    was, now = (bool(np.any(state.squares - selection.floor_squares > OF_SIGNAL * power)) for state in (first, last))
+    return was, now, float("nan")
 
 
 def something_left(selection: Selection) -> bool:

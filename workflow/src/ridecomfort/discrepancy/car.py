@@ -21,7 +21,6 @@ from .experiment import Candidate, Record, Size, by_record
 LONGEST = 0.002
 """s; in such steps most changes of a drive differ by less than half a percent from those in steps of 1 ms."""
 
-
 COARSER = 8.0
 """Times an error of the integration that is made good is smaller than one in steps twice as long which is not: by its order four, where a
 wheel meets an edge or leaves the ground up to eight."""
@@ -45,8 +44,6 @@ class Car:
     """By record, what a residual (6, sample) lacks because the step of integration is not nil."""
     steered: Mapping[int, Steered | None] = field(default_factory=dict)
     """By record, how it answers to the path that its driver is asked for."""
-    left: Mapping[int, np.ndarray] = field(default_factory=dict)
-    """By record, m to the left (time,) that its path lies of the one that its driver is held to, where he drove at all."""
     driven: Mapping[int, tuple[Mapping[str, float], Simulated]] = field(default_factory=dict)
     """By record, the values at which its replay was driven last, and what the model did."""
 
@@ -76,14 +73,13 @@ class Car:
         """Simulated minus measured signals (6, sample) behind the run-in of the model. What is missing of the path is made good without
         driving again."""
         found = self._following(values, index, ASTRAY, CORRECTED)
-        left = self.left.get(index, 0.0)
-        return self._on_path(index, found, found.replay.sample(found.run), left) + self.exactness.get(index, 0.0)
+        return self._on_path(index, found, found.replay.sample(found.run)) + self.exactness.get(index, 0.0)
 
-    def _on_path(self, index: int, found: Following, simulated: Simulated, left: np.ndarray | float = 0.0) -> np.ndarray:
-        """A residual (6, sample) as it would be had the driver kept to the measured path to the last millimetre; ``left``: m to the left
-        that the path lies of the one that he is held to."""
+    def _on_path(self, index: int, found: Following, simulated: Simulated) -> np.ndarray:
+        """A residual (6, sample) as it would be had the driver kept to the measured path to the last millimetre."""
         residual, steered = found.replay.residual(simulated)[:, found.replay.compared], self.steered.get(index)
-        return residual + steered.made_good(found.astray["lateral"] + left) if steered and "lateral" in found.astray else residual
+        missing = found.astray.get("lateral") if steered else None
+        return residual if missing is None else residual + steered.made_good(missing + found.replay.left)
 
     def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
         """What the model does on a drive."""
@@ -136,22 +132,21 @@ class Car:
         0.05 percent of the power of a_y is enough to pass for tyres that envelop 6 cm.
         """
 
-        def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float, np.ndarray | float]:
+        def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float]:
             following = self._led(replace(self.replays[index], kept_to={}), values)
             again, simulated = following.replay, following.replay.sample(following.run)
             residual = self._on_path(index, following, simulated)
             missing = self._missing(values, index, again, residual) if exactly else self.exactness.get(index, 0.0)
-            return again.keeping(following.run), simulated, residual, missing, following.astray.get("lateral", 0.0)
+            return again.keeping(following.run), simulated, residual, missing
 
         found = by_record(self, driven, indices)
         retuned = replace(
             self,
             replays=[found[index][0] if index in found else again for index, again in enumerate(self.replays)],
-            exactness={**self.exactness, **{index: missing for index, (*_, missing, _) in found.items()}},
-            left={**self.left, **{index: left for index, (*_, left) in found.items()}},
+            exactness={**self.exactness, **{index: missing for index, (*_, missing) in found.items()}},
             driven={**self.driven, **{index: (dict(values), simulated) for index, (_, simulated, *_) in found.items()}},
         )
-        return retuned, {index: residual + missing for index, (_, _, residual, missing, _) in found.items()}
+        return retuned, {index: residual + missing for index, (_, _, residual, missing) in found.items()}
 
     def _missing(self, values: Mapping[str, float], index: int, again: Replay, residual: np.ndarray) -> np.ndarray | float:
         """What a ``residual`` (6, sample) lacks because the step of integration is not nil."""
@@ -167,9 +162,8 @@ class Car:
         mixed = lambda mine, its: [its[i] if i in indices else one for i, one in enumerate(mine)]
         driven = {i: known for i, known in self.driven.items() if i not in indices}
         driven |= {i: known for i, known in other.driven.items() if i in indices}
-        left = {i: own for i, own in self.left.items() if i not in indices} | {i: own for i, own in other.left.items() if i in indices}
         return replace(
-            self, replays=mixed(self.replays, other.replays), records=mixed(self.records, other.records), driven=driven, left=left
+            self, replays=mixed(self.replays, other.replays), records=mixed(self.records, other.records), driven=driven
         )
 
     def coarser(
@@ -201,8 +195,7 @@ class Car:
             replays[index] = nearer.corrected({"lateral": -slowly(aside, rate_of(again.time))})
             records[index] = replace(records[index], place=place[kept])
         driven = {index: known for index, known in self.driven.items() if index not in amounts}
-        left = {index: own for index, own in self.left.items() if index not in amounts}
-        return replace(self, replays=replays, records=records, driven=driven, left=left)
+        return replace(self, replays=replays, records=records, driven=driven)
 
 
 def _stepped(again: Replay, longer: float) -> Replay:

@@ -223,13 +223,13 @@ def frame(
     ``cleaned``: the residuals less their nuisances where that is known from an earlier frame.
     """
     indices = sorted(residuals)
-    found = condition_spectra(experiment, residuals if cleaned is None else cleaned)
+    found, inexact = condition_spectra(experiment, residuals if cleaned is None else cleaned), experiment.inexact
 
     def whitening(index: int) -> Whitening:
         record = experiment.records[index]
         plain = Whitening(found[record.condition], record.rate, record.band)
         scale = spectrum.local_scale(plain((cleaned or residuals)[index]), record.rate)
-        wrong = experiment.inexact.get(index)
+        wrong = inexact.get(index)
         return replace(plain, scale=scale if wrong is None else spectrum.beside(scale, plain(wrong), record.rate))
 
     made = Frame(experiment, indices, by_record(experiment, whitening, indices), dict(nuisances))

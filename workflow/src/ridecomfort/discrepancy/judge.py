@@ -9,7 +9,7 @@ import numpy as np
 
 from . import bursts, floor
 from .allowance import Allowance
-from .balance import CONFIRMED, DOUBTFUL, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced
+from .balance import CONFIRMED, ENOUGH, LITTLE, SHARED_Z, Balance, answered, balanced
 from .beyond import AtBound, BeyondBounds
 from .cluster import SAME_PORT
 from .experiment import Candidate, Size
@@ -61,14 +61,12 @@ def judge(
     by_name = {candidate.name: candidate for candidate in candidates}
     found = _found(selection, by_name)
     effects, reasons = _kept(selection, found, by_name)
-    balance = balanced(selection, notes, is_material)
+    balance = balanced(selection, notes, is_material, material_left)
     is_vain = bool(found) and balance.share <= 0
     if is_vain:
         effects, reasons, balance = [], [_vain(found)], replace(balance, share=0.0, held_out=0.0)
     reasons += notes
-    # What a driver's foot and hands do may be most of the error, and hide that all else of it is explained.
-    is_all_of_it = bool(found) and was_material and not is_material and material_left <= 1.0 - DOUBTFUL
-    is_little = bool(found) and balance.is_little and not is_vain and not is_all_of_it
+    is_little = bool(found) and balance.is_little and not is_vain
     is_wrong, is_like_error = lambda name: by_name[name].instrument, False
     wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
     vehicle = [effect for effect in effects if effect not in wrong]
@@ -96,7 +94,7 @@ def judge(
         effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
     elif not is_vain:
         reasons += _removed(balance, found) if found else _unfound(selection)
-        if is_all_of_it and balance.is_little:
+        if found and balance.is_all_that_matters:
             reasons.append(f"that is {_percent(1.0 - material_left)} of what repeats share and is worth explaining: the rest is no more than a driver's foot and hands may make")
     if is_little or balance.is_left and not effects:
         kind = "outside"

@@ -10,7 +10,7 @@ import xarray as xr
 
 from .. import pool
 from . import floor, opening, suspect, turns
-from .balance import CONFIRMED, ENOUGH, is_slow, is_worth_explaining, left_of_material, may_share, total_shares
+from .balance import CONFIRMED, ENOUGH, is_slow, may_share, total_shares, worth_explaining
 from .car import Car
 from .judge import judge, standing, with_remainder
 from .ranking import dataset
@@ -70,14 +70,14 @@ def ranked(
     stands = bool(standing(selection, experiment.candidates))
     smoothness = suspect.smoothness(experiment, selection.frame, selection.states[-1].fit.residuals)
     measured = {index: selection.frame.experiment.measured(index) for index in selection.frame.indices}
-    mattered, matters = (is_worth_explaining(selection, selection.states[number], measured) for number in (0, -1))
+    mattered, matters, left = worth_explaining(selection, measured)
     of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
     doubts = suspicions(experiment, selection, is_explained, matters and (may_share(selection) or not selection.has_repeats))
     said_of_road, is_road_alone = "; ".join(of_road), not doubts
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
-    verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered, left_of_material(selection, measured))
+    verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered, left)
     verdict = with_remainder(verdict, *_left_by(selection, measured, (-1, 0)), selection.accepted)
     verdict = replace(verdict, reasons=(*verdict.reasons, *experiment.set_aside))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))

@@ -117,26 +117,29 @@ def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Rec
                 yield record, series[own[a]][:, inside], other
 
 
-def is_material(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> bool:
-    """Whether what repeats share in any band is worth explaining.
+@dataclass(frozen=True)
+class Worth:
+    """What repeats share by (channel, band): its ``share`` of the measured power there, and whether it is worth explaining."""
+
+    share: np.ndarray
+    is_worth_it: np.ndarray
+
+    @property
+    def matters(self) -> bool:
+        """Whether it is in any band."""
+        return bool(self.is_worth_it.any())
+
+    def left_of(self, first: Worth) -> float:
+        """Share that this is of the ``first``, in the bands where that was worth explaining; nan where it was in none."""
+        where = first.is_worth_it
+        return float(self.share[where].sum() / first.share[where].sum()) if first.matters else float("nan")
+
+
+def worth(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> Worth:
+    """What repeats share of their residuals, and where it is worth explaining.
 
     ``measured``: the signals (channel, sample) of every record. The quieter the instruments, the smaller an error that is sure.
     """
-    return bool(_agreement(frame, residuals, measured)[1].any())
-
-
-def material_left(
-    frame: Frame, before: Mapping[int, np.ndarray], after: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]
-) -> float:
-    """Share of what repeats shared ``before`` in the bands where that was worth explaining, each by the power that is ``measured`` in it, that
-    they share ``after``; nan where nothing was worth it."""
-    first, was_material = _agreement(frame, before, measured)
-    last = _agreement(frame, after, measured)[0]
-    return float(last[was_material].sum() / first[was_material].sum()) if was_material.any() else float("nan")
-
-
-def _agreement(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[int, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """What repeats share by (channel, band), as a share of the measured power there, and whether it is worth explaining."""
     pairs = list(_pairs(frame, frame.all_cleaned({index: residuals[index] for index in frame.indices})))
     edges, agreement, variance = _bands(frame.experiment.channels, pairs)
     power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
@@ -145,8 +148,8 @@ def _agreement(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapp
     least = np.where(is_slow, slow[:, None], OF_BAND) * power
     foot = np.array([FOOT if channel == "a_x" else 0.0 for channel in frame.experiment.channels])
     least = np.maximum(least, np.where(is_slow, foot[:, None] ** 2 * _of_one(pairs), 0.0))
-    is_material = (agreement > least) & (agreement > LIKELY * np.sqrt(variance))
-    return agreement / np.where(power > 0.0, power, np.inf), is_material
+    is_worth_it = (agreement > least) & (agreement > LIKELY * np.sqrt(variance))
+    return Worth(agreement / np.where(power > 0.0, power, np.inf), is_worth_it)
 
 
 def _of_one(pairs) -> float:

@@ -32,7 +32,6 @@ LEAST = 1e-8
 """Added to the power of each channel, as a share of its mean over frequency, so that the matrix can be inverted even where one channel
 copies another."""
 
-
 BURST = 0.3
 """s over which an error of the integration is taken together: it is made where a wheel meets an edge or leaves the ground."""
 

@@ -207,6 +207,12 @@ class Replay:
         """The same with its driver held to what he drives in a ``run``, whatever the vehicle: ``following`` then corrects what another one does."""
         return replace(self, kept_to=self._driven(run))
 
+    @cached_property
+    def left(self) -> np.ndarray | float:
+        """By how much (m) the measured path lies to the left of the one that its driver is held to, slowly changing, (time,)."""
+        held = self.kept_to.get("e")
+        return 0.0 if held is None else slowly(self.drive["e"].values - held, rate_of(self.time), "lateral")
+
     def _driven(self, run: xr.Dataset) -> dict[str, np.ndarray]:
         """Speed ``v_x`` and path ``e`` of a simulated drive at the places of the measured instants, (time,)."""
         travelled = np.maximum.accumulate(run["s"].values)
