@@ -88,16 +88,38 @@ def of_which_drives_held_out_know_little(model):
 @pytest.mark.parametrize(("was_material", "said"), [(True, "outside"), (False, "nothing")])
 def test_what_removes_little_of_an_error_that_was_not_worth_explaining_is_neither_named_nor_a_sign_of_something_else(was_material, said):
     model = Linear(1, {"effect_2.size": 1.0})
-    found = judge.judge(of_which_drives_held_out_know_little(model), model.candidates, is_material=False, was_material=was_material)
+    selection = replace(of_which_drives_held_out_know_little(model), faster_gone=0.4)
+    found = judge.judge(selection, model.candidates, is_material=False, was_material=was_material)
     assert found.verdict == said
     if said == "nothing":
         assert not found.effects and found.share == 0.0 and "effect_2 would help, but removes too little" in found.reasons[0]
 
 
+@pytest.mark.parametrize(
+    ("gone", "z", "is_material", "notes", "said"),
+    [
+        (0.6, 10.0, False, (), "named"),
+        (0.4, 10.0, False, (), "outside"),
+        (0.6, 1.0, False, (), "outside"),
+        (0.6, 10.0, True, (), "outside"),
+        (0.6, 10.0, False, ("the road is another",), "outside"),
+    ],
+)
+def test_what_removes_most_of_what_is_faster_than_a_driver_is_named_however_much_he_leaves(gone, z, is_material, notes, said):
+    """Where nothing that is left is worth explaining, and the road is that of its file: another one makes fast errors that repeats share."""
+    model = Linear(1, {"effect_2.size": 1.0})
+    selection = replace(of_which_drives_held_out_know_little(model), faster_gone=gone, faster_z=z)
+    found = judge.judge(selection, model.candidates, notes=list(notes), is_material=is_material)
+    assert found.verdict == said
+    told = "that is 60 % of what repeats share above 3 Hz: the rest is no more than a driver's foot and hands may make"
+    assert (told in found.reasons) is (said == "named")
+
+
 @pytest.mark.parametrize(("is_material", "left", "said"), [(False, 0.1, "named"), (False, 0.5, "outside"), (True, 0.1, "outside")])
 def test_what_removes_nearly_all_that_is_worth_explaining_is_named_however_much_a_driver_leaves_beside_it(is_material, left, said):
     model = Linear(1, {"effect_2.size": 1.0})
-    found = judge.judge(of_which_drives_held_out_know_little(model), model.candidates, is_material=is_material, material_left=left)
+    selection = replace(of_which_drives_held_out_know_little(model), faster_gone=0.4)
+    found = judge.judge(selection, model.candidates, is_material=is_material, material_left=left)
     assert found.verdict == said
     told = "that is 90 % of what repeats share and is worth explaining: the rest is no more than a driver's foot and hands may make"
     assert (told in found.reasons) is (said == "named")

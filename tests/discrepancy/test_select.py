@@ -125,6 +125,27 @@ def test_where_no_model_can_be_driven_at_that_beginning_the_refit_stays_as_it_wa
     assert "effect_2" not in found.rounds[0].passed_over
 
 
+class Walled(Linear):
+    """The same where effect_2 makes another error, as that of a resonance that wanders, at sizes between none and what is missing."""
+
+    def __init__(self, seed, missing):
+        super().__init__(seed, {"stiffness": 0.7, "effect_2.size": missing})
+        rng = np.random.default_rng([seed, 3])
+        own = {condition: coloured(rng, SAMPLES) for condition in ("usual", "slow")}
+        self.wandering, self.missing = [own[record.condition] for record in self.records], missing
+
+    def residual(self, values, index):
+        size = values.get("effect_2.size", 0.0)
+        return super().residual(values, index) + 60.0 * size * (size - self.missing) ** 2 * self.wandering[index]
+
+
+@pytest.mark.parametrize("missing", [0.4, 0.35])
+def test_what_is_worse_at_small_sizes_than_nothing_is_fitted_from_its_typical_size(missing):
+    """0.4: four probes."""
+    found = select.select(Walled(3, missing), {"stiffness": 0.0}, most=1)
+    assert found.accepted == ("effect_2",) and found.final.values["effect_2.size"] == pytest.approx(missing, rel=0.1)
+
+
 def test_the_shape_of_a_large_effect_is_fitted_where_the_error_that_it_leaves_is_white(monkeypatch):
     """In the frame of before, white by the large error itself, a fit may go where that error weighs least."""
     fitted, powers = tries.refit.refit_sooner, []

@@ -119,6 +119,17 @@ def test_what_is_left_of_what_mattered_is_told_of_the_bands_in_which_it_did():
     assert np.isnan(foot_alone.left_of(foot_alone))
 
 
+def test_what_is_faster_than_a_driver_is_told_apart():
+    """What repeats share at 1.2 to 2.4 Hz counts nothing of it, what they share at 12 to 20 Hz does by its power."""
+    selection = select.select(Linear(8, {}), {"stiffness": 0.0}, most=0)
+    frame, residuals = selection.frame, selection.states[-1].fit.residuals
+    noise = np.random.default_rng(7).standard_normal((4, SAMPLES))
+    shared_by_all = lambda size, edges: shared_error(frame, {index: own + size * band(noise, RATE, edges) for index, own in residuals.items()})
+    slow, fast, twice = (shared_by_all(*one) for one in ((2.0, (1.2, 2.4)), (1.0, (12.0, 20.0)), (2.0, (12.0, 20.0))))
+    assert slow.z > 5.0 and abs(slow.faster_z) < 3.0
+    assert fast.faster_z > 5.0 and twice.faster == pytest.approx(4.0 * fast.faster, rel=0.1)
+
+
 def test_a_fast_error_is_seen_whichever_site_comes_first():
     """Repeats share an error at 29 Hz on one site; on the other, where instruments recorded up to 17 Hz, nothing."""
     random = np.random.default_rng(6)

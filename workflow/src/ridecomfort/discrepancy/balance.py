@@ -66,6 +66,8 @@ class Balance:
     """Whether what was found is too little to be what is missing."""
     is_all_that_matters: bool = False
     """Whether it would be, were it not nearly all that was worth explaining: what a driver's foot and hands do may be most of the error."""
+    is_most_of_fast: bool = False
+    """Whether it would be, were it not most of what is faster than a driver, and nothing else worth explaining."""
 
 
 def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: float) -> Balance:
@@ -87,7 +89,13 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
     is_all = is_little and not matters and left <= 1.0 - DOUBTFUL
-    return Balance(share, held_out, explained, is_refuted, still, is_left, is_little and not is_all, is_all)
+    is_most = is_little and not (matters or is_all or notes or held_out <= 0) and explains_what_is_fast(selection)
+    return Balance(share, held_out, explained, is_refuted, still, is_left, is_little and not (is_all or is_most), is_all, is_most)
+
+
+def explains_what_is_fast(selection: Selection) -> bool:
+    """Whether repeats surely shared an error that is faster than a driver, and more than half of it is gone."""
+    return bool(selection.faster_z > SHARED_Z and selection.faster_gone >= ENOUGH)
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:

@@ -16,6 +16,7 @@ from .experiment import Candidate, Size
 from .off_file import OffFile
 from .propose import LEVEL, SURE
 from .selection import Round, Selection, shares
+from .shared import SLOW
 from .tries import LEAST_MOVED
 from .verdict import Named, Verdict, are_open, kind_of
 
@@ -33,6 +34,9 @@ MAY_DRIVE = "something that is missing may drive it there"
 
 BEYOND = "; if the car may lie beyond, have it calibrated in wider bounds (calibration: parameters, bounds)"
 """...where there can be more or less of them."""
+
+OF_DRIVER = "the rest is no more than a driver's foot and hands may make"
+"""What is said of the rest where what was found is nearly all that is worth explaining, or most of what is faster than a driver."""
 
 TOO_NOISY = 1.5
 """Times the error that is left, the median of the signals, from which on noise that is told of instruments is asked about."""
@@ -95,7 +99,9 @@ def judge(
     elif not is_vain:
         reasons += _removed(balance, found) if found else _unfound(selection)
         if found and balance.is_all_that_matters:
-            reasons.append(f"that is {_percent(1.0 - material_left)} of what repeats share and is worth explaining: the rest is no more than a driver's foot and hands may make")
+            reasons.append(f"that is {_percent(1.0 - material_left)} of what repeats share and is worth explaining: {OF_DRIVER}")
+        if found and balance.is_most_of_fast:
+            reasons.append(f"that is {_percent(selection.faster_gone)} of what repeats share above {SLOW:g} Hz: {OF_DRIVER}")
     if is_little or balance.is_left and not effects:
         kind = "outside"
         reasons.append(_unexplained(selection, balance, is_little))

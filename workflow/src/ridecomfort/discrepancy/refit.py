@@ -147,6 +147,13 @@ def stepped(values: Mapping[str, float], sizes: Sequence[Size], matrix: np.ndarr
     return _moved(values, sizes, bounds, _step(matrix, flat, room_of(values, sizes, bounds)))
 
 
+def foreseen(values: Mapping[str, float], sizes: Sequence[Size], matrix: np.ndarray, flat: np.ndarray) -> float:
+    """Fall of the white loss that the rows of ``matrix`` foresee, these sizes moved from ``values`` within their bounds."""
+    bounds = np.array([limits(size) for size in sizes])
+    left = flat + _step(matrix, flat, room_of(values, sizes, bounds)) @ matrix
+    return float(flat @ flat - left @ left)
+
+
 def _now(values: Mapping[str, float], sizes: Sequence[Size]) -> tuple[np.ndarray, np.ndarray]:
     """Values of ``sizes``, and their probes."""
     return np.array([values.get(size.key, size.neutral) for size in sizes]), np.array([size.probe for size in sizes])

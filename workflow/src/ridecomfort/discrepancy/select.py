@@ -260,10 +260,12 @@ class _Search:
         followed = [*map(replace(follow, each=self.each), alone), *self.each(follow, others)]
         return [trial for trial in followed if trial is not None]
 
-    def _remaining(self, first: Fit, last: Fit) -> tuple[Shared, float, float]:
-        """What all repeats still share, the share of it that is gone, and the z that it had at first."""
+    def _remaining(self, first: Fit, last: Fit) -> tuple[Shared, float, float, float, float]:
+        """What all repeats still share, the share of it that is gone, and the z that it had at first; of what is faster than a driver the last
+        two, too."""
         left, before = shared_error(self.rung.frame, last.residuals), shared_error(self.rung.frame, first.residuals)
-        return left, 1.0 - left.power / before.power if before.power > 0 else float("nan"), before.z
+        gone = lambda own, first: 1.0 - own / first if first > 0 else float("nan")
+        return left, gone(left.power, before.power), before.z, gone(left.faster, before.faster), before.faster_z
 
 
 def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial]) -> dict[str, str]:

@@ -103,6 +103,10 @@ class Selection:
     """Share of what the repeats had in common before the first effect that is gone; nan without repeats."""
     shared_z: float
     """How surely repeats shared any error before the first effect, as a z; nan without repeats."""
+    faster_gone: float
+    """Share of what the repeats had in common above ``shared.SLOW`` before the first effect that is gone..."""
+    faster_z: float
+    """...and how surely they had anything in common there, as a z; nan without repeats."""
     check: Mapping[int, np.ndarray] = field(default_factory=dict)
     """Residuals of the records held out with the last model..."""
     check_frame: Frame | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -68,12 +68,14 @@ class Band:
 @dataclass(frozen=True)
 class Shared:
     """White power that repeats share: its ``share`` of all, ``z`` (0 where they share nothing), the ``power``, and the band where
-    that is surest; nan and None where no drive was repeated."""
+    that is surest; ``faster``, ``faster_z``: the power above SLOW, and its z. nan and None where no drive was repeated."""
 
     share: float
     z: float
     power: float
     band: Band | None
+    faster: float = float("nan")
+    faster_z: float = float("nan")
 
     def __str__(self) -> str:
         return f"{100 * self.share:.0f} % of what is left, all frequencies weighing alike (z = {self.z:.1f}), most surely {self.band}"
@@ -85,15 +87,9 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     pairs = list(_pairs(frame, {index: frame.whitening[index](part) for index, part in cleaned.items()}))
     if not pairs:
         return Shared(float("nan"), float("nan"), float("nan"), None)
-    by_block: dict[tuple[str, int], float] = {}
-    power = 0.0
-    for record, one, other in pairs:
-        blocks, numbers = np.unique(record.blocks(FINER), return_inverse=True)
-        for block, product in zip(blocks.tolist(), np.bincount(numbers, (one * other).sum(axis=0)).tolist()):
-            by_block[record.condition, block] = by_block.get((record.condition, block), 0.0) + product
-        power += np.sqrt(np.sum(one**2) * np.sum(other**2))
-    total = np.array(list(by_block.values()))
-    z = float(total.sum() / np.sqrt(np.sum(total**2)))
+    total, z = _in_common(pairs)
+    power = sum(np.sqrt(np.sum(one**2) * np.sum(other**2)) for _, one, other in pairs)
+    faster = [(record, *(band(part, record.rate, (SLOW, np.inf)) for part in both)) for record, *both in pairs]
     # Equally loud all along the road: were rough places the same ones in all repeats, neighbouring frequencies would not be independent.
     even = {index: part / frame.whitening[index].scale for index, part in cleaned.items()}
     pairs = list(_pairs(frame, even))
@@ -101,7 +97,19 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     if surest.z > PLACED:
         places = _places(pairs, frame.experiment.channels.index(surest.signal), (surest.lower, surest.upper))
         surest = replace(surest, places=places)
-    return Shared(float(total.sum() / power), z, float(total.sum()), surest)
+    return Shared(float(total / power), z, total, surest, *_in_common(faster))
+
+
+def _in_common(pairs: Sequence[tuple[Record, np.ndarray, np.ndarray]]) -> tuple[float, float]:
+    """Sum of the products of white repeats, and its z (0 where they hold nothing)."""
+    by_block: dict[tuple[str, int], float] = {}
+    for record, one, other in pairs:
+        blocks, numbers = np.unique(record.blocks(FINER), return_inverse=True)
+        for block, product in zip(blocks.tolist(), np.bincount(numbers, (one * other).sum(axis=0)).tolist()):
+            by_block[record.condition, block] = by_block.get((record.condition, block), 0.0) + product
+    total = np.array(list(by_block.values()))
+    chance = float(np.sqrt(np.sum(total**2)))
+    return float(total.sum()), float(total.sum() / chance) if chance > 0 else 0.0
 
 
 def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:
