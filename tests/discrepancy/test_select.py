@@ -180,6 +180,30 @@ def test_a_setting_that_was_tried_and_not_fitted_is_said():
     assert (held["parameter"], held["size"], held["is_typical"]) == ("setting", 0.5, False)
 
 
+class Bent(Linear):
+    """The same where effect_2 bends as it grows, while at a setting beside the typical one, 0, it does at any size what it does there at a
+    quarter."""
+
+    def __init__(self, seed):
+        super().__init__(seed, {"stiffness": 0.7, "effect_2.size": 1.0})
+        shapes = ({"effect_2.setting": 0.0}, {"effect_2.setting": 0.5})
+        self.candidates = tuple(replace(one, shapes=shapes) if one.name == "effect_2" else one for one in self.candidates)
+        rng = np.random.default_rng([seed, 4])
+        own = {condition: coloured(rng, SAMPLES) for condition in ("usual", "slow")}
+        self.bent = [own[record.condition] for record in self.records]
+
+    def residual(self, values, index):
+        size = values.get("effect_2.size", 0.0)
+        bend = 0.25 * size if values.get("effect_2.setting", 0.0) else size**2
+        return super().residual(values, index) + (bend - 1.0) * self.bent[index]
+
+
+def test_what_small_sizes_do_in_another_shape_is_refitted_in_the_typical_one_too():
+    turn = rounds(Bent(7), most=1)[0]
+    assert turn.winner.name == "effect_2" and turn.winner.shape == {"effect_2.setting": 0.0}
+    assert turn.winner.fit.values["effect_2.size"] == pytest.approx(1.0, abs=0.05)
+
+
 def test_two_missing_effects_are_both_found():
     _, found = judged(Linear(2, {"effect_1.size": 0.4, "effect_4.size": 0.2}))
     assert {e.name for e in found.effects} == {"effect_1", "effect_4"}
