@@ -65,7 +65,7 @@ class Balance:
     is_little: bool
     """Whether what was found is too little to be what is missing."""
     is_all_that_matters: bool = False
-    """Whether it would be, were it not nearly all that was worth explaining: what a driver's foot and hands do may be most of the error."""
+    """Whether it would be, were it not most of what was worth explaining: what a driver's foot and hands do may be most of the error."""
     is_most_of_fast: bool = False
     """Whether it would be, were it not most of what is faster than a driver, and nothing else worth explaining."""
 
@@ -88,7 +88,7 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
     enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
-    is_all = is_little and not matters and left <= 1.0 - DOUBTFUL
+    is_all = is_little and not matters and left < 1.0 - ENOUGH
     is_most = is_little and not (matters or is_all or notes or held_out <= 0) and explains_what_is_fast(selection)
     return Balance(share, held_out, explained, is_refuted, still, is_left, is_little and not (is_all or is_most), is_all, is_most)
 

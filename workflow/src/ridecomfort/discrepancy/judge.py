@@ -36,7 +36,7 @@ BEYOND = "; if the car may lie beyond, have it calibrated in wider bounds (calib
 """...where there can be more or less of them."""
 
 OF_DRIVER = "the rest is no more than a driver's foot and hands may make"
-"""What is said of the rest where what was found is nearly all that is worth explaining, or most of what is faster than a driver."""
+"""What is said of the rest where what was found is most of what is worth explaining, or of what is faster than a driver."""
 
 TOO_NOISY = 1.5
 """Times the error that is left, the median of the signals, from which on noise that is told of instruments is asked about."""
