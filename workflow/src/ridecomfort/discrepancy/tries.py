@@ -211,6 +211,12 @@ class Tries:
             apart = _apart(candidate.shaping, columns, own)
             if not self._is_promising(frame, fit, columns, sizes, apart):
                 return trial
+            rest = [size for size in sizes if size.key not in raw]
+            if rest:
+                # Columns from where the effect was not there yet leave of a shape what parameters make good beside it.
+                columns |= probe.white(frame, probe.secants(sooner, fit.values, base, rest, self.each))
+                if not self._is_promising(frame, fit, columns, sizes, apart):
+                    return trial
             fitted = refit.refit_sooner(
                 rung.experiment, sooner, frame, fit.values, [*sizes, *apart], columns,
                 renewed=[size.key for size in (*own, *apart)], residuals=fit.residuals, beyond=0.0,
