@@ -89,13 +89,8 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
     is_all = is_little and not matters and left < 1.0 - ENOUGH
-    is_most = is_little and not (matters or is_all or notes or held_out <= 0) and explains_what_is_fast(selection)
+    is_most = is_little and not (matters or is_all or notes or held_out <= 0) and _explains_what_is_fast(selection)
     return Balance(share, held_out, explained, is_refuted, still, is_left, is_little and not (is_all or is_most), is_all, is_most)
-
-
-def explains_what_is_fast(selection: Selection) -> bool:
-    """Whether repeats surely shared an error that is faster than a driver, and more than half of it is gone."""
-    return bool(selection.faster_z > SHARED_Z and selection.faster_gone >= ENOUGH)
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:
@@ -141,3 +136,8 @@ def is_slow(selection: Selection) -> bool:
     """Whether what repeats share most surely is too slow to be noise of the road's points or what lies between them."""
     band = selection.remaining.band
     return band is not None and band.upper <= SLOW and band.z > SLOW_Z
+
+
+def _explains_what_is_fast(selection: Selection) -> bool:
+    """Whether repeats surely shared an error that is faster than a driver, and more than half of it is gone."""
+    return bool(selection.faster_z > SHARED_Z and selection.faster_gone >= ENOUGH)

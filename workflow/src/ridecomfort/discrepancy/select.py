@@ -275,7 +275,7 @@ class _Search:
         """What all repeats still share, the share of it that is gone, and the z that it had at first; of what is faster than a driver the last
         two, too."""
         left, before = shared_error(self.rung.frame, last.residuals), shared_error(self.rung.frame, first.residuals)
-        gone = lambda own, first: 1.0 - own / first if first > 0 else float("nan")
+        gone = lambda now, then: 1.0 - now / then if then > 0 else float("nan")
         return left, gone(left.power, before.power), before.z, gone(left.faster, before.faster), before.faster_z
 
 

@@ -79,7 +79,7 @@ class Tries:
                 does = inside.loss - fit.loss < CHANCE or before - inside.loss > CONTENT * (before - fit.loss)
                 fit = inside if does else fit
             fit = self._begun(fit, [size for size in candidate.sizes if size.key in columns], columns)
-            fit = self._from_typical(fit, {**start, **candidate.at(dict.fromkeys(own, TYPICAL), job[1])}, sizes, columns, own)
+            fit = self._from_typical(fit, start, sizes, columns, own)
             return self._trial(candidate, shape, self._lengthened(fit, sizes))
         except (InputError, ValueError):
             return None
@@ -104,10 +104,10 @@ class Tries:
         return replace(fit, values=reached, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
 
     def _from_typical(
-        self, fit: Fit, typical: Mapping[str, float], sizes: Sequence[Size], columns: Mapping[str, np.ndarray], own: Sequence[str]
+        self, fit: Fit, start: Mapping[str, float], sizes: Sequence[Size], columns: Mapping[str, np.ndarray], own: Sequence[str]
     ) -> Fit:
-        """A fit that reached less than its columns foresee, or the one from ``typical`` sizes of the candidate where drives are likelier with
-        that; ``own``: keys of these.
+        """A fit from ``start`` that reached less than its columns foresee, or the one from typical sizes of the candidate where drives are
+        likelier with these; ``own``: their keys.
 
         Wheels on their bushings shake at 50 Hz where these hardly give way and at 17 Hz as they do: between nothing and what is missing
         lies what is much worse than both.
@@ -116,11 +116,14 @@ class Tries:
         matrix, flat = np.stack([columns[size.key] for size in sizes]), frame.flat(before.residuals)
         if before.loss - fit.loss > REACHED * refit.foreseen(before.values, sizes, matrix, flat):
             return fit
+        sought = [size for size in sizes if size.key in own]
+        reached = {size.key: float(np.clip(size.neutral + TYPICAL * size.probe, size.lower, size.upper)) for size in sought}
+        typical = {**start, **reached}
         try:
             residuals = exp.simulate(rung.experiment, typical, frame.indices)
             if refit.information(frame, residuals) < max(self.likely, refit.information(frame, fit.residuals)) + refit.WORTHWHILE:
                 return fit
-            raw = probe.secants(rung.experiment, typical, residuals, [size for size in sizes if size.key in own], self.each)
+            raw = probe.secants(rung.experiment, typical, residuals, sought, self.each)
             there = {**columns, **probe.white(frame, raw)}
             found = refit.refit(rung.experiment, frame, typical, sizes, there, renewed=own, residuals=residuals, beyond=0.0)
         except (InputError, ValueError):
