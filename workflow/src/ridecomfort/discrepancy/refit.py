@@ -141,17 +141,13 @@ def refit_sooner(
     return refit(experiment, frame, values, sizes, columns, residuals=residuals, **settings)
 
 
-def stepped(values: Mapping[str, float], sizes: Sequence[Size], matrix: np.ndarray, flat: np.ndarray) -> dict[str, float]:
-    """``values`` with these sizes moved to where the rows of ``matrix`` (white change per probe) foresee the least, within their bounds."""
+def stepped(values: Mapping[str, float], sizes: Sequence[Size], matrix: np.ndarray, flat: np.ndarray) -> tuple[dict[str, float], float]:
+    """``values`` with these sizes moved to where the rows of ``matrix`` (white change per probe) foresee the least, within their bounds, and the
+    fall of the white loss that they foresee."""
     bounds = np.array([limits(size) for size in sizes])
-    return _moved(values, sizes, bounds, _step(matrix, flat, room_of(values, sizes, bounds)))
-
-
-def foreseen(values: Mapping[str, float], sizes: Sequence[Size], matrix: np.ndarray, flat: np.ndarray) -> float:
-    """Fall of the white loss that the rows of ``matrix`` foresee, these sizes moved from ``values`` within their bounds."""
-    bounds = np.array([limits(size) for size in sizes])
-    left = flat + _step(matrix, flat, room_of(values, sizes, bounds)) @ matrix
-    return float(flat @ flat - left @ left)
+    step = _step(matrix, flat, room_of(values, sizes, bounds))
+    left = flat + step @ matrix
+    return _moved(values, sizes, bounds, step), float(flat @ flat - left @ left)
 
 
 def _now(values: Mapping[str, float], sizes: Sequence[Size]) -> tuple[np.ndarray, np.ndarray]:

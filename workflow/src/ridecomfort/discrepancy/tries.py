@@ -94,7 +94,7 @@ class Tries:
         frame, before = self.rung.frame, self.rung.fit
         if before.loss - fit.loss > refit.WORTHWHILE:
             return fit
-        reached = refit.stepped(fit.values, own, np.stack([columns[size.key] for size in own]), frame.flat(before.residuals))
+        reached, _ = refit.stepped(fit.values, own, np.stack([columns[size.key] for size in own]), frame.flat(before.residuals))
         try:
             residuals = exp.simulate(self.rung.experiment, reached, frame.indices)
         except (InputError, ValueError):
@@ -114,7 +114,8 @@ class Tries:
         """
         rung, frame, before = self.rung, self.rung.frame, self.rung.fit
         matrix, flat = np.stack([columns[size.key] for size in sizes]), frame.flat(before.residuals)
-        if before.loss - fit.loss > REACHED * refit.foreseen(before.values, sizes, matrix, flat):
+        _, foreseen = refit.stepped(before.values, sizes, matrix, flat)
+        if before.loss - fit.loss > REACHED * foreseen:
             return fit
         sought = [size for size in sizes if size.key in own]
         reached = {size.key: float(np.clip(size.neutral + TYPICAL * size.probe, size.lower, size.upper)) for size in sought}
