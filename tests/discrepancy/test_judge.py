@@ -95,6 +95,16 @@ def test_what_removes_little_of_an_error_that_was_not_worth_explaining_is_neithe
         assert not found.effects and found.share == 0.0 and "effect_2 would help, but removes too little" in found.reasons[0]
 
 
+def test_nor_is_what_may_as_well_be_none_beside_such_an_error():
+    """As a mass that sits higher, which drives do not tell from a centre of gravity elsewhere than in the file."""
+    model = Linear(1, {"effect_2.size": 1.0})
+    selection = replace(of_which_drives_held_out_know_little(model), faster_gone=0.4, sure=frozenset())
+    found = judge.judge(selection, model.candidates, is_material=False, was_material=False)
+    assert found.verdict == "nothing" and not found.effects and found.share == 0.0
+    assert found.reasons[0] == "effect_2 helps, but its size may as well be none"
+    assert judge.judge(selection, model.candidates, is_material=False, was_material=True).verdict == "outside"
+
+
 @pytest.mark.parametrize(
     ("gone", "z", "is_material", "notes", "said"),
     [

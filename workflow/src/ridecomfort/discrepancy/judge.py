@@ -92,9 +92,12 @@ def judge(
     if wrong or decoys or suspicions:
         said = (*reasons, *suspicions)
         return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
-    if is_little and effects and not (was_material or balance.is_left):
+    if is_little and not (was_material or balance.is_left):
         names = ", ".join(effect.name for effect in effects)
-        reasons.append(f"{names} would help, but {'removes' if len(effects) == 1 else 'remove'} too little to be what is missing: {_percent(balance.share)} of the explainable error")
+        if effects:
+            held_out = f", {_percent(balance.held_out)} on drives held out" if np.isfinite(balance.held_out) else ""
+            removes = "removes" if len(effects) == 1 else "remove"
+            reasons.append(f"{names} would help, but {removes} too little to be what is missing: {_percent(balance.share)} of the explainable error{held_out}")
         effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
     elif not is_vain:
         reasons += _removed(balance, found) if found else _unfound(selection)
