@@ -82,3 +82,17 @@ def test_a_path_is_driven_when_its_demand_is_asked_for(car):
     demand = driver.path_demand(path, (u[1] - u[0]) / speed, np.full(u.size, speed))
     # What is left is the delay of the vehicle behind its front wheels.
     assert largest_error(demand) < 0.15 * largest_error(path)
+
+
+@pytest.mark.parametrize("frequency", [0.3, 1.0, 2.0])
+def test_a_wave_of_speed_that_the_controller_is_asked_for_as_it_answers_is_driven(car, frequency):
+    ground, speed = road(500.0), 20.0
+    time = np.arange(0.0, 25.0, 0.01)
+    wave = 0.01 * np.sin(2 * np.pi * frequency * time) * np.clip((time - 4.0) / 2.0, 0.0, 1.0)
+    asked = driver.speed_demand(wave, 0.01)
+    demand = xr.DataArray(speed + np.interp(ground.u.values, speed * time, asked), {"u": ground.u}, "u")
+    drives = [simulate.run(ground, car, speed=target, step=0.001) for target in (demand, speed)]
+    driven = drives[0]["v_x"].values - np.interp(drives[0]["s"], drives[1]["s"], drives[1]["v_x"])
+    wanted = np.interp(drives[0]["s"], speed * time, wave)
+    settled = (drives[0]["s"].values > 180.0) & (drives[0]["s"].values < 450.0)
+    assert np.std((driven - wanted)[settled]) < 0.25 * np.std(wanted[settled])

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import simulate as simulator
 from ..calibrated import with_values
+from ..drive.paced import Paced
 from ..drive.replay import ASTRAY, CORRECTED, Following, Replay, Simulated, slowly
 from ..drive.sampling import rate_of
 from ..drive.steered import Steered
@@ -43,7 +44,9 @@ class Car:
     exactness: Mapping[int, np.ndarray] = field(default_factory=dict)
     """By record, what a residual (6, sample) lacks because the step of integration is not nil."""
     steered: Mapping[int, Steered | None] = field(default_factory=dict)
-    """By record, how it answers to the path that its driver is asked for."""
+    """By record, how it answers to the path that its driver is asked for..."""
+    paced: Mapping[int, Paced | None] = field(default_factory=dict)
+    """...and to its speed, where what his foot does to that is known."""
     driven: Mapping[int, tuple[Mapping[str, float], Simulated]] = field(default_factory=dict)
     """By record, the values at which its replay was driven last, and what the model did."""
 
@@ -76,10 +79,13 @@ class Car:
         return self._on_path(index, found, found.replay.sample(found.run)) + self.exactness.get(index, 0.0)
 
     def _on_path(self, index: int, found: Following, simulated: Simulated) -> np.ndarray:
-        """A residual (6, sample) as it would be had the driver kept to the measured path to the last millimetre."""
-        residual, steered = found.replay.residual(simulated)[:, found.replay.compared], self.steered.get(index)
-        missing = found.astray.get("lateral") if steered else None
-        return residual if missing is None else residual + steered.made_good(missing + found.replay.left)
+        """A residual (6, sample) as it would be had the driver kept to the measured path to the last millimetre, and to its speed."""
+        residual, steered, paced = found.replay.residual(simulated)[:, found.replay.compared], self.steered.get(index), self.paced.get(index)
+        if steered and "lateral" in found.astray:
+            residual = residual + steered.made_good(found.astray["lateral"] + found.replay.left)
+        if paced and "speed" in found.astray:
+            residual = residual + paced.made_good(found.astray["speed"])
+        return residual
 
     def simulated(self, values: Mapping[str, float], index: int) -> Simulated:
         """What the model does on a drive."""

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import xarray as xr
 
+from ..drive import pedals
 from ..drive.record import require_one_rate, unstack
 from ..drive.replay import CLOCK_LEFT, Replay, replay
 from ..drive.sampling import rate_of
@@ -54,7 +55,8 @@ def compare(
     ``drives`` are aligned, fitted and checked ones alike; ``states`` maps a name ("reference",
     "calibrated") to (vehicle, effects). Each state is compared at its own best clock within
     what alignment may be off by (CLOCK_LEFT), kept as ``clock_correction``: a state that turns phases
-    right would else be judged with the clock that suits the wrong one.
+    right would else be judged with the clock that suits the wrong one. What the accelerometer tells of a driver's foot, heard with the last
+    state (``pedals.listening``), every state drives; attribute ``driver`` says so.
 
     Returns over drive, time, signal, state: ``measured`` and ``simulated`` (unit by signal in
     ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
@@ -70,14 +72,14 @@ def compare(
     measured = np.full(shape, np.nan)
     simulated = np.full((len(states), *shape), np.nan)
     residual = np.full((len(states), *shape), np.nan)
-    clock = np.zeros((len(states), len(drives)))
+    clock, by_foot = np.zeros((len(states), len(drives))), {}
     series = {name: np.full((len(drives), length), np.nan) for name in (*DRIVEN, *BELOW)}
 
     def fill(i: int) -> None:
         drive = drives[i]
         count = drive.sizes["time"]
-        again = replay(drive, road, simulate, options=options)
-        measured[i, :, :count] = again.measured()
+        again = pedals.listening(replay(drive, road, simulate, options=options), *list(states.values())[-1])
+        measured[i, :, :count], by_foot[i] = again.measured(), again.by_foot
         for name in DRIVEN:
             series[name][i, :count] = drive[name].values
         for j, (vehicle, effects) in enumerate(states.values()):
@@ -110,7 +112,7 @@ def compare(
             "time": longest["time"].values,
         },
     )
-    result = result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal")
+    result = result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal", driver=pedals.words(by_foot.values()))
     return explain(result, noise_density, elsewhere)
 
 

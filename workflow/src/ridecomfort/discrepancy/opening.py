@@ -11,6 +11,8 @@ import xarray as xr
 from .. import calibrate, pool
 from .. import simulate as simulator
 from ..calibrated import apply
+from ..drive import pedals
+from ..drive.paced import paced
 from ..drive.record import require_one_rate, unstack
 from ..drive.replay import Replay, replay
 from ..drive.sampling import rate_of
@@ -102,7 +104,7 @@ def car(
 
     def tuned(job: tuple[Site, xr.Dataset]) -> Replay:
         site, drive = job
-        return _settled(replay(drive, site.course, simulate, options=options).tuned(vehicle, effects))
+        return _settled(pedals.listening(replay(drive, site.course, simulate, options=options), vehicle, effects))
 
     require_one_rate([drive for site in sites for drive in site.drives])
     replays = each_record(tuned, [(site, drive) for site in sites for drive in site.drives])
@@ -120,10 +122,11 @@ def car(
     wanted = [name for name in sorted(known if library_names is None else library_names) if name not in effects]
     candidates = tuple(candidate(known[name].effect) for name in wanted)
     quiet = {name: known[name].effect.neutral for name in wanted if known[name].effect.port in COMPILED}
-    answers = each_record(lambda again: steered(again, vehicle, {**quiet, **effects}), replays)
+    answers = each_record(lambda again: [answer(again, vehicle, {**quiet, **effects}) for answer in (steered, paced)], replays)
+    steering, pace = map(dict, map(enumerate, zip(*answers)))
     return Car(
         _records(sites, fitted_on, replays, noise_density or {}), replays, vehicle, effects, tuple(free),
-        tuple(c for c in candidates if c.sizes), quiet, each_record=each_record, steered=dict(enumerate(answers)), set_aside=set_aside,
+        tuple(c for c in candidates if c.sizes), quiet, each_record=each_record, steered=steering, paced=pace, set_aside=set_aside,
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from .. import pool
+from ..drive import pedals
 from . import floor, opening, suspect, turns
 from .balance import CONFIRMED, ENOUGH, is_slow, may_share, total_shares, worth_explaining
 from .car import Car
@@ -18,6 +19,9 @@ from .rung import Rung, begin
 from .select import EFFECTS, search
 from .selection import Selection
 from .verdict import Verdict
+
+PEDALS = "drive"
+"""Port of effects that act between the driver's pedals, which no record holds, and the wheels."""
 
 
 def rank(
@@ -79,7 +83,7 @@ def ranked(
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered, left)
     verdict = with_remainder(verdict, *_left_by(selection, measured, (-1, 0)), selection.accepted)
-    verdict = replace(verdict, reasons=(*verdict.reasons, *experiment.set_aside))
+    verdict = replace(verdict, reasons=(*verdict.reasons, *_of_foot(experiment), *experiment.set_aside))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road
     line = turns.left_by(selection)
@@ -87,6 +91,13 @@ def ranked(
     has_decoys = any(turn.decoy_ranks for turn in selection.rounds)
     table.attrs["suspected"] = "" if not (doubts or has_decoys) else "road" if is_road_alone and not has_decoys else "data"
     return table, verdict, selection
+
+
+def _of_foot(experiment: Car) -> list[str]:
+    """What is said where the drivers' feet are heard: which of the library that hides."""
+    said = pedals.words(again.by_foot for again in experiment.replays)
+    hidden = [candidate.name for candidate in experiment.candidates if candidate.port == PEDALS]
+    return [said + (f": {' and '.join(hidden)} cannot be told from it" if hidden else "")] if said else []
 
 
 def _left_by(selection: Selection, measured: Mapping[int, np.ndarray], numbers: Sequence[int]) -> list[dict[str, float]]:

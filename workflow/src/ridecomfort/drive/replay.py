@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import xarray as xr
-from scipy.signal import butter, sosfiltfilt, welch
 
 from ..errors import InputError
-from ..vehicle.driver import path_demand
+from ..vehicle.driver import path_demand, speed_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
+from . import pedals
 from .record import upward
 from .sampling import integral, rate_of, resampled, resampled_slopes
 from .sensor import displacement
+from .slow import smooth, speed_bandwidth
 
 RUN_IN = 50.0
 """m that the model drives before it is compared: 2 s at 25 m/s, when a bounce of 1.3 Hz, damped by a third, is down to
@@ -32,16 +33,13 @@ INTERVAL = 0.001
 """s; the model is recorded at this interval or the next whole number of its steps. At 250 Hz the error of filtering a
 record and interpolating in it, 0.2 percent, was a bias of 1.5 percent of the bounds in the damping of the tyre."""
 
-DRIVER_BANDWIDTH = 1.0
-"""Hz; a driver changes speed and lane more slowly, road and wheels show in the record above it."""
-
 CLOCK_LEFT = 1e-3
 """s that alignment may be off by. A model is compared at its best clock within it and not beyond: a delay of
 3 ms looks like a damping of the tyre, and a wrong damping like a delay."""
 
 DELAY_BANDWIDTH, DELAY_ORDERS = 0.4, {"speed": 2, "lateral": 4}
 """Hz up to which a driver model's delay is made up for, and how steeply the filter falls beyond. What is faster in a recorded speed
-is mostly noise, and in a path the vehicle does it by itself. Noise of a path that is driven rolls the vehicle: none of that is asked
+is mostly noise (but see ``pedals``), and in a path the vehicle does it by itself. Noise of a path that is driven rolls the vehicle: none of that is asked
 for; the changes of speed of a driver reach to 1 Hz."""
 
 CLOSE, CORRECTIONS = {"speed": 0.0025, "lateral": 0.0004}, 6
@@ -52,11 +50,11 @@ ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
 """m/s and m (rms) that a model may be off the speed and path of its driver before he is corrected while values are fitted, and how often
 that is done."""
 
+OF_FOOT = 0.2
+"""Share of CLOSE and ASTRAY that a speed may be missed by where it is known by the accelerometer: 0.5 mm/s at 1 Hz are 3 mm/s2."""
+
 HELPED = 0.5
 """Share of what was missing that the right correction leaves at most."""
-
-SPEED_WINDOW, SPEED_NOISE = 10.0, (2.0, 0.1)
-"""s of the spectra of a recorded speed, and from which Hz to which share of its rate it holds nothing of the driver."""
 
 OVERHANG = 4.0
 """m at the ends of the road where one of the axles, or its contact, would leave it."""
@@ -124,6 +122,8 @@ class Replay:
     """Whether the driver comes to a path some time after it is asked for, as one who steers for a point ahead does."""
     kept_to: Mapping[str, np.ndarray] = field(default_factory=dict)
     """Speed ``v_x`` and path ``e`` that the driver is held to at the measured instants, (time,), if not to what was measured."""
+    by_foot: tuple[float, float] | None = None
+    """Hz from which and up to which the accelerometer tells what he does to the speed (``pedals.band``); else he is slow."""
 
     def __call__(self, vehicle, effects=(), clock: float = 0.0) -> Simulated:
         """Simulate and sample at equal place; ``clock`` (s) shifts the inertial signals against place and speed by what alignment has not
@@ -177,6 +177,8 @@ class Replay:
         """
         run = self.run(vehicle, effects)
         found = Following(self, run, self.astray(run))
+        if self.by_foot is not None:
+            allowed = {**allowed, "speed": OF_FOOT * allowed["speed"]}
         for _ in range(corrections):
             if all(found.missed(name) < allowed[name] for name in found.astray):
                 break
@@ -192,15 +194,22 @@ class Replay:
         return found
 
     def astray(self, run: xr.Dataset) -> dict[str, np.ndarray]:
-        """By how much a simulated drive was too slow (m/s) and too far right (m) at the measured instants, slowly changing, (time,).
+        """By how much a simulated drive was too slow (m/s) and too far right (m) at the measured instants, as far as a driver is asked for it,
+        (time,).
 
         By the quantity that is asked for; one that was not measured, or that the simulator does not tell, is left out.
         """
         found, rate, driven = {}, rate_of(self.time), self._driven(run)
         for quantity, name in (("speed", "v_x"), ("lateral", "e")):
             missing = self.kept_to.get(name, self.drive[name].values) - driven[name]
-            if np.isfinite(missing).all():
+            if not np.isfinite(missing).all():
+                continue
+            if quantity == "lateral" or self.by_foot is None:
                 found[quantity] = slowly(missing, rate, quantity)
+            elif name in self.kept_to:
+                found[quantity] = pedals.driven(missing, rate, self.by_foot)
+            else:
+                found[quantity] = pedals.missing_speed(self, self.sample(run), missing, self.by_foot)
         return found
 
     def keeping(self, run: xr.Dataset) -> Replay:
@@ -226,6 +235,8 @@ class Replay:
             if quantity == "lateral" and self.is_late:
                 speed = np.interp(self.place, u, demand["speed"].values)
                 more = path_demand(more, 1 / rate_of(self.time), speed)
+            elif quantity == "speed" and self.by_foot is not None:
+                more = speed_demand(more, 1 / rate_of(self.time))
             demand[quantity] = demand[quantity] + xr.DataArray(np.interp(u, self.place, more), {"u": u}, "u")
         return replace(self, demand=demand)
 
@@ -347,31 +358,6 @@ def _continued(u: np.ndarray, place: np.ndarray, speed: np.ndarray, rate: float)
 def slowly(values: np.ndarray, rate: float, quantity: str = "lateral") -> np.ndarray:
     """What a driver model's delay is made up for: little of it is faster than DELAY_BANDWIDTH."""
     return smooth(values, rate, DELAY_BANDWIDTH, order=DELAY_ORDERS[quantity])
-
-
-def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH, order: int = 2) -> np.ndarray:
-    """Low-passed without delay (Butterworth, forwards and backwards)."""
-    return sosfiltfilt(_low_pass(bandwidth, rate, order), values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
-
-
-@lru_cache(maxsize=256)  # asked for after every simulated drive
-def _low_pass(bandwidth: float, rate: float, order: int) -> np.ndarray:
-    return butter(order, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
-
-
-def speed_bandwidth(speed: np.ndarray, rate: float) -> float:
-    """Hz up to which a recorded speed tells more of the driver than of its own noise, DELAY_BANDWIDTH to DRIVER_BANDWIDTH.
-
-    The model drives whatever it is asked for and shakes by it: what its springs and tyres make of noise that the vehicle
-    never drove is a difference that stiffer ones would make smaller (at 1 Hz and 14 mm/s, by 0.2 percent). Noise is taken
-    for white, with the density that the speed has above the driver.
-    """
-    length = min(len(speed) - 1, int(SPEED_WINDOW * rate))
-    frequency, density = welch(np.diff(speed) * rate, rate, nperseg=length)  # of its slope: so slow changes do not leak
-    frequency, density = frequency[1:], density[1:] / (2 * rate * np.sin(np.pi * frequency[1:] / rate)) ** 2
-    noise = np.median(density[(frequency >= SPEED_NOISE[0]) & (frequency <= SPEED_NOISE[1] * rate)])
-    drowned = frequency[(density < 2 * noise) & (frequency > DELAY_BANDWIDTH)]
-    return float(min(drowned[0], DRIVER_BANDWIDTH)) if drowned.size else DRIVER_BANDWIDTH
 
 
 def fused_place(drive: xr.Dataset, rate: float, road: xr.Dataset) -> np.ndarray:

@@ -34,6 +34,10 @@ SPEED_INTEGRAL_GAIN = 0.2
 """1/s2; removes the error that a grade would leave."""
 
 
+AROUND, NOT_DRIVEN = 5.0, 0.1
+"""s by which a change of speed is held at its ends, and share of a wave below which it counts as one that is not driven."""
+
+
 def smooth_curvature(road: xr.Dataset) -> np.ndarray:
     """Curvature of the reference line in 1/m over u, averaged over CURVATURE_LENGTH."""
     return _moving_average(road.curvature.values, road.u.values, CURVATURE_LENGTH)
@@ -125,3 +129,19 @@ def acceleration_demand(speed, target, target_ahead, distance_ahead, integral):
     """
     profile = target * (target_ahead - target) / distance_ahead
     return profile + SPEED_GAIN * (target - speed) + SPEED_INTEGRAL_GAIN * integral
+
+
+def speed_demand(change: np.ndarray, interval: float) -> np.ndarray:
+    """Change in m/s of the profile that the speed controller must be given to drive a ``change`` (m/s), both over uniform time (``interval``
+    in s).
+
+    The inverse of `acceleration_demand`, whose feed-forward is the slope of the profile over the next SPEED_PREVIEW_TIME: of a wave of 2.5 Hz
+    three tenths are driven, of one of 3.3 Hz next to nothing, which is not asked for (Wiener's inverse).
+    """
+    around = int(AROUND / interval)
+    padded = np.pad(change, around, mode="edge")
+    by_time = 2j * np.pi * np.fft.rfftfreq(padded.size, interval)[1:]
+    corrected = SPEED_GAIN + SPEED_INTEGRAL_GAIN / by_time
+    driven = ((np.exp(by_time * SPEED_PREVIEW_TIME) - 1.0) / SPEED_PREVIEW_TIME + corrected) / (by_time + corrected)
+    inverse = np.concatenate([[1.0], driven.conj() / (np.abs(driven) ** 2 + NOT_DRIVEN**2)])
+    return np.fft.irfft(np.fft.rfft(padded) * inverse, padded.size)[around : around + change.size]

@@ -134,8 +134,10 @@ def explainable(study: Difference) -> Table:
 
 
 def floor_note(site: Compared) -> str:
-    """How the floor of a site is known, as a sentence, and what of it is no noise."""
-    return "; ".join([f"the floor is {_known(str(site.comparison.attrs['floor']))}", *located.of_floor(site.comparison)]) + "."
+    """How the floor of a site is known, as a sentence, what of it is no noise, and what is taken for the driver's foot."""
+    driver = site.comparison.attrs.get("driver", "")
+    said = [f"the floor is {_known(str(site.comparison.attrs['floor']))}", *located.of_floor(site.comparison), *([driver] if driver else [])]
+    return "; ".join(said) + "."
 
 
 def _known(attribute: str) -> str:

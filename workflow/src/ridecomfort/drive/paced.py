@@ -1,0 +1,75 @@
+"""What a residual would be if its driver had kept to a speed to the last millimetre a second, without driving again.
+
+A speed that is missed by millimetres a second changes a drive in proportion, alike at every place: how is seen once, by asking for a speed that
+swings at all frequencies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+from scipy.signal import csd, welch
+
+from ..vehicle.driver import speed_demand
+from .replay import Replay
+from .sampling import rate_of
+
+SLOWEST, SWING = 0.05, 0.02
+"""Hz from which on the speed that is asked for swings, and by how much (m/s, rms)."""
+
+WINDOW = 10.0
+"""s of the spectra that the answer is taken from."""
+
+COHERENT = 0.5
+"""Coherence with the speed below which a signal is taken not to answer to it: what bends make of it goes by the place."""
+
+SEED = 1
+"""Of the phases of the swing."""
+
+
+@dataclass(frozen=True)
+class Paced:
+    """For a replay and what has the same ``compared``: what the six signals do per m/s at every frequency of its ``time``, (6, frequency)."""
+
+    answer: np.ndarray
+    compared: np.ndarray
+
+    def made_good(self, missing: np.ndarray) -> np.ndarray:
+        """Change of the residual (6, compared) when the vehicle comes to drive so much faster, ``missing`` (time,) in m/s."""
+        return np.fft.irfft(self.answer * np.fft.rfft(missing), missing.size, axis=-1)[:, self.compared]
+
+
+def paced(again: Replay, vehicle, effects=()) -> Paced | None:
+    """How a drive of a calibrated ``vehicle`` with its ``effects`` answers to its speed, by driving it twice; None where its accelerometer does
+    not tell what its driver's foot does. Raises InputError when it does not arrive."""
+    if again.by_foot is None:
+        return None
+    rate, upper = rate_of(again.time), again.by_foot[1]
+    swing = _swing(again.time.size, rate, upper)
+    u = again.demand["speed"]["u"].values
+    more = xr.DataArray(np.interp(u, again.place, speed_demand(swing, 1 / rate)), {"u": u}, "u")
+    signals, speeds = zip(*(_driven(one, vehicle, effects) for one in (again, replace(again, demand={**again.demand, "speed": again.demand["speed"] + more}))))
+    change, faster = (signals[1] - signals[0])[:, again.compared], (speeds[1] - speeds[0])[again.compared]
+    length = min(faster.size, int(WINDOW * rate))
+    frequency, own = welch(faster, rate, nperseg=length)
+    together, powers = csd(faster, change, rate, nperseg=length)[1], welch(change, rate, nperseg=length)[1]
+    answer = np.where(np.abs(together) ** 2 > COHERENT * own * powers, together / own, 0.0)
+    at = np.fft.rfftfreq(again.time.size, 1 / rate)
+    known = (at <= upper) * np.stack([np.interp(at, frequency, row.real) + 1j * np.interp(at, frequency, row.imag) for row in answer])
+    return Paced(known, again.compared)
+
+
+def _swing(count: int, rate: float, upper: float) -> np.ndarray:
+    """A speed (time,) in m/s that swings at all frequencies from SLOWEST to beyond ``upper``, alike."""
+    frequency = np.fft.rfftfreq(count, 1 / rate)
+    phases = np.exp(2j * np.pi * np.random.default_rng(SEED).random(frequency.size))
+    swing = np.fft.irfft(((frequency > SLOWEST) & (frequency < 1.2 * upper)) * phases, count)
+    return SWING * swing / swing.std()
+
+
+def _driven(again: Replay, vehicle, effects) -> tuple[np.ndarray, np.ndarray]:
+    """The signals (6, time) of a drive, and its speed (time,) in m/s."""
+    run = again.run(vehicle, effects)
+    return again.sample(run).signals, np.interp(again.place, np.maximum.accumulate(run["s"].values), run["v_x"].values)
