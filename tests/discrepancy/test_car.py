@@ -14,9 +14,11 @@ from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import nuisances, opening, probe
 from ridecomfort.drive.replay import ASTRAY, CLOSE, CORRECTED, slowly
 from ridecomfort.drive.sampling import rate_of
+from ridecomfort.drive.slow import smooth
 from ridecomfort.errors import InputError
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS
+from tests import braked
 from tests.blind import trials
 
 
@@ -297,3 +299,21 @@ def test_the_step_of_another_simulator_is_its_own(made):
     assert other.coarser(values, exp.simulate(other, values, [0]))[0] is other
     exact, plain = (other.retuned(values, [0], exactly=exactly)[1][0] for exactly in (True, False))
     np.testing.assert_array_equal(exact, plain)
+
+
+def test_what_a_foot_that_is_heard_makes_up_for_is_no_error(made):
+    """A lag of a tenth of a second between pedals and wheels: little of it is left where the driver brakes as much earlier."""
+    course = braked.course()
+    site = opening.Site("braked", course, [braked.drive(course, made.vehicle)[0]])
+    heard = opening.car([site], made.vehicle, library_names=["drivetrain_lag"])
+    assert heard.replays[0].by_foot is not None and heard.paced[0] is not None
+    unheard = replace(heard, replays=[replace(heard.replays[0], by_foot=None)], paced={})
+    still = opening.start_values(heard)
+
+    def changed(car) -> float:
+        """What the lag changes of a_x at 0.8 to 2 Hz, rms."""
+        car, base = car.retuned(still, [0])
+        change = (car.residual({**still, "drivetrain_lag.time": 0.1}, 0) - base[0])[SIGNALS.index("a_x")]
+        return float(np.std((smooth(change, 100.0, 2.0, 4) - smooth(change, 100.0, 0.8, 4))[200:-200]))
+
+    assert changed(heard) < 0.2 * changed(unheard)

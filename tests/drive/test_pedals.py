@@ -6,23 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from ridecomfort import simulate
-from ridecomfort.drive import pedals, record
+from ridecomfort.drive import pedals
 from ridecomfort.drive.paced import paced
 from ridecomfort.drive.replay import replay
 from ridecomfort.drive.slow import smooth
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS
-from tests.vehicle.roads import road, rough
-
-ON_ROOF = (0.1, 0.1, 0.9)
-"""m from the centre of gravity."""
-
-NOISE = 0.014
-"""m/s rms of the recorded speed, at 100 Hz."""
-
+from tests import braked
 
 @pytest.fixture(scope="module")
 def car(repository):
@@ -31,29 +23,7 @@ def car(repository):
 
 @pytest.fixture(scope="module")
 def course():
-    return simulate.prepare(road(900.0, height=rough))
-
-
-def a_drive(course, car, *, gravity=True, noise=NOISE, of_acceleration=0.003, effects=()):
-    """A record of the car, whose driver brakes within half a second and speeds up again, three times, and the drive itself."""
-    u = course.u
-    speed = np.interp(u, [0, 150, 200, 300, 350, 480, 520, 650, 700, 900], [22, 22, 17, 17, 21, 21, 16, 16, 20, 20])
-    run = simulate.run(course, car, speed=xr.DataArray(speed, {"u": u}, "u"), sensor=ON_ROOF, effects=effects)
-    rng = np.random.default_rng(3)
-    felt = record.felt(run) if gravity else np.stack([run[name].values for name in SIGNALS[:3]])
-    values = {**dict(zip(SIGNALS[:3], felt)), **{name: run[name].values for name in (*SIGNALS[3:], "v_x", "s", "e")}}
-    for name in SIGNALS[:3]:
-        values[name] = values[name] + of_acceleration * rng.standard_normal(run.sizes["time"])
-    values["v_x"] = values["v_x"] + noise * rng.standard_normal(run.sizes["time"])
-    drive = record.from_arrays(
-        {name: (run["time"].values, part) for name, part in values.items()}, gravity=gravity, sensor=ON_ROOF, name="own"
-    )  # fmt: skip
-    if gravity:  # as alignment takes it out: with the attitude of a simulation
-        attitude = {name: ("time", np.interp(drive["time"], run["time"], run[name]) + 1e-3) for name in ("roll", "pitch")}
-        drive = drive.assign(attitude)
-        flat = record.acceleration(np.stack([drive[name].values for name in SIGNALS[:3]]), drive["roll"], drive["pitch"])
-        drive = drive.assign({name: ("time", part) for name, part in zip(SIGNALS[:3], flat)})
-    return drive, run
+    return braked.course()
 
 
 def in_its_band(again, missing):
@@ -66,7 +36,7 @@ def in_its_band(again, missing):
 @pytest.mark.parametrize("effects", [(), ("anti_dive",)])
 def test_it_is_the_acceleration_of_the_centre_of_gravity_whatever_the_body_does(course, car, gravity, effects):
     """Of a car that dives less than the model, and with an instrument on the roof."""
-    drive, run = a_drive(course, car, gravity=gravity, effects=effects)
+    drive, run = braked.drive(course, car, gravity=gravity, effects=effects)
     again = replay(drive, course, simulate.run).tuned(car)
     simulated = again.run(car)
     true = np.gradient(np.interp(again.place, run["s"], run["v_x"]) - np.interp(again.place, simulated["s"], simulated["v_x"]), 0.01)
@@ -76,7 +46,7 @@ def test_it_is_the_acceleration_of_the_centre_of_gravity_whatever_the_body_does(
 
 
 def test_a_driver_who_is_listened_to_brakes_as_the_measured_one_did(course, car):
-    drive, run = a_drive(course, car)
+    drive, run = braked.drive(course, car)
     slow = replay(drive, course, simulate.run).tuned(car)
     heard = pedals.listening(slow, car)
     assert heard.by_foot is not None and heard.by_foot[0] < 0.3 and heard.by_foot[1] > 1.5
@@ -90,13 +60,13 @@ def test_a_driver_who_is_listened_to_brakes_as_the_measured_one_did(course, car)
 
 @pytest.mark.parametrize("noises", [{"noise": 1e-5}, {"of_acceleration": 0.5}])
 def test_nobody_listens_where_the_speed_tells_as_much_or_the_accelerometer_is_noisy(course, car, noises):
-    drive, _ = a_drive(course, car, **noises)
+    drive, _ = braked.drive(course, car, **noises)
     assert pedals.listening(replay(drive, course, simulate.run), car).by_foot is None
 
 
 def test_a_driver_who_does_not_answer_is_not_asked(course, car):
     """Of another simulator: one who drives the speed that he was asked for at first, whatever comes then."""
-    drive, _ = a_drive(course, car)
+    drive, _ = braked.drive(course, car)
     first = replay(drive, course, simulate.run).tuned(car).demand["speed"]
     stubborn = lambda road, vehicle, **asked: simulate.run(road, vehicle, **{**asked, "speed": first})
     assert pedals.listening(replay(drive, course, stubborn), car).by_foot is None
@@ -106,7 +76,7 @@ def test_a_driver_who_does_not_answer_is_not_asked(course, car):
 
 def test_what_is_foretold_of_another_speed_is_what_a_driver_who_comes_nearer_changes(course, car):
     """Waves of 2 mm/s at 1.3 Hz and of 5 mm/s at 0.5 Hz."""
-    drive, _ = a_drive(course, car)
+    drive, _ = braked.drive(course, car)
     again = pedals.listening(replay(drive, course, simulate.run), car)
     missing = 0.002 * np.sin(2 * np.pi * 1.3 * again.time) + 0.005 * np.sin(2 * np.pi * 0.5 * again.time)
     foretold = paced(again, car).made_good(missing)
