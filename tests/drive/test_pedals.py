@@ -58,10 +58,17 @@ def test_a_driver_who_is_listened_to_brakes_as_the_measured_one_did(course, car)
     assert left[0] < 0.3 * left[1]
 
 
-@pytest.mark.parametrize("noises", [{"noise": 1e-5}, {"of_acceleration": 0.5}])
+@pytest.mark.parametrize("noises", [{"noise": 0.0}, {"noise": 1e-5}, {"of_acceleration": 0.5}])
 def test_nobody_listens_where_the_speed_tells_as_much_or_the_accelerometer_is_noisy(course, car, noises):
     drive, _ = braked.drive(course, car, **noises)
     assert pedals.listening(replay(drive, course, simulate.run), car).by_foot is None
+
+
+def test_nor_where_the_speed_is_constant(course, car):
+    drive, _ = braked.drive(course, car)
+    again = replay(drive, course, simulate.run)
+    steady = replace(again, drive=drive.assign(v_x=0.0 * drive["v_x"] + 20.0))
+    assert pedals.band(steady, again(car)) is None
 
 
 def test_a_driver_who_does_not_answer_is_not_asked(course, car):

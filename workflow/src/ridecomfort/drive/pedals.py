@@ -29,7 +29,6 @@ foot is not heard."""
 FADING = 2.0
 """s over which what is missing fades in behind the run-in of the model."""
 
-
 HELPED = 0.5
 """Share of what is missing of the speed that a driver who is asked for it leaves at most."""
 
@@ -94,12 +93,14 @@ def missing_acceleration(again, simulated) -> np.ndarray:
 def band(again, simulated) -> tuple[float, float] | None:
     """Hz from which and up to which the accelerometer of a drive tells more of its driver than the recorded speed does; None where it does
     not. The noise of both is taken for white, that of the accelerometer with all that the model lacks at NOISE."""
-    rate = rate_of(again.time)
-    kept = again.compared
+    rate, kept = rate_of(again.time), again.compared
+    of_speed = speed_noise(again.drive["v_x"].values, rate)
+    if not of_speed > 0.0:
+        return None
     length = min(int(kept.sum()), int(WINDOW * rate))
     frequency, density = welch(missing_acceleration(again, simulated)[kept], rate, nperseg=length)
     noise = np.median(density[(frequency >= NOISE[0]) & (frequency <= NOISE[1])])
-    lower = max(LEAST, float(np.sqrt(noise / speed_noise(again.drive["v_x"].values, rate))) / (2.0 * np.pi))
+    lower = max(LEAST, float(np.sqrt(noise / of_speed)) / (2.0 * np.pi))
     drowned = frequency[(frequency > max(lower, MOST)) & (density < DROWNED * noise)]
     upper = min(HIGHEST, float(drowned[0])) if drowned.size else HIGHEST
     is_heard = np.any(density[(frequency >= lower) & (frequency <= MOST)] > DROWNED * noise) if lower < MOST else False
