@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import confirm, select
+from ridecomfort.discrepancy.experiment import simulate
 from ridecomfort.discrepancy.propose import CERTAIN, HELD_OUT_Z
 from ridecomfort.discrepancy.rung import begin
-from ridecomfort.discrepancy.selection import Trial
+from ridecomfort.discrepancy.selection import State, Trial
 
 from .linear import Linear
 
@@ -26,6 +28,30 @@ def test_what_no_held_out_drive_meets_must_remove_more(met, share, is_kept):
     trial = Trial("effect_2", {}, fit, 100.0, 90.0, nothing, nothing, share, nothing, "", met=met)
     objection = confirm.objection(trial, model.candidates[2], False, 1.0)
     assert objection == ("" if is_kept else "removes 3.0 % of the explainable error, and no drive held out meets it")
+
+
+@pytest.mark.parametrize(("gone", "met", "is_kept"), [(0.4, True, True), (0.1, True, False), (float("nan"), True, False), (0.4, False, False)])
+def test_what_is_small_beside_a_large_effect_counts_by_what_it_takes_of_all_that_repeats_share_yet(gone, met, is_kept):
+    model = Linear(1, {"effect_2.size": 1.0})
+    rung, nothing = begin(model, {"stiffness": 0.0}), float("nan")
+    fit = replace(rung.fit, values={"stiffness": 0.0, "effect_2.size": 1.0})
+    trial = Trial("effect_2", {}, fit, 100.0, 90.0, nothing, nothing, 0.002, nothing, "", met=met, rest_gone=gone)
+    assert (confirm.objection(trial, model.candidates[2], False, 0.1) == "") is is_kept
+
+
+def gone_with(truth, values):
+    """Share of what repeats have in common that is gone with these values of the effects, in a model that lacks those of the ``truth``."""
+    model = Linear(1, truth)
+    rung = begin(model, {"stiffness": 0.0})
+    confirmation = confirm.Confirmation(rung, {}, State.of(rung, "", rung.fit, rung.check), (), (), True)
+    return confirmation._rest_gone(replace(rung.fit, residuals=simulate(model, {**rung.fit.values, **values}, rung.frame.indices)))
+
+
+def test_that_share_is_known_only_where_repeats_have_something_in_common_for_certain():
+    assert gone_with({"effect_2.size": 1.0}, {"effect_2.size": 1.0}) == pytest.approx(1.0, abs=0.05)
+    assert 0.6 < gone_with({"effect_2.size": 1.0}, {"effect_2.size": 0.5}) < 0.9
+    assert abs(gone_with({"effect_2.size": 1.0}, {"effect_4.size": 0.02})) < 0.05
+    assert np.isnan(gone_with({}, {"effect_2.size": 0.1}))
 
 
 def weakly_held_out(seed, is_there=True):

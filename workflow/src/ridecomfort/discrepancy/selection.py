@@ -33,6 +33,9 @@ class Trial:
     objection: str
     met: bool = True
     """Whether the drives held out have what the candidate acts on."""
+    rest_gone: float = float("nan")
+    """Share of what repeats have in common yet, all frequencies weighing alike, that it removes; nan where that was not asked, or is nothing for
+    certain."""
     before: State | None = None
     after: State | None = None
     """The model without and with it, as far as this refit goes."""

@@ -84,7 +84,7 @@ class Shared:
 def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     """What repeats share of their residuals."""
     cleaned = frame.all_cleaned({index: residuals[index] for index in frame.indices})
-    pairs = list(_pairs(frame, {index: frame.whitening[index](part) for index, part in cleaned.items()}))
+    pairs = _white_pairs(frame, cleaned)
     if not pairs:
         return Shared(float("nan"), float("nan"), float("nan"), None)
     total, z = _in_common(pairs)
@@ -98,6 +98,16 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
         places = _places(pairs, frame.experiment.channels.index(surest.signal), (surest.lower, surest.upper))
         surest = replace(surest, places=places)
     return Shared(float(total / power), z, total, surest, *_in_common(faster))
+
+
+def shared_power(frame: Frame, residuals: Mapping[int, np.ndarray]) -> tuple[float, float]:
+    """``Shared.power`` of residuals and its z; nil where no drive was repeated."""
+    return _in_common(_white_pairs(frame, frame.all_cleaned({index: residuals[index] for index in frame.indices})))
+
+
+def _white_pairs(frame: Frame, cleaned: Mapping[int, np.ndarray]) -> list[tuple[Record, np.ndarray, np.ndarray]]:
+    """``_pairs`` of residuals less their nuisances, made white."""
+    return list(_pairs(frame, {index: frame.whitening[index](part) for index, part in cleaned.items()}))
 
 
 def _in_common(pairs: Sequence[tuple[Record, np.ndarray, np.ndarray]]) -> tuple[float, float]:
