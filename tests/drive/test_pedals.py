@@ -81,6 +81,12 @@ def test_a_driver_who_does_not_answer_is_not_asked(course, car):
     assert pedals.listening(replay(drive, course, other), car).by_foot is not None
 
 
+def test_it_is_said_in_which_band_drivers_are_listened_to():
+    assert pedals.words([None, None]) == ""
+    assert "from 0.2 Hz up to 2.4 Hz" in pedals.words([(0.2, 2.4), None])
+    assert "from 0.2-0.3 Hz up to 1.9-2.4 Hz" in pedals.words([(0.2, 2.4), (0.3, 1.9)])
+
+
 def test_what_is_foretold_of_another_speed_is_what_a_driver_who_comes_nearer_changes(course, car):
     """Waves of 2 mm/s at 1.3 Hz and of 5 mm/s at 0.5 Hz."""
     drive, _ = braked.drive(course, car)

@@ -131,6 +131,16 @@ def test_a_better_model_agrees_with_more_sections(tables):
     assert better["thresholds_changed"] > 0 and repeats["model"].startswith("repeats")
 
 
+def test_what_is_taken_for_the_drivers_foot_is_told_beside_the_errors_and_the_sections_that_agree_by_it(study, tables):
+    said = "what the accelerometer tells along the road from 0.2 Hz up to 2.4 Hz is taken for the driver's foot, which the model drives"
+    first, *others = study.sites
+    heard = replace(first, comparison=first.comparison.assign_attrs(driver=said))
+    told = differing.tables(replace(study, sites=(heard, *others)))
+    for name in ("findings", "explainable", "error_ladder_sections"):
+        assert [said in note for note in told[name].notes].count(True) == 1
+        assert not any("foot" in note for note in tables[name].notes)
+
+
 def test_explainable_is_what_lies_above_the_floor(tables):
     for row in rows(tables["explainable"]):
         total = row["floor_rmse"] ** 2 + row["explainable_rmse"] ** 2

@@ -55,7 +55,7 @@ def words(bands: Iterable[tuple[float, float] | None]) -> str:
     if not heard:
         return ""
     lower, upper = (sorted({f"{band[end]:.1f}" for band in heard}) for end in (0, 1))
-    to = lambda ends: ends[0] if len(ends) == 1 else f"{ends[0]} to {ends[-1]}"
+    to = lambda ends: ends[0] if len(ends) == 1 else f"{ends[0]}-{ends[-1]}"
     return f"what the accelerometer tells along the road from {to(lower)} Hz up to {to(upper)} Hz is taken for the driver's foot, which the model drives"
 
 

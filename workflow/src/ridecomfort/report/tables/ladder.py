@@ -126,6 +126,7 @@ def error_ladder_sections(study: Difference) -> Table:
         "the total value lies above the lower edge of the second band in the whole section. Alike: same style or band as measured. "
         "Changed: other style or band than on the rung before; in all: than with the calibrated base model. Repeats differ among themselves in speed and path, which a replay follows: "
         "a good model may agree better with a drive than its repeats do.",
+        *(f"{site.label}: {said}: longitudinal thresholds agree by that." for site in study.sites if (said := site.comparison.attrs.get("driver"))),
     )
     return _table(study, "error_ladder_sections", columns, rows, sources, notes, breaks[1:])
 
