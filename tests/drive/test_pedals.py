@@ -9,7 +9,6 @@ import pytest
 
 from ridecomfort import simulate
 from ridecomfort.drive import pedals
-from ridecomfort.drive.paced import paced
 from ridecomfort.drive.replay import replay
 from ridecomfort.drive.slow import smooth
 from ridecomfort.vehicle import parameters
@@ -85,17 +84,3 @@ def test_it_is_said_in_which_band_drivers_are_listened_to():
     assert pedals.words([None, None]) == ""
     assert "from 0.2 Hz up to 2.4 Hz" in pedals.words([(0.2, 2.4), None])
     assert "from 0.2-0.3 Hz up to 1.9-2.4 Hz" in pedals.words([(0.2, 2.4), (0.3, 1.9)])
-
-
-def test_what_is_foretold_of_another_speed_is_what_a_driver_who_comes_nearer_changes(course, car):
-    """Waves of 2 mm/s at 1.3 Hz and of 5 mm/s at 0.5 Hz."""
-    drive, _ = braked.drive(course, car)
-    again = pedals.listening(replay(drive, course, simulate.run), car)
-    missing = 0.002 * np.sin(2 * np.pi * 1.3 * again.time) + 0.005 * np.sin(2 * np.pi * 0.5 * again.time)
-    foretold = paced(again, car).made_good(missing)
-    nearer = again.corrected({"speed": missing})
-    driven = (nearer(car).signals - again(car).signals)[:, again.compared]
-    for name in ("a_x", "pitch_rate"):
-        own = SIGNALS.index(name)
-        assert np.std((foretold[own] - driven[own])[200:-200]) < 0.1 * np.std(driven[own][200:-200]), name
-    assert paced(replace(again, by_foot=None), car) is None

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort import simulate
-from ridecomfort.drive.replay import fused_place, replay, smooth, speed_bandwidth
+from ridecomfort.drive.replay import fused_place, replay
 from ridecomfort.drive.sensor import TOLD_OF
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import DRIVE, SIGNALS
@@ -79,27 +79,6 @@ def test_place_is_fused_from_speed_and_place_in_bends_as_well(driven):
     error = fused_place(noisy, RATE, course.road) - record["s"].values
     assert error.std() < 0.006
     assert (fused_place(record, RATE, course.road) - record["s"].values).std() < 0.0005
-
-
-def test_a_speed_is_asked_for_as_far_as_it_stands_out_of_its_noise():
-    """A driver who changes speed at 0.2 Hz, and one who does at 0.8 Hz as well, by more than the noise there."""
-    time = np.arange(0, 60, 1 / RATE)
-    slow, fast = np.sin(2 * np.pi * 0.2 * time), 0.03 * np.sin(2 * np.pi * np.array([[0.6], [0.7], [0.8]]) * time).sum(axis=0)
-    noise = 0.03 * np.random.default_rng(4).standard_normal(time.size)
-    assert speed_bandwidth(20 + slow + noise, RATE) < 0.7
-    assert 0.8 < speed_bandwidth(20 + slow + fast + noise, RATE) <= 1.0
-    assert speed_bandwidth(20 + slow + 1e-4 * noise, RATE) > 0.4
-
-
-def test_what_is_asked_for_beyond_it_would_be_noise():
-    """Acceleration that is asked for, against the true one, with the bandwidth that is found and with the full one."""
-    time = np.arange(0, 60, 1 / RATE)
-    true = 20 + np.sin(2 * np.pi * 0.1 * time)
-    noisy = true + 0.03 * np.random.default_rng(5).standard_normal(time.size)
-    found, full = (
-        np.std((np.gradient(smooth(noisy, RATE, bandwidth) - true, time))[300:-300]) for bandwidth in (speed_bandwidth(noisy, RATE), 1.0)
-    )
-    assert found < 0.5 * full
 
 
 def _band(values, lower=0.8, upper=20.0):

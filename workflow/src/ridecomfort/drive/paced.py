@@ -50,7 +50,8 @@ def paced(again: Replay, vehicle, effects=()) -> Paced | None:
     swing = _swing(again.time.size, rate, upper)
     u = again.demand["speed"]["u"].values
     more = xr.DataArray(np.interp(u, again.place, speed_demand(swing, 1 / rate)), {"u": u}, "u")
-    signals, speeds = zip(*(_driven(one, vehicle, effects) for one in (again, replace(again, demand={**again.demand, "speed": again.demand["speed"] + more}))))
+    swinging = replace(again, demand={**again.demand, "speed": again.demand["speed"] + more})
+    signals, speeds = zip(*(_driven(one, vehicle, effects) for one in (again, swinging)))
     change, faster = (signals[1] - signals[0])[:, again.compared], (speeds[1] - speeds[0])[again.compared]
     length = min(faster.size, int(WINDOW * rate))
     frequency, own = welch(faster, rate, nperseg=length)
