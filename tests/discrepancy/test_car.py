@@ -198,7 +198,7 @@ def test_a_driver_who_is_corrected_follows_what_the_model_drove_and_no_more_of_w
         paths = []
         for values in (still, {**still, **wind}):
             found = car._following(values, 0, ASTRAY, CORRECTED)
-            paths.append(car.replays[0]._driven(found.run)["e"])
+            paths.append(car.replays[0].driven(found.run)["e"])
         assert found.replay is not car.replays[0]
         change = paths[1] - paths[0]
         return float((change - slowly(change, rate_of(car.replays[0].time)))[car.replays[0].compared].std())

@@ -72,7 +72,7 @@ def compare(
     measured = np.full(shape, np.nan)
     simulated = np.full((len(states), *shape), np.nan)
     residual = np.full((len(states), *shape), np.nan)
-    clock, by_foot = np.zeros((len(states), len(drives))), {}
+    clock, by_foot = np.zeros((len(states), len(drives))), [None] * len(drives)
     series = {name: np.full((len(drives), length), np.nan) for name in (*DRIVEN, *BELOW)}
 
     def fill(i: int) -> None:
@@ -112,7 +112,7 @@ def compare(
             "time": longest["time"].values,
         },
     )
-    result = result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal", driver=pedals.words(by_foot.values()))
+    result = result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal", driver=pedals.words(by_foot))
     return explain(result, noise_density, elsewhere)
 
 

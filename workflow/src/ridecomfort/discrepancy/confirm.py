@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -92,8 +93,13 @@ class Confirmation:
 
     def _rest_gone(self, fit: Fit) -> float:
         """Share of what repeats have in common that is gone with a ``fit``; nan where they have nothing for certain."""
-        (before, z), (after, _) = (shared_power(self.rung.frame, one.residuals) for one in (self.rung.fit, fit))
-        return 1.0 - after / before if z > SHARED_Z else float("nan")
+        before, z = self._rest
+        return 1.0 - shared_power(self.rung.frame, fit.residuals)[0] / before if z > SHARED_Z else float("nan")
+
+    @cached_property
+    def _rest(self) -> tuple[float, float]:
+        """What repeats have in common yet, and its z."""
+        return shared_power(self.rung.frame, self.rung.fit.residuals)
 
     def _held_out_gain(self, name: str, held: Mapping[int, np.ndarray]) -> tuple[float, float, bool]:
         """What residuals of the drives held out gain against those of the rung, the z of that, and whether it is too weak to reach HELD_OUT_Z

@@ -93,8 +93,8 @@ def judge(
         said = (*reasons, *suspicions)
         return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
     if is_little and not (was_material or balance.is_left):
-        names = ", ".join(effect.name for effect in effects)
         if effects:
+            names = ", ".join(effect.name for effect in effects)
             held_out = f", {_percent(balance.held_out)} on drives held out" if np.isfinite(balance.held_out) else ""
             removes = "removes" if len(effects) == 1 else "remove"
             reasons.append(f"{names} would help, but {removes} too little to be what is missing: {_percent(balance.share)} of the explainable error{held_out}")

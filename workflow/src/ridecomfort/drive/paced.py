@@ -6,13 +6,12 @@ swings at all frequencies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 from scipy.signal import csd, welch
 
-from ..vehicle.driver import speed_demand
+from ..vocabulary import SIGNALS
 from .replay import Replay
 from .sampling import rate_of
 
@@ -47,12 +46,11 @@ def paced(again: Replay, vehicle, effects=()) -> Paced | None:
     if again.by_foot is None:
         return None
     rate, upper = rate_of(again.time), again.by_foot[1]
-    swing = _swing(again.time.size, rate, upper)
-    u = again.demand["speed"]["u"].values
-    more = xr.DataArray(np.interp(u, again.place, speed_demand(swing, 1 / rate)), {"u": u}, "u")
-    swinging = replace(again, demand={**again.demand, "speed": again.demand["speed"] + more})
-    signals, speeds = zip(*(_driven(one, vehicle, effects) for one in (again, swinging)))
-    change, faster = (signals[1] - signals[0])[:, again.compared], (speeds[1] - speeds[0])[again.compared]
+    swinging = again.corrected({"speed": _swing(again.time.size, rate, upper)})
+    runs = [one.run(vehicle, effects) for one in (again, swinging)]
+    before, after = (np.vstack([again.sample(run).signals, again.driven(run)["v_x"]])[:, again.compared] for run in runs)
+    change, faster = np.split(after - before, [len(SIGNALS)])
+    faster = faster[0]
     length = min(faster.size, int(WINDOW * rate))
     frequency, own = welch(faster, rate, nperseg=length)
     together, powers = csd(faster, change, rate, nperseg=length)[1], welch(change, rate, nperseg=length)[1]
@@ -68,9 +66,3 @@ def _swing(count: int, rate: float, upper: float) -> np.ndarray:
     phases = np.exp(2j * np.pi * np.random.default_rng(SEED).random(frequency.size))
     swing = np.fft.irfft(((frequency > SLOWEST) & (frequency < 1.2 * upper)) * phases, count)
     return SWING * swing / swing.std()
-
-
-def _driven(again: Replay, vehicle, effects) -> tuple[np.ndarray, np.ndarray]:
-    """The signals (6, time) of a drive, and its speed (time,) in m/s."""
-    run = again.run(vehicle, effects)
-    return again.sample(run).signals, np.interp(again.place, np.maximum.accumulate(run["s"].values), run["v_x"].values)

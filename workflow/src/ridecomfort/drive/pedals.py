@@ -40,13 +40,13 @@ def listening(again, vehicle, effects=()):
     """The ``Replay`` of a drive, ``again``, its driver brought to the measured speed and path, and to what the accelerometer tells of his foot
     where it tells more of that than the speed. Not where that helps little: the driver of another simulator may answer otherwise. Raises
     InputError when the model cannot be driven."""
-    again = replace(again, by_foot=None).tuned(vehicle, effects)
-    by_foot = band(again, again(vehicle, effects))
+    slow = again.following(vehicle, effects)
+    by_foot = band(slow.replay, slow.replay.sample(slow.run))
     if by_foot is None:
-        return again
-    heard = replace(again, by_foot=by_foot)
-    before, after = heard.following(vehicle, effects, corrections=0), heard.following(vehicle, effects)
-    return after.replay if after.missed("speed") <= HELPED * before.missed("speed") else again
+        return slow.replay
+    heard = replace(slow.replay, by_foot=by_foot)
+    before, after = replace(slow, replay=heard, astray=heard.astray(slow.run)), heard.following(vehicle, effects)
+    return after.replay if after.missed("speed") <= HELPED * before.missed("speed") else slow.replay
 
 
 def words(bands: Iterable[tuple[float, float] | None]) -> str:
@@ -79,13 +79,14 @@ def missing_acceleration(again, simulated) -> np.ndarray:
     of the rates tells of gravity, and of a sensor that is not there: on a roof 0.9 m above it a pitch of 1 mrad at 1.3 Hz is 0.06 m/s2.
     """
     rate = rate_of(again.time)
-    difference = (again.measured() - simulated.signals) * _fading(again.compared, rate)
+    fading = _fading(again.compared, rate)
+    difference = (again.measured() - simulated.signals) * fading
     roll_rate, pitch_rate, yaw_rate = (difference[SIGNALS.index(name)] for name in ("roll_rate", "pitch_rate", "yaw_rate"))
     along = difference[SIGNALS.index("a_x")]
     if again.drive.attrs.get("gravity", 0):
         turned = [_faster(np.cumsum(part) / rate, rate, LEAST) for part in (roll_rate, pitch_rate)]
         true = upward(simulated.roll + turned[0], simulated.pitch + turned[1])
-        along = along + STANDARD_GRAVITY * (again.up[0] - true[0]) * _fading(again.compared, rate)
+        along = along + STANDARD_GRAVITY * (again.up[0] - true[0]) * fading
     _, left, above = again.demand["sensor"]
     return along - above * np.gradient(pitch_rate, 1.0 / rate) + left * np.gradient(yaw_rate, 1.0 / rate)
 

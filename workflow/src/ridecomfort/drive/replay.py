@@ -199,7 +199,7 @@ class Replay:
 
         By the quantity that is asked for; one that was not measured, or that the simulator does not tell, is left out.
         """
-        found, rate, driven = {}, rate_of(self.time), self._driven(run)
+        found, rate, driven = {}, rate_of(self.time), self.driven(run)
         for quantity, name in (("speed", "v_x"), ("lateral", "e")):
             missing = self.kept_to.get(name, self.drive[name].values) - driven[name]
             if not np.isfinite(missing).all():
@@ -214,7 +214,7 @@ class Replay:
 
     def keeping(self, run: xr.Dataset) -> Replay:
         """The same with its driver held to what he drives in a ``run``, whatever the vehicle: ``following`` then corrects what another one does."""
-        return replace(self, kept_to=self._driven(run))
+        return replace(self, kept_to=self.driven(run))
 
     @cached_property
     def left(self) -> np.ndarray | float:
@@ -222,7 +222,7 @@ class Replay:
         held = self.kept_to.get("e")
         return 0.0 if held is None else slowly(self.drive["e"].values - held, rate_of(self.time), "lateral")
 
-    def _driven(self, run: xr.Dataset) -> dict[str, np.ndarray]:
+    def driven(self, run: xr.Dataset) -> dict[str, np.ndarray]:
         """Speed ``v_x`` and path ``e`` of a simulated drive at the places of the measured instants, (time,)."""
         travelled = np.maximum.accumulate(run["s"].values)
         return {name: np.interp(self.place, travelled, run[name].values) for name in ("v_x", "e")}

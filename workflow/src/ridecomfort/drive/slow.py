@@ -35,13 +35,16 @@ def speed_bandwidth(speed: np.ndarray, rate: float) -> float:
     for white, with the density that the speed has above the driver.
     """
     frequency, density = _spectrum(speed, rate)
-    drowned = frequency[(density < 2 * speed_noise(speed, rate)) & (frequency > LEAST)]
+    drowned = frequency[(density < 2 * _noise(frequency, density, rate)) & (frequency > LEAST)]
     return float(min(drowned[0], DRIVER_BANDWIDTH)) if drowned.size else DRIVER_BANDWIDTH
 
 
 def speed_noise(speed: np.ndarray, rate: float) -> float:
     """Density of the noise of a recorded speed in (m/s)^2/Hz, one-sided, taken for white: that which it has above the driver."""
-    frequency, density = _spectrum(speed, rate)
+    return _noise(*_spectrum(speed, rate), rate)
+
+
+def _noise(frequency: np.ndarray, density: np.ndarray, rate: float) -> float:
     return float(np.median(density[(frequency >= SPEED_NOISE[0]) & (frequency <= SPEED_NOISE[1] * rate)]))
 
 

@@ -47,7 +47,7 @@ def steered(again: Replay, vehicle, effects=()) -> Steered | None:
         return None
     kept, time = again.compared, again.time
     at = time[0] + KNOT_INTERVAL * np.arange(max(2, int((time[-1] - time[0]) / KNOT_INTERVAL) + 2))
-    base, base_path = again.residual(again.sample(run))[:, kept], _path(again, run)
+    base, base_path = again.residual(again.sample(run))[:, kept], again.driven(run)["e"]
     paths, residuals = [], []
     for colour in range(min(FORGOTTEN, len(at))):
         asked = _asked(again, at, colour)
@@ -56,7 +56,7 @@ def steered(again: Replay, vehicle, effects=()) -> Steered | None:
         answers = np.floor((time + PREVIEW_TIME - at[0]) / KNOT_INTERVAL + 1 - colour).astype(int) // FORGOTTEN * FORGOTTEN + colour
         answers = np.where(answers < len(at), answers, -1)
         seen = np.flatnonzero(answers >= 0)
-        paths.append((_path(again, tried)[seen] - base_path[seen], seen, answers[seen]))
+        paths.append((again.driven(tried)["e"][seen] - base_path[seen], seen, answers[seen]))
         change = again.residual(asked.sample(tried))[:, kept] - base
         seen = np.flatnonzero(answers[kept] >= 0)
         residuals += [(row[seen], k * kept.sum() + seen, answers[kept][seen]) for k, row in enumerate(change)]
@@ -73,10 +73,6 @@ def _asked(again: Replay, at: np.ndarray, colour: int) -> Replay:
     early = np.interp(again.time - PREVIEW_TIME, again.time, again.place)
     more = xr.DataArray(np.interp(u, early, hats(again.time, at) @ change), {"u": u}, "u")
     return replace(again, demand={**again.demand, "lateral": lateral + more})
-
-
-def _path(again: Replay, run: xr.Dataset) -> np.ndarray:
-    return np.interp(again.place, np.maximum.accumulate(run["s"].values), run["e"].values)
 
 
 def _matrix(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], shape: tuple[int, int]) -> csr_array:
