@@ -125,6 +125,14 @@ def test_every_error_in_a_title_has_its_curve():
     assert [line.get_label() for line in first.lines][1:] == ["simulated, not calibrated", "simulated with the model's effects, not calibrated"]
 
 
+def test_an_a_x_that_is_the_drivers_by_the_accelerometer_is_told_above_it():
+    study = synthetic.study(("ts3",))
+    heard = study.sites[0].comparison.assign_attrs(driver="heard")
+    told = words_of(figures.draw(dataclasses.replace(study, sites=(dataclasses.replace(study.sites[0], comparison=heard),)), "opti_plots"))
+    assert "Ts3: heard: slower than that, a_x is no test of the model." in told
+    assert "no test" not in words_of(figures.draw(study, "opti_plots"))
+
+
 def test_the_axis_of_the_iri_reaches_its_largest_value(own_site):
     iri = own_site.sites[0].iri.copy(deep=True)
     iri["iri_full"][100] = 3.0 * float(iri["iri_full"].max())

@@ -223,6 +223,17 @@ def test_effects_that_nothing_calibrated_have_their_own_rows():
     assert all(any("not calibrated" in note for note in each.notes) for each in (found, before))
 
 
+def test_an_a_x_that_is_the_drivers_by_the_accelerometer_is_told_beside_the_papers():
+    study = synthetic.study(("ts2",))
+    said = "what the accelerometer tells is taken for the driver's foot, which the model drives"
+    site = next(site for site in study.sites if site.name == "ts2")
+    site = dataclasses.replace(site, comparison=site.comparison.assign_attrs(driver=said))
+    heard = dataclasses.replace(study, sites=(site,))
+    for found in (tables.calibration.opti_res(heard, site), tables.calibration.baseline_res(heard)):
+        assert f"Ts2: {said}: slower than that, a_x is no test of the model." in found.notes
+    assert not any("foot" in note for note in tables.calibration.baseline_res(study).notes)
+
+
 def test_every_table_of_results_says_stand_in_and_names_its_sources(made):
     for name, each in made.items():
         assert each.sources and all(source.file and source.variable and source.rule for source in each.sources)

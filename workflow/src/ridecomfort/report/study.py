@@ -177,6 +177,12 @@ class Study:
         return standin_mark([each.label for each in self.standin if each.name in shown])
 
 
+def foot_notes(sites: Iterable[Site | Compared]) -> list[str]:
+    """What is said of sites on whose drives the driver's foot is heard (attribute ``driver`` of a comparison), a sentence each."""
+    told = ((site.label, site.comparison.attrs.get("driver")) for site in sites)
+    return [f"{label}: {said}: slower than that, a_x is no test of the model." for label, said in told if said]
+
+
 def standin_note(labels: Sequence[str]) -> str | None:
     """The sentence that says of these sites that they are stand-ins, None without any."""
     if not labels:

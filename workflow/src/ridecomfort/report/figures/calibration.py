@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from textwrap import fill
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,7 +11,7 @@ from matplotlib.figure import Figure
 from ...vocabulary import SIGNALS
 from .. import catalogue, published, style
 from ..notation import SYMBOLS, literal, symbol
-from ..study import Site, Study
+from ..study import Site, Study, foot_notes
 from ..tables.calibration import initial_cost
 from ..units import printed
 
@@ -26,6 +27,9 @@ LOOKS = {
 
 DETAIL = 3.0
 """Seconds of the drive that the right-hand panels show: those with the strongest vertical acceleration."""
+
+LONGEST = 110
+"""Letters in a line above the panels."""
 
 
 def convergence(study: Study) -> Figure:
@@ -100,7 +104,8 @@ def opti_plots(study: Study) -> Figure:
         axes.set_xlabel("time [s]")
     drawn.align_ylabels(panels[:, 0])
     handles, labels = panels[0][0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside upper right", ncols=3, title=f"{site.label}, drive {_name(site, drive)}")
+    title = "\n".join([f"{site.label}, drive {_name(site, drive)}", *(fill(note, LONGEST) for note in foot_notes([site]))])
+    drawn.legend(handles, labels, loc="outside upper right", ncols=3, title=title, title_fontsize=7)
     return drawn
 
 

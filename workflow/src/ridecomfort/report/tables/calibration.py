@@ -10,7 +10,7 @@ from ...discrepancy import judged
 from ...vocabulary import SIGNALS
 from .. import catalogue, published
 from ..notation import symbol, unit, words
-from ..study import Difference, Site, Study
+from ..study import Difference, Site, Study, foot_notes
 from ..table import Column, PapersNote, Source, Table
 from .comfort import OURS, PAPER
 
@@ -66,7 +66,7 @@ def baseline_res(study: Study) -> Table:
         _columns("Site"),
         tuple(rows),
         (*_sources(study.compared), Source.paper("nrmse", "tab:baseline_res")),
-        _notes(study, [NOT_CALIBRATED] if any(map(_has_effects, study.compared)) else []),
+        _notes(study, [*([NOT_CALIBRATED] if any(map(_has_effects, study.compared)) else []), *foot_notes(study.compared)]),
     )
 
 
@@ -97,7 +97,7 @@ def opti_res(study: Study, site: Site) -> Table:
         _columns("State"),
         tuple(rows),
         tuple(sources),
-        _notes(study, notes),
+        _notes(study, [*notes, *foot_notes([site])]),
         breaks=tuple(breaks),
     )
 

@@ -10,7 +10,7 @@ from ...discrepancy import ladder as rungs
 from ...discrepancy.explain import STRETCH
 from ...vocabulary import SIGNALS
 from .. import catalogue, notation
-from ..study import Difference
+from ..study import Difference, foot_notes
 from ..table import Column, Source, Table
 from ..units import printed
 
@@ -126,7 +126,7 @@ def error_ladder_sections(study: Difference) -> Table:
         "the total value lies above the lower edge of the second band in the whole section. Alike: same style or band as measured. "
         "Changed: other style or band than on the rung before; in all: than with the calibrated base model. Repeats differ among themselves in speed and path, which a replay follows: "
         "a good model may agree better with a drive than its repeats do.",
-        *(f"{site.label}: {said}: longitudinal thresholds agree by that." for site in study.sites if (said := site.comparison.attrs.get("driver"))),
+        *foot_notes(study.sites),
     )
     return _table(study, "error_ladder_sections", columns, rows, sources, notes, breaks[1:])
 
