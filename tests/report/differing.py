@@ -102,7 +102,10 @@ def calibration() -> xr.Dataset:
             "correlation": (("parameter", "other"), np.array([[1.0, 0.3], [0.3, 1.0]])),
         },
         {"parameter": (own := ["spring_stiffness_front", "suspension_friction.front"]), "other": own},
-        {"remarks": "suspension_friction.front is at its lower bound: the data ask for less than the bounds allow"},
+        {
+            "remarks": "suspension_friction.front is at its lower bound: the data ask for less than the bounds allow",
+            "driver": "what the accelerometer tells is taken for the driver's foot",
+        },
     )
 
 

@@ -8,7 +8,8 @@ minimised within bounds (eq:opti) by the trust-region reflective method of scipy
 a trust region that bends at the bounds; MINPACK's own "lm" knows no bounds).
 
 What alignment may have left of every drive's clock, path, speed and mounting (``drive.leftover``) is
-projected out of the residuals, about a first rough fit. The clock no further than CLOCK_LEFT: a damping
+projected out of the residuals, about a first rough fit. A driver's foot is heard where the accelerometer tells it (``drive.pedals``), by
+every vehicle anew: springs would make up for braking that the model has not done. The clock no further than CLOCK_LEFT: a damping
 would be fitted to a delay, or a delay to a damping. The intervals are those of a jackknife over stretches of the road
 (``identifiability.assess``); what alignment left moves them as far as it moves the fit.
 """
@@ -24,6 +25,7 @@ from scipy.stats import qmc
 from . import identifiability, pool
 from . import simulate as simulator
 from .descent import Descent, descend
+from .drive import pedals
 from .drive.record import unstack
 from .drive.replay import CLOCK_LEFT, replay
 from .errors import InputError
@@ -82,7 +84,7 @@ def problem(
     roads = list(road) if isinstance(road, (list, tuple)) else [road] * len(drives)
     each = pool.side_by_side(workers)
     fitted = [pair for pair in zip(drives, roads, strict=True) if pair[0].attrs.get("role", "fit") == "fit"]
-    replays = list(each(lambda pair: replay(*pair, simulate, options=options).tuned(vehicle, effects or {}), fitted))
+    replays = list(each(lambda pair: pedals.listening(replay(*pair, simulate, options=options), vehicle, effects or {}), fitted))
     if not replays:
         raise InputError("no drive has the role 'fit' (expected at least one)", place="drives")
     for name in signals:
@@ -140,7 +142,8 @@ def calibrate(
     over ``step`` cost, iterations, evaluations, step_value, step_nrmse, stopped; over ``iteration`` the way there.
     Where asked for, over ``profile`` and ``place``: profile_value and profile_cost, the least cost with the parameter held
     there, up to twice its interval to either side. Attributes: stopping rule, remarks in words, and of these what
-    leaves open whether the best of the ``starts`` is the best there is (AGREE where nothing does). Raises InputError.
+    leaves open whether the best of the ``starts`` is the best there is (AGREE where nothing does), and what of the ``driver`` is heard by the
+    accelerometer (``drive.pedals``), empty where nothing is. Raises InputError.
     """
     if applied not in ("joint", "sequence"):
         raise InputError(f"{applied!r} (expected joint or sequence)", place="applied")
@@ -192,6 +195,7 @@ def calibrate(
         drives=", ".join(again.drive.attrs["name"] for again in task.replays),
         remarks="; ".join(remarks) or "none",
         starts="; ".join(in_doubt) or AGREE,
+        driver=pedals.words(again.by_foot for again in task.replays),
     )
     return result
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from .calibrated import with_values
 from .drive.leftover import FLOOR, INDEPENDENT, Projection, corrected, leftover
+from .drive.paced import Paced, paced
 from .drive.replay import ASTRAY, CLOCK_LEFT, CORRECTED, Replay
 from .drive.sampling import low_pass, low_pass_matrix
 from .errors import InputError
@@ -48,6 +49,8 @@ class Problem:
     uncorrected: Sequence[Replay] = ()
     """The drives as alignment left them, where ``replays`` have been corrected further. Path and speed are asked for
     again only then: what they change is seen from a vehicle that fits roughly."""
+    paced: Sequence[Paced | None] = ()
+    """How each drive answers to its speed, where a driver's foot is heard: then what is missing of the speed yet is made good."""
     each: Callable = map
     """A ``map`` that may simulate drives side by side (``pool.side_by_side``)."""
     scales: Sequence[float] | None = None
@@ -80,12 +83,16 @@ class Problem:
         """The same problem with driver, path and speed, and what alignment may have left, seen from this point."""
         vehicle, effects = self._car(point)
         replays = list(self.each(lambda again: again.tuned(vehicle, effects), self.replays))
-        nearer = replace(self, replays=replays, vehicle=vehicle, effects=effects, uncorrected=replays)
+        answers = list(self.each(lambda again: paced(again, vehicle, effects), replays))
+        nearer = replace(self, replays=replays, vehicle=vehicle, effects=effects, uncorrected=replays, paced=answers)
+
+        def as_asked(i: int) -> tuple[Replay, Projection]:
+            again = nearer.replays[i]
+            return corrected(again, nearer._left_over[i], nearer._scaled(again.residual(again(vehicle, effects)), i))
+
         for _ in range(ROUNDS):
-            run = lambda i: nearer.replays[i].run(vehicle, effects)
-            as_asked = lambda i: corrected(nearer.replays[i], nearer._left_over[i], nearer._scaled(nearer.replays[i], i, run(i)))
             nearer.replays, nearer._left_over = map(list, zip(*self.each(as_asked, range(len(replays)))))
-        nearer.replays = list(self.each(lambda again: again.keeping(again.run(vehicle, effects)), nearer.replays))
+        nearer.replays = list(self.each(lambda again: again.keeping(again.run(vehicle, effects), foot=False), nearer.replays))
         return nearer
 
     def point(self, values) -> np.ndarray:
@@ -153,11 +160,17 @@ class Problem:
         """With a driver who makes up for what moves a vehicle aside, as the measured one did: wheels that steer as they rise else lead it over
         another road, and come out at half of their size."""
         found = again.following(vehicle, effects, ASTRAY, CORRECTED)
-        return self._scaled(found.replay, i, found.run)
+        residual = found.replay.residual(found.replay.sample(found.run))
+        answer = self.paced[i] if self.paced else None
+        if answer and "speed" in found.astray:
+            residual[:, again.compared] += answer.made_good(found.astray["speed"])
+        return self._scaled(residual, i)
 
-    def _scaled(self, again: Replay, i: int, run) -> np.ndarray:
-        residual = again.residual(again.sample(run))[np.ix_(self._used, again.compared)]
-        return self._filtered(again, residual.T).T / self._scale[i][:, None]
+    def _scaled(self, residual: np.ndarray, i: int) -> np.ndarray:
+        """A residual (6, time) of a drive as it counts, (signal, sample)."""
+        again = self.replays[i]
+        rows = residual[np.ix_(self._used, again.compared)]
+        return self._filtered(again, rows.T).T / self._scale[i][:, None]
 
     @staticmethod
     def _filtered(again: Replay, rows: np.ndarray) -> np.ndarray:

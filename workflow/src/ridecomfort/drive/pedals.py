@@ -2,7 +2,8 @@
 
 A driver begins to brake within some tenths of a second. A speed with 14 mm/s of noise tells nothing of that, and a model that follows
 its low-passed copy brakes too softly: at 0.8 to 2.8 Hz an error of 3 percent of the power of pitch rate, in which links against diving
-are not seen. The accelerometer tells it, less what gravity and the turning of the body add at its place.
+are not seen. The accelerometer tells it, less what gravity and the turning of the body add at its place, and no worse where the speed is
+clean: by wheels that roll on other radii as the body bounces, or once a second, that looks clean and tells nothing of a foot.
 """
 
 from __future__ import annotations
@@ -16,15 +17,18 @@ from scipy.signal import welch
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from .record import upward
 from .sampling import rate_of
-from .slow import smooth, speed_noise
+from .slow import DRIVER_BANDWIDTH, smooth, speed_noise
 
-LEAST, MOST, HIGHEST = 0.2, 1.0, 2.5
-"""Hz from which on an accelerometer tells a speed, at least and at most (it drifts below, and above another that is so noisy tells little),
-and up to which a driver is brought to it: the speed controller, which looks 0.3 s ahead, drives nothing of a wave of 3.3 Hz."""
+LEAST, HIGHEST = 0.2, 2.5
+"""Hz from which on an accelerometer tells a speed, since it drifts below, and up to which a driver is brought to it: the speed controller, which
+looks 0.3 s ahead, drives nothing of a wave of 3.3 Hz."""
+
+MOST, TRUSTED = 0.5, 0.0025
+"""Hz from which on an accelerometer is heard however clean the speed, if its noise makes no more of a speed than so many m/s (rms)."""
 
 NOISE, WINDOW, DROWNED = (3.0, 8.0), 10.0, 2.0
 """Hz between which an acceleration along the road is noise, not a driver's; s of the spectra of that; and times its density below which a
-foot is not heard."""
+foot is not heard, by what is slower than DRIVER_BANDWIDTH."""
 
 FADING = 2.0
 """s over which what is missing fades in behind the run-in of the model."""
@@ -92,20 +96,24 @@ def missing_acceleration(again, simulated) -> np.ndarray:
 
 
 def band(again, simulated) -> tuple[float, float] | None:
-    """Hz from which and up to which the accelerometer of a drive tells more of its driver than the recorded speed does; None where it does
-    not. The noise of both is taken for white, that of the accelerometer with all that the model lacks at NOISE."""
+    """Hz from which and up to which a driver is brought to the accelerometer of a drive; None where that tells nothing that the model has not
+    done. The noise of both is taken for white, that of the accelerometer with all that the model lacks at NOISE."""
     rate, kept = rate_of(again.time), again.compared
-    of_speed = speed_noise(again.drive["v_x"].values, rate)
-    if not of_speed > 0.0:
-        return None
     length = min(int(kept.sum()), int(WINDOW * rate))
     frequency, density = welch(missing_acceleration(again, simulated)[kept], rate, nperseg=length)
     noise = np.median(density[(frequency >= NOISE[0]) & (frequency <= NOISE[1])])
-    lower = max(LEAST, float(np.sqrt(noise / of_speed)) / (2.0 * np.pi))
-    drowned = frequency[(frequency > max(lower, MOST)) & (density < DROWNED * noise)]
-    upper = min(HIGHEST, float(drowned[0])) if drowned.size else HIGHEST
-    is_heard = np.any(density[(frequency >= lower) & (frequency <= MOST)] > DROWNED * noise) if lower < MOST else False
-    return (lower, upper) if is_heard else None
+    lower = _lower(noise, speed_noise(again.drive["v_x"].values, rate))
+    if not np.any(density[(frequency >= lower) & (frequency <= DRIVER_BANDWIDTH)] > DROWNED * noise):
+        return None
+    drowned = frequency[(frequency > DRIVER_BANDWIDTH) & (density < DROWNED * noise)]
+    return lower, min(HIGHEST, float(drowned[0])) if drowned.size else HIGHEST
+
+
+def _lower(of_acceleration: float, of_speed: float) -> float:
+    """Hz from which on an accelerometer of this noise ((m/s2)^2/Hz) is heard beside a speed of that ((m/s)^2/Hz)."""
+    as_noisy = np.sqrt(of_acceleration / of_speed) / (2.0 * np.pi) if of_speed > 0.0 else np.inf
+    trusted = of_acceleration / (2.0 * np.pi * TRUSTED) ** 2
+    return float(max(LEAST, min(as_noisy, max(MOST, trusted))))
 
 
 def _faster(series: np.ndarray, rate: float, lowest: float) -> np.ndarray:

@@ -124,6 +124,8 @@ class Replay:
     """Speed ``v_x`` and path ``e`` that the driver is held to at the measured instants, (time,), if not to what was measured."""
     by_foot: tuple[float, float] | None = None
     """Hz from which and up to which the accelerometer tells what he does to the speed (``pedals.band``); else he is slow."""
+    is_foot_kept: bool = False
+    """Whether that is held, too, where he is held to a speed."""
 
     def __call__(self, vehicle, effects=(), clock: float = 0.0) -> Simulated:
         """Simulate and sample at equal place; ``clock`` (s) shifts the inertial signals against place and speed by what alignment has not
@@ -206,15 +208,16 @@ class Replay:
                 continue
             if quantity == "lateral" or self.by_foot is None:
                 found[quantity] = slowly(missing, rate, quantity)
-            elif name in self.kept_to:
+            elif self.is_foot_kept and name in self.kept_to:
                 found[quantity] = pedals.driven(missing, rate, self.by_foot)
             else:
                 found[quantity] = pedals.missing_speed(self, self.sample(run), missing, self.by_foot)
         return found
 
-    def keeping(self, run: xr.Dataset) -> Replay:
-        """The same with its driver held to what he drives in a ``run``, whatever the vehicle: ``following`` then corrects what another one does."""
-        return replace(self, kept_to=self.driven(run))
+    def keeping(self, run: xr.Dataset, foot: bool = True) -> Replay:
+        """The same with its driver held to what he drives in a ``run``, whatever the vehicle: ``following`` then corrects what another one does.
+        ``foot``: to what a heard foot does, too; else every vehicle hears it anew, so that it is evidence for none."""
+        return replace(self, kept_to=self.driven(run), is_foot_kept=foot)
 
     @cached_property
     def left(self) -> np.ndarray | float:
