@@ -27,8 +27,8 @@ from . import kinds, score, trials
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 SHARES = {"clean": 8, "messy": 4, "another shape": 1, "another setting": 2, "two": 2, "three": 1, "outside": 3, "outside, messy": 1,
-          "nothing": 2, "path error": 1, "clock error, aligned": 1, "another interpolation": 1, "clock error, left": 1, "gain error": 1,
-          "scanner noise": 1, "wrong file": 2, "measurement": 1,
+          "nothing": 2, "path error": 1, "clock error, aligned": 1, "another interpolation": 1, "brisk foot": 1,
+          "brisk foot, clean speed": 1, "clock error, left": 1, "gain error": 1, "scanner noise": 1, "wrong file": 2, "measurement": 1,
           "outside, beside the library": 2, "outside, beside a wrong file": 1}  # fmt: skip
 """Trials of each kind in a round."""
 

@@ -95,7 +95,9 @@ def _messy(rng, names, number) -> Draw:
         "background": background, "clock": float(rng.normal(0, 0.005)), "gain": float(rng.normal(0, 0.003)),
         "scanner": 0.0001, "aligned": True,
     }  # fmt: skip
-    return Draw((name,), float(rng.choice(STRONG)), frozenset({name}), spoilt=spoilt)
+    kappa = float(rng.choice(STRONG))
+    spoilt |= {"foot": float(rng.uniform(0.0, 0.3)), "speed_noise": float(rng.uniform(0.0, 0.02))}
+    return Draw((name,), kappa, frozenset({name}), spoilt=spoilt)
 
 
 def _shaped(rng, names, number) -> Draw:
@@ -183,6 +185,8 @@ KINDS: Mapping[str, Callable] = {
     "measurement": _of_measurement,
     "outside, beside the library": _outside_beside,
     "outside, beside a wrong file": _outside_wrong_file,
+    "brisk foot": _null(foot=0.2, speed_noise=0.014),
+    "brisk foot, clean speed": _null(foot=0.2),
 }
 
 SUSPECT = ("clock error, left", "gain error", "scanner noise")

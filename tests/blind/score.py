@@ -105,7 +105,7 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     for kappa in KAPPAS:
         at = [row for row in single("clean", seen) if reached[id(row)] == kappa]
         line(f"found, clean, kappa {kappa:g}", at, lambda row: row["in_cluster"], "90 %" if kappa >= 0.1 else "")
-    nulls = ("nothing", "path error", "clock error, aligned", "another interpolation")
+    nulls = ("nothing", "path error", "clock error, aligned", "another interpolation", "brisk foot", "brisk foot, clean speed")
     for kind in nulls:
         line(f"an effect named where nothing is missing: {kind}", of(kind), lambda row: row["found"])
     for kind in nulls:

@@ -37,6 +37,9 @@ ACCELEROMETER, GYROSCOPE = 0.03, 0.001
 PATH_ERROR, PATH_LENGTH = 0.02, 30.0
 """m by which the recorded path is wrong (rms), and over which length."""
 
+FOOT = 0.8
+"""Hz, about which a brisk foot moves."""
+
 BACKGROUND = 0.1
 """kappa of every effect of the background."""
 
@@ -93,6 +96,8 @@ def make(
     background: Sequence[str] = (),
     aligned: bool = False,
     interpolation: str = "cubic",
+    foot: float = 0.0,
+    speed_noise: float = 0.0,
 ) -> Trial:
     """Three repeats and a slower drive of a car that has ``effects``, each scaled to ``kappa``.
 
@@ -101,15 +106,19 @@ def make(
     neutral, within what is plausible; shapes of ``tests/blind/shapes`` may be among them. ``clock`` (s) and ``gain`` spoil the
     record, ``scanner`` (m rms) the road that is handed over, ``path_error`` (m rms) the recorded path; each effect of
     the ``background`` is there at a kappa of BACKGROUND. ``aligned``: drives are handed over as alignment leaves them.
-    ``interpolation``: of the true road between its points, where the one that is handed over is cubic.
+    ``interpolation``: of the true road between its points, where the one that is handed over is cubic. ``foot`` (m/s2 rms): how briskly
+    the pedals are moved, each drive otherwise. ``speed_noise`` (m/s rms at RATE): of the recorded speed.
     """
     rng = np.random.default_rng(seed)
+    of_foot = np.random.default_rng([seed, 1])
     road = a_road(rng)
     course = simulate.prepare(road, interpolation)
     hidden = {name: float(rng.uniform(lower + 0.2 * (upper - lower), upper - 0.2 * (upper - lower))) for name, (lower, upper) in BOUNDS.items()}
     true_car, _ = with_values(car, {}, hidden)
     demands = [_demand(rng, road.u.values, speed) for speed in (SPEED, SPEED, SPEED, SLOWER * SPEED)]
     every = tuple(effects) + tuple(background)
+    for demand in demands:
+        demand["speed"] = demand["speed"] + by_foot(of_foot, road.u.values, demand["speed"], foot)
     told_of = {name: car[name] for name in TOLD_OF}
     forward, up = displacement(told_of, true_car)
     sensor = SENSOR[0] + forward, SENSOR[1], SENSOR[2] + up
@@ -134,6 +143,7 @@ def make(
         record = drive(true_car, sizes, demand)
         for name in SIGNALS:
             record[name] = (1 + gain) * record[name]
+        record["v_x"] = record["v_x"] + speed_noise * of_foot.standard_normal(record.sizes["time"])
         drives.append(_recorded(record, noise, error, clock, number=k))
     if scanner:
         road = road.assign(elevation=road["elevation"] + scanner * rng.standard_normal(road["elevation"].shape))
@@ -180,6 +190,15 @@ def _demand(rng, u, speed) -> dict:
     target = speed + rng.normal(0, 0.2) + 0.1 * pace / pace.std()
     over_u = {"coords": {"u": u}, "dims": "u"}
     return {"speed": xr.DataArray(target, **over_u), "lateral": xr.DataArray(path, **over_u)}
+
+
+def by_foot(rng, u: np.ndarray, speed, size: float) -> np.ndarray:
+    """What a brisk foot on the pedals, which moves about FOOT times a second, adds to a demanded speed (m/s) over u; ``size``: in m/s2, rms."""
+    period = 1.0 / (2.0 * np.pi * FOOT)
+    steps = rng.standard_normal(u.size)
+    width = float(speed.mean()) * period / (u[1] - u[0])
+    asked = gaussian_filter1d(steps, width) - gaussian_filter1d(steps, 4.0 * width)
+    return size * period * asked / asked.std()
 
 
 def _path(rng, u: np.ndarray, size: float) -> xr.DataArray:

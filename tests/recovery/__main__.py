@@ -23,10 +23,10 @@ from tests.recovery import trials
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 
-def one(seed: int, car, measurement) -> list[dict]:
+def one(seed: int, car, measurement, foot: float = 0.0) -> list[dict]:
     """One trial: a row for each parameter, in its SI unit."""
     start = time.process_time()
-    trial = trials.make(seed, car, measurement)
+    trial = trials.make(seed, car, measurement, foot)
     found = calibrate.calibrate(trial.drives, trial.road, car, sequence=False, restarts=0)
     seconds = time.process_time() - start
     rows = []
@@ -70,6 +70,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m tests.recovery", description=__doc__)
     parser.add_argument("--trials", type=int, default=100, help="number of trials (default 100)")
     parser.add_argument("--seed", type=int, default=1, help="of the first trial (default 1)")
+    parser.add_argument("--foot", type=float, default=0.0, help="how briskly drivers move the pedals, m/s2 rms (default 0)")
     parser.add_argument("--output", type=Path, default=REPOSITORY / "results" / "recovery")
     options = parser.parse_args()
     car = parameters.read(REPOSITORY / "config" / "vehicles" / "midsize.yaml")
@@ -77,7 +78,7 @@ def main() -> None:
     options.output.mkdir(parents=True, exist_ok=True)
     rows = []
     for seed in range(options.seed, options.seed + options.trials):
-        rows += one(seed, car, measurement)
+        rows += one(seed, car, measurement, options.foot)
         print(f"trial {seed}: " + ", ".join(f"{row['parameter']} {'held' if row['held'] else 'missed'}" for row in rows[-5:]), flush=True)
         with open(options.output / "trials.csv", "w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, rows[0].keys())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 import yaml
 
 from ridecomfort.vehicle import parameters
@@ -9,10 +10,11 @@ from ridecomfort.vocabulary import CALIBRATED
 from tests.recovery import __main__ as recovery
 
 
-def test_a_trial_comes_within_a_few_percent_of_the_truth(repository):
+@pytest.mark.parametrize("foot", [0.0, 0.3])
+def test_a_trial_comes_within_a_few_percent_of_the_truth_however_briskly_it_is_driven(repository, foot):
     car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
     measurement = yaml.safe_load((repository / "config" / "standin.yaml").read_text())["measurement"]
-    rows = recovery.one(1, car, measurement)
+    rows = recovery.one(1, car, measurement, foot)
     assert [row["parameter"] for row in rows] == list(CALIBRATED)
     for row in rows:  # ten times the rms error of docs/recovery.md, but for the friction, of which a road says little
         assert abs(row["error"]) < (0.4 if row["parameter"] == "tyre_friction" else 0.04), row

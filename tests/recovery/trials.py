@@ -13,7 +13,7 @@ from ridecomfort.drive import align, record
 from ridecomfort.standin import drives as standin
 from ridecomfort.standin import instrument
 from ridecomfort.steps import realigned
-from tests.blind.trials import SENSOR, a_road
+from tests.blind.trials import SENSOR, a_road, by_foot
 
 SPEED = 22.0
 """m/s of the repeats; the slower drive of a study is not fitted and is left out here."""
@@ -34,10 +34,11 @@ class Trial:
     errors: Sequence[Mapping]
 
 
-def make(seed: int, vehicle, measurement: Mapping) -> Trial:
+def make(seed: int, vehicle, measurement: Mapping, foot: float = 0.0) -> Trial:
     """Repeats on a bent, rough road of 700 m by a car whose calibrated parameters are drawn.
 
-    ``measurement`` is that block of config/standin.yaml: intervals of the parameters, the driver, the instrument.
+    ``measurement`` is that block of config/standin.yaml: intervals of the parameters, the driver, the instrument. ``foot`` (m/s2 rms): how
+    briskly he moves the pedals beside that.
     """
     rng = np.random.default_rng(seed)
     road = a_road(rng)
@@ -49,6 +50,7 @@ def make(seed: int, vehicle, measurement: Mapping) -> Trial:
     for number in range(REPEATS):
         usual = np.full(road["u"].size, SPEED)
         speed, path, driver = standin.how_driven(rng, road["u"].values, usual, {"role": "fit"}, measurement)
+        speed = speed + by_foot(np.random.default_rng([seed, number, 1]), road["u"].values, speed, foot)
         drive = simulate.run(course, car, speed=speed, lateral=path, sensor=SENSOR, rate=FINE_RATE)
         quantities, drawn = instrument.record(rng, drive, RATE, measurement["instrument"], mounting)
         time = quantities.pop("time")
