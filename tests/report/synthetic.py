@@ -323,5 +323,5 @@ def calibration() -> xr.Dataset:
             "step_value": (("step", "parameter"), after),
         },
         {"parameter": list(CALIBRATED), "other": list(CALIBRATED), "step": steps},
-        {"applied": "joint", "stopping_rule": "relative change of cost or step below 1e-06", "remarks": "none", "driver": ""},
+        {"applied": "joint", "stopping_rule": "relative change of cost or step below 1e-06", "remarks": "none"},
     )

@@ -2,8 +2,8 @@
 
 A driver begins to brake within some tenths of a second. A speed with 14 mm/s of noise tells nothing of that, and a model that follows
 its low-passed copy brakes too softly: at 0.8 to 2.8 Hz an error of 3 percent of the power of pitch rate, in which links against diving
-are not seen. The accelerometer tells it, less what gravity and the turning of the body add at its place, and no worse where the speed is
-clean: by wheels that roll on other radii as the body bounces, or once a second, that looks clean and tells nothing of a foot.
+are not seen. The accelerometer tells it, less what gravity and the turning of the body add at its place. A clean speed may tell no more: one
+of wheels, whose radii change as the body bounces, or one that was recorded once a second.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ MOST, TRUSTED = 0.5, 0.0025
 """Hz from which on an accelerometer is heard however clean the speed, if its noise makes no more of a speed than so many m/s (rms)."""
 
 NOISE, WINDOW, DROWNED = (3.0, 8.0), 10.0, 2.0
-"""Hz between which an acceleration along the road is noise, not a driver's; s of the spectra of that; and times its density below which a
-foot is not heard, by what is slower than DRIVER_BANDWIDTH."""
+"""Hz between which an acceleration along the road is noise, not a driver's; s of the spectra of that; and times the density of this noise that a
+foot must reach, somewhere below DRIVER_BANDWIDTH, to be heard."""
 
 FADING = 2.0
 """s over which what is missing fades in behind the run-in of the model."""

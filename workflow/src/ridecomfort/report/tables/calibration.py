@@ -193,8 +193,7 @@ def calibrated(found: Difference) -> Table:
         variables = "initial, value, interval_lower, interval_upper, lower, upper, verdict"
         sources.append(Source(catalogue.label(name), found.calibration_files.get(name, ""), variables, "as in the file"))
         notes.append(f"{catalogue.label(name)}: {calibration.attrs['remarks']}.")
-        if calibration.attrs["driver"]:
-            notes.append(f"{catalogue.label(name)}: {calibration.attrs['driver']}.")
+        notes += [f"{catalogue.label(name)}: {heard}." for heard in filter(None, [calibration.attrs.get("driver")])]
     if not rows:
         rows.append(("none", "", "", *(None,) * 6, ""))
     notes.append(
