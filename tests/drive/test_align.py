@@ -10,8 +10,10 @@ import xarray as xr
 
 from ridecomfort.drive import align, mounting, place, record, replay
 from ridecomfort.errors import InputError
+from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS
 from tests import quarter_cars
+from tests.blind import trials
 
 LATERAL = 0.13
 
@@ -191,6 +193,14 @@ def test_a_wandering_path_and_place_are_followed(road, truth, nominal):
     true_place = drive["s"].values - 0.05 * np.sin(2 * np.pi * drive["s"].values / 300)
     before, after = (np.std((row - true_place)[inside]) for row in (drive["s"].values, place))
     assert after < 0.5 * before
+
+
+def test_a_path_that_was_recorded_wrongly_is_found_however_briskly_it_was_driven(repository):
+    """What a driver makes who is followed too slowly hid half of an error of 2 cm."""
+    car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+    trial = trials.make(1, car, {}, foot=0.3, speed_noise=0.014, path_error=0.02, aligned=True)
+    ((_, drives),) = trial.measured.values()
+    assert all(drive.attrs["lateral_wander"] > 0.015 for drive in drives)
 
 
 def test_nothing_is_found_where_nothing_is_wrong(road, nominal):

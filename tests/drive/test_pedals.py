@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -94,15 +96,20 @@ def test_a_driver_who_does_not_answer_is_not_asked(course, car):
     assert pedals.listening(replay(drive, course, other), car).by_foot is not None
 
 
-def test_a_driver_who_is_held_to_what_he_drove_may_be_heard_yet(course, car):
+def test_a_driver_who_is_held_to_what_he_drove_is_heard_anew_unless_what_he_missed_is_held_too(course, car):
     drive, _ = braked.drive(course, car)
     slow = replay(drive, course, simulate.run).tuned(car)
     heard, run = pedals.listening(slow, car), slow.run(car)
-    held = [heard, heard.keeping(run, foot=False), heard.keeping(run)]
-    free, anew, kept = (in_its_band(one, one.astray(run)["speed"]) for one in held)
-    assert free.std() > 0.01
-    assert (anew - free).std() < 0.1 * free.std()
-    np.testing.assert_allclose(kept, 0.0, atol=1e-9)
+    missed = heard.astray(run)["speed"]
+    in_band = lambda again: in_its_band(heard, again.astray(run)["speed"])
+    size = in_its_band(heard, missed).std()
+    assert size > 0.01
+    for held in (heard.keeping(run), heard.keeping(run, missed)):
+        assert (in_band(held) - in_its_band(heard, missed)).std() < 0.1 * size
+    silent = drive.assign(a_x=0.0 * drive["a_x"])
+    anew, kept = (replace(held, drive=silent) for held in (heard.keeping(run), heard.keeping(run, missed)))
+    assert (in_band(anew) - in_its_band(heard, missed)).std() > 0.5 * size
+    assert (in_band(kept) - in_its_band(heard, missed)).std() < 0.1 * size
 
 
 def test_it_is_said_in_which_band_drivers_are_listened_to():

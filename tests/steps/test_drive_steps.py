@@ -161,7 +161,7 @@ def test_what_an_effect_does_late_is_no_error_of_a_clock_once_the_model_has_it(f
     own = {**drives, "before": folder / "measured.nc", "below": folder / "base.nc", "config": config, "output": folder / "own.nc"}
     realigned.main(**own)
     before, after = (store.read(folder / f"{name}.nc") for name in ("measured", "own"))
-    assert (before["clock_offset"] > 2e-3).all(), "recorded without an error of the clock: the delay passes for one"
+    assert (before["clock_offset"] > 1.5e-3).all(), "recorded without an error of the clock: the delay passes for one"
     assert (abs(after["clock_offset"]) < 0.2 * before["clock_offset"]).all()
     assert undescribed(after) == [] and list(after["drive"].values) == ["fit", "check"]
 

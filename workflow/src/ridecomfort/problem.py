@@ -92,7 +92,7 @@ class Problem:
 
         for _ in range(ROUNDS):
             nearer.replays, nearer._left_over = map(list, zip(*self.each(as_asked, range(len(replays)))))
-        nearer.replays = list(self.each(lambda again: again.keeping(again.run(vehicle, effects), foot=False), nearer.replays))
+        nearer.replays = list(self.each(lambda again: again.keeping(again.run(vehicle, effects)), nearer.replays))
         return nearer
 
     def point(self, values) -> np.ndarray:

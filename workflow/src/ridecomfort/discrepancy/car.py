@@ -143,7 +143,7 @@ class Car:
             again, simulated = following.replay, following.replay.sample(following.run)
             residual = self._on_path(index, following, simulated)
             missing = self._missing(values, index, again, residual) if exactly else self.exactness.get(index, 0.0)
-            return again.keeping(following.run), simulated, residual, missing
+            return again.keeping(following.run, following.astray.get("speed")), simulated, residual, missing
 
         found = by_record(self, driven, indices)
         retuned = replace(

@@ -4,7 +4,8 @@ Each is found against a simulation, from what a wrong vehicle cannot imitate: ga
 tilt from gravity, the speed scale from distance, the path from the roughness that it
 meets. The clock it can (a wrong damping turns phases, too), so a provisional vehicle is
 fitted along with it, drive by drive, and thrown away. So can an effect that the vehicle lacks: a
-soft top mount passes for 2 ms, and a model that has it is compared with drives aligned for it.
+soft top mount passes for 2 ms, and a model that has it is compared with drives aligned for it. A driver's foot is heard
+where the accelerometer tells it (``pedals``): of one who is followed too slowly the error hides the path.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import xarray as xr
 
 from ..errors import InputError
 from ..vocabulary import SIGNALS
-from . import mounting, path, place, turning
+from . import mounting, path, pedals, place, turning
 from .record import acceleration, felt
 from .replay import Replay, Simulated, replay
 
@@ -81,8 +82,8 @@ def align(
         work = place.driven(work, drive, way, scale, offset)
     moved_along, moved_aside = np.zeros(work.sizes["time"]), np.zeros(work.sizes["time"])
     for _ in range(PASSES):
-        again = replay(work, road, simulate, options=options).tuned(vehicle)
-        simulated = again(vehicle)
+        again = pedals.listening(replay(work, road, simulate, options=options), vehicle)
+        by_foot, simulated = again.by_foot, again(vehicle)
         if drive.attrs["gravity"]:
             step = mounting.fit(again, simulated)
             work, fitted = mounting.corrected(work, step), fitted.then(step)
@@ -96,12 +97,13 @@ def align(
             scale, offset = scale * step_scale, offset * step_scale + step_offset
             work = place.driven(work, drive, way, scale, offset)
             work = work.assign(s=work["s"] + moved_along)
-        again = replay(work, road, simulate, options=options).tuned(vehicle)
+        again = replace(replay(work, road, simulate, options=options), by_foot=by_foot).tuned(vehicle)
         vehicle = _better(vehicle, better, again)
         along, aside = path.wander(again, again(vehicle), vehicle, expected)
         work = work.assign(s=work["s"] + along, e=work["e"] + aside)
         moved_along, moved_aside = moved_along + along, moved_aside + aside
-    aligned = _without_gravity(work, replay(work, road, simulate, options=options).tuned(vehicle)(vehicle))
+    again = replace(replay(work, road, simulate, options=options), by_foot=by_foot).tuned(vehicle)
+    aligned = _without_gravity(work, again(vehicle))
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
         clock_offset=float(clock),

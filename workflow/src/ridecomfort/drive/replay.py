@@ -214,10 +214,14 @@ class Replay:
                 found[quantity] = pedals.missing_speed(self, self.sample(run), missing, self.by_foot)
         return found
 
-    def keeping(self, run: xr.Dataset, foot: bool = True) -> Replay:
+    def keeping(self, run: xr.Dataset, missed: np.ndarray | None = None) -> Replay:
         """The same with its driver held to what he drives in a ``run``, whatever the vehicle: ``following`` then corrects what another one does.
-        ``foot``: to what a heard foot does, too; else every vehicle hears it anew, so that it is evidence for none."""
-        return replace(self, kept_to=self.driven(run), is_foot_kept=foot)
+        With the speed (m/s, (time,)) that he ``missed`` by what is heard of his foot he is held to that, too; else every vehicle hears it anew, so
+        that it is evidence for none."""
+        driven, is_foot_kept = self.driven(run), self.by_foot is not None and missed is not None
+        if is_foot_kept:
+            driven["v_x"] = driven["v_x"] + missed
+        return replace(self, kept_to=driven, is_foot_kept=is_foot_kept)
 
     @cached_property
     def left(self) -> np.ndarray | float:
