@@ -81,6 +81,13 @@ def test_a_speed_that_was_recorded_once_a_second_looks_clean_and_is_no_foot(cour
     assert missed(heard, run, car) < 0.4 * lost
 
 
+def test_a_speed_that_is_constant_has_no_noise_to_be_weighed_against(course, car):
+    drive, _ = braked.drive(course, car)
+    again = replay(drive, course, simulate.run)
+    steady = replace(again, drive=drive.assign(v_x=0.0 * drive["v_x"] + 20.0))
+    assert pedals.band(steady, again(car)) == (pedals.MOST, pedals.HIGHEST)
+
+
 def test_nobody_listens_where_the_accelerometer_is_noisy(course, car):
     drive, _ = braked.drive(course, car, of_acceleration=0.5)
     assert pedals.listening(replay(drive, course, simulate.run), car).by_foot is None

@@ -41,8 +41,8 @@ ORDER = 4
 
 
 def listening(again, vehicle, effects=()):
-    """The ``Replay`` of a drive, ``again``, its driver brought to the measured speed and path, and to what the accelerometer tells of his foot
-    where it tells more of that than the speed. Not where that helps little: the driver of another simulator may answer otherwise. Raises
+    """The ``Replay`` of a drive, ``again``, its driver brought to the measured speed and path, and to what the accelerometer tells of his foot.
+    Not where that helps little: the driver of another simulator may answer otherwise. Raises
     InputError when the model cannot be driven."""
     slow = again.following(vehicle, effects)
     by_foot = band(slow.replay, slow.replay.sample(slow.run))
