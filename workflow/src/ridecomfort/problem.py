@@ -159,9 +159,9 @@ class Problem:
     def _residual(self, again: Replay, i: int, vehicle, effects) -> np.ndarray:
         """With a driver who makes up for what moves a vehicle aside, as the measured one did: wheels that steer as they rise else lead it over
         another road, and come out at half of their size."""
-        found = again.following(vehicle, effects, ASTRAY, CORRECTED)
-        residual = found.replay.residual(found.replay.sample(found.run))
         answer = self.paced[i] if self.paced else None
+        found = again.following(vehicle, effects, ASTRAY if answer else again.strictly(ASTRAY), CORRECTED)
+        residual = found.replay.residual(found.replay.sample(found.run))
         if answer and "speed" in found.astray:
             residual[:, again.compared] += answer.made_good(found.astray["speed"])
         return self._scaled(residual, i)

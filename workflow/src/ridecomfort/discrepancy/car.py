@@ -75,7 +75,7 @@ class Car:
     def residual(self, values: Mapping[str, float], index: int) -> np.ndarray:
         """Simulated minus measured signals (6, sample) behind the run-in of the model. What is missing of the path is made good without
         driving again."""
-        found = self._following(values, index, ASTRAY, CORRECTED)
+        found = self._following(values, index)
         return self._on_path(index, found, found.replay.sample(found.run)) + self.exactness.get(index, 0.0)
 
     def _on_path(self, index: int, found: Following, simulated: Simulated) -> np.ndarray:
@@ -92,15 +92,16 @@ class Car:
         known, simulated = self.driven.get(index, (None, None))
         if known == dict(values):
             return simulated
-        found = self._following(values, index, ASTRAY, CORRECTED)
+        found = self._following(values, index)
         return found.replay.sample(found.run)
 
-    def _following(self, values: Mapping[str, float], index: int, *limits) -> Following:
-        """A drive along the measured path at the measured speed.
+    def _following(self, values: Mapping[str, float], index: int) -> Following:
+        """A drive along the measured path at the measured speed, as far as while values are fitted.
 
         An effect that moves a vehicle aside makes it meet another road, unless its driver makes up for it as the measured one did.
         """
-        return self._led(self.replays[index], values, *limits)
+        again = self.replays[index]
+        return self._led(again, values, ASTRAY if self.paced.get(index) else again.strictly(ASTRAY), CORRECTED)
 
     def _led(self, again: Replay, values: Mapping[str, float], *limits) -> Following:
         vehicle, effects = with_values(self.vehicle, self.effects, values)

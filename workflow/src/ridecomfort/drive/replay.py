@@ -51,7 +51,8 @@ ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
 that is done."""
 
 OF_FOOT = 0.2
-"""Share of CLOSE and ASTRAY that a speed may be missed by where it is known by the accelerometer: 0.5 mm/s at 1 Hz are 3 mm/s2."""
+"""Share of CLOSE and ASTRAY that a speed may be missed by where it is known by the accelerometer, unless what is missing is made good
+(``paced``): 0.5 mm/s at 1 Hz are 3 mm/s2."""
 
 HELPED = 0.5
 """Share of what was missing that the right correction leaves at most."""
@@ -170,17 +171,16 @@ class Replay:
         return self.following(vehicle, effects).replay
 
     def following(
-        self, vehicle, effects=(), allowed: Mapping[str, float] = CLOSE, corrections: int = CORRECTIONS
+        self, vehicle, effects=(), allowed: Mapping[str, float] | None = None, corrections: int = CORRECTIONS
     ) -> Following:
-        """The same with its driver corrected until he is off by less than is ``allowed`` (rms, by quantity): so many times at most, and not on
-        where that helps little.
+        """The same with its driver corrected until he is off by less than is ``allowed`` (rms, by quantity; by default CLOSE): so many times at
+        most, and not on where that helps little.
 
         Before that, a correction for a driver who is not late is tried. Raises InputError when the model cannot be driven.
         """
+        allowed = self.strictly(CLOSE) if allowed is None else allowed
         run = self.run(vehicle, effects)
         found = Following(self, run, self.astray(run))
-        if self.by_foot is not None:
-            allowed = {**allowed, "speed": OF_FOOT * allowed["speed"]}
         for _ in range(corrections):
             if all(found.missed(name) < allowed[name] for name in found.astray):
                 break
@@ -194,6 +194,10 @@ class Replay:
                 nearer = plainly
             found = nearer
         return found
+
+    def strictly(self, allowed: Mapping[str, float]) -> Mapping[str, float]:
+        """What a driver may miss (rms, by quantity) where this is ``allowed`` and the speed that he misses is not made good."""
+        return allowed if self.by_foot is None else {**allowed, "speed": OF_FOOT * allowed["speed"]}
 
     def astray(self, run: xr.Dataset) -> dict[str, np.ndarray]:
         """By how much a simulated drive was too slow (m/s) and too far right (m) at the measured instants, as far as a driver is asked for it,
