@@ -19,7 +19,7 @@ def test_what_is_foretold_of_another_speed_is_what_a_driver_who_comes_nearer_cha
     """Waves of 2 mm/s at 1.3 Hz and of 5 mm/s at 0.5 Hz."""
     car, course = parameters.read(repository / "config" / "vehicles" / "midsize.yaml"), braked.course()
     drive, _ = braked.drive(course, car)
-    again = pedals.listening(replay(drive, course, simulate.run), car)
+    again = pedals.listening(replay(drive, course, simulate.run), car).replay
     missing = 0.002 * np.sin(2 * np.pi * 1.3 * again.time) + 0.005 * np.sin(2 * np.pi * 0.5 * again.time)
     foretold = paced(again, car).made_good(missing)
     nearer = again.corrected({"speed": missing})

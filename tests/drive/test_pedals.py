@@ -54,7 +54,7 @@ def test_it_is_the_acceleration_of_the_centre_of_gravity_whatever_the_body_does(
 def test_a_driver_who_is_listened_to_brakes_as_the_measured_one_did(course, car):
     drive, run = braked.drive(course, car)
     slow = replay(drive, course, simulate.run).tuned(car)
-    heard = pedals.listening(slow, car)
+    heard = pedals.listening(slow, car).replay
     assert heard.by_foot is not None and heard.by_foot[0] < 0.3 and heard.by_foot[1] > 1.5
     assert missed(heard, run, car) < 0.25 * missed(slow, run, car)
     pitch = SIGNALS.index("pitch_rate")
@@ -66,7 +66,7 @@ def test_a_driver_who_is_listened_to_brakes_as_the_measured_one_did(course, car)
 def test_however_clean_the_speed_what_is_faster_than_half_a_hertz_is_the_accelerometers(course, car, noise):
     drive, run = braked.drive(course, car, noise=noise)
     slow = replay(drive, course, simulate.run).tuned(car)
-    heard = pedals.listening(slow, car)
+    heard = pedals.listening(slow, car).replay
     assert heard.by_foot is not None and heard.by_foot[0] == pedals.MOST
     assert missed(heard, run, car) < 0.25 * missed(slow, run, car)
 
@@ -75,7 +75,7 @@ def test_a_speed_that_was_recorded_once_a_second_looks_clean_and_is_no_foot(cour
     drive, run = braked.drive(course, car, noise=0.0)
     time = drive["time"].values
     seldom = drive.assign(v_x=("time", np.interp(time, time[::100], drive["v_x"].values[::100])))
-    heard = pedals.listening(replay(seldom, course, simulate.run), car)
+    heard = pedals.listening(replay(seldom, course, simulate.run), car).replay
     assert heard.by_foot is not None
     lost = in_its_band(heard, seldom["v_x"].values - np.interp(heard.place, run["s"], run["v_x"])).std()
     assert missed(heard, run, car) < 0.4 * lost
@@ -90,7 +90,7 @@ def test_a_speed_that_is_constant_has_no_noise_to_be_weighed_against(course, car
 
 def test_nobody_listens_where_the_accelerometer_is_noisy(course, car):
     drive, _ = braked.drive(course, car, of_acceleration=0.5)
-    assert pedals.listening(replay(drive, course, simulate.run), car).by_foot is None
+    assert pedals.listening(replay(drive, course, simulate.run), car).replay.by_foot is None
 
 
 def test_a_driver_who_does_not_answer_is_not_asked(course, car):
@@ -98,15 +98,15 @@ def test_a_driver_who_does_not_answer_is_not_asked(course, car):
     drive, _ = braked.drive(course, car)
     first = replay(drive, course, simulate.run).tuned(car).demand["speed"]
     stubborn = lambda road, vehicle, **asked: simulate.run(road, vehicle, **{**asked, "speed": first})
-    assert pedals.listening(replay(drive, course, stubborn), car).by_foot is None
+    assert pedals.listening(replay(drive, course, stubborn), car).replay.by_foot is None
     other = lambda road, vehicle, **asked: simulate.run(road, vehicle, **asked)
-    assert pedals.listening(replay(drive, course, other), car).by_foot is not None
+    assert pedals.listening(replay(drive, course, other), car).replay.by_foot is not None
 
 
 def test_a_driver_who_is_held_to_what_he_drove_is_heard_anew_unless_what_he_missed_is_held_too(course, car):
     drive, _ = braked.drive(course, car)
     slow = replay(drive, course, simulate.run).tuned(car)
-    heard, run = pedals.listening(slow, car), slow.run(car)
+    heard, run = pedals.listening(slow, car).replay, slow.run(car)
     missed = heard.astray(run)["speed"]
     in_band = lambda again: in_its_band(heard, again.astray(run)["speed"])
     size = in_its_band(heard, missed).std()

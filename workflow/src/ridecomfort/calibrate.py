@@ -84,7 +84,7 @@ def problem(
     roads = list(road) if isinstance(road, (list, tuple)) else [road] * len(drives)
     each = pool.side_by_side(workers)
     fitted = [pair for pair in zip(drives, roads, strict=True) if pair[0].attrs.get("role", "fit") == "fit"]
-    replays = list(each(lambda pair: pedals.listening(replay(*pair, simulate, options=options), vehicle, effects or {}), fitted))
+    replays = list(each(lambda pair: pedals.listening(replay(*pair, simulate, options=options), vehicle, effects or {}).replay, fitted))
     if not replays:
         raise InputError("no drive has the role 'fit' (expected at least one)", place="drives")
     for name in signals:

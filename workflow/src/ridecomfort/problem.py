@@ -161,7 +161,7 @@ class Problem:
         another road, and come out at half of their size."""
         answer = self.paced[i] if self.paced else None
         found = again.following(vehicle, effects, ASTRAY if answer else again.strictly(ASTRAY), CORRECTED)
-        residual = found.replay.residual(found.replay.sample(found.run))
+        residual = found.residual()
         if answer and "speed" in found.astray:
             residual[:, again.compared] += answer.made_good(found.astray["speed"])
         return self._scaled(residual, i)

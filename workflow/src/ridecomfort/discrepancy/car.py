@@ -76,11 +76,11 @@ class Car:
         """Simulated minus measured signals (6, sample) behind the run-in of the model. What is missing of the path is made good without
         driving again."""
         found = self._following(values, index)
-        return self._on_path(index, found, found.replay.sample(found.run)) + self.exactness.get(index, 0.0)
+        return self._on_path(index, found) + self.exactness.get(index, 0.0)
 
-    def _on_path(self, index: int, found: Following, simulated: Simulated) -> np.ndarray:
+    def _on_path(self, index: int, found: Following) -> np.ndarray:
         """A residual (6, sample) as it would be had the driver kept to the measured path to the last millimetre, and to its speed."""
-        residual, steered, paced = found.replay.residual(simulated)[:, found.replay.compared], self.steered.get(index), self.paced.get(index)
+        residual, steered, paced = found.residual()[:, found.replay.compared], self.steered.get(index), self.paced.get(index)
         if steered and "lateral" in found.astray:
             residual = residual + steered.made_good(found.astray["lateral"] + found.replay.left)
         if paced and "speed" in found.astray:
@@ -92,8 +92,7 @@ class Car:
         known, simulated = self.driven.get(index, (None, None))
         if known == dict(values):
             return simulated
-        found = self._following(values, index)
-        return found.replay.sample(found.run)
+        return self._following(values, index).simulated
 
     def _following(self, values: Mapping[str, float], index: int) -> Following:
         """A drive along the measured path at the measured speed, as far as while values are fitted.
@@ -141,10 +140,9 @@ class Car:
 
         def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float]:
             following = self._led(replace(self.replays[index], kept_to={}), values)
-            again, simulated = following.replay, following.replay.sample(following.run)
-            residual = self._on_path(index, following, simulated)
+            again, residual = following.replay, self._on_path(index, following)
             missing = self._missing(values, index, again, residual) if exactly else self.exactness.get(index, 0.0)
-            return again.keeping(following.run, following.astray.get("speed")), simulated, residual, missing
+            return again.keeping(following.run, following.astray.get("speed")), following.simulated, residual, missing
 
         found = by_record(self, driven, indices)
         retuned = replace(
@@ -162,7 +160,7 @@ class Car:
             return 0.0
         vehicle, effects = with_values(self.vehicle, self.effects, values)
         found = fine.following(vehicle, {**self.quiet, **effects}, corrections=0)
-        return 4.0 / 3.0 * (self._on_path(index, found, fine.sample(found.run)) - residual)
+        return 4.0 / 3.0 * (self._on_path(index, found) - residual)
 
     def taking(self, other: Car, indices: Collection[int]) -> Car:
         """The same with these records as ``other`` has them."""

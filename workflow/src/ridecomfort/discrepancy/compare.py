@@ -78,7 +78,7 @@ def compare(
     def fill(i: int) -> None:
         drive = drives[i]
         count = drive.sizes["time"]
-        again = pedals.listening(replay(drive, road, simulate, options=options), *list(states.values())[-1])
+        again = pedals.listening(replay(drive, road, simulate, options=options), *list(states.values())[-1]).replay
         measured[i, :, :count], by_foot[i] = again.measured(), again.by_foot
         for name in DRIVEN:
             series[name][i, :count] = drive[name].values

@@ -104,7 +104,7 @@ def car(
 
     def tuned(job: tuple[Site, xr.Dataset]) -> Replay:
         site, drive = job
-        return _settled(pedals.listening(replay(drive, site.course, simulate, options=options), vehicle, effects))
+        return _settled(pedals.listening(replay(drive, site.course, simulate, options=options), vehicle, effects).replay)
 
     require_one_rate([drive for site in sites for drive in site.drives])
     replays = each_record(tuned, [(site, drive) for site in sites for drive in site.drives])

@@ -20,7 +20,7 @@ from ..errors import InputError
 from ..vocabulary import SIGNALS
 from . import mounting, path, pedals, place, turning
 from .record import acceleration, felt
-from .replay import Replay, Simulated, replay
+from .replay import Following, Simulated, replay
 
 PASSES = 3
 """Rounds of vehicle, mounting, clock and path; three more change the clock by 0.2 ms on the stand-in drives."""
@@ -81,9 +81,10 @@ def align(
         scale, offset = map(float, np.polyfit(drive["s"].values, way(work["s"].values), 1))
         work = place.driven(work, drive, way, scale, offset)
     moved_along, moved_aside = np.zeros(work.sizes["time"]), np.zeros(work.sizes["time"])
+    asked = lambda: replay(work, road, simulate, options=options)
     for _ in range(PASSES):
-        again = pedals.listening(replay(work, road, simulate, options=options), vehicle)
-        by_foot, simulated = again.by_foot, again(vehicle)
+        heard = pedals.listening(asked(), vehicle)
+        again, simulated, by_foot = heard.replay, heard.simulated, heard.replay.by_foot
         if drive.attrs["gravity"]:
             step = mounting.fit(again, simulated)
             work, fitted = mounting.corrected(work, step), fitted.then(step)
@@ -97,13 +98,12 @@ def align(
             scale, offset = scale * step_scale, offset * step_scale + step_offset
             work = place.driven(work, drive, way, scale, offset)
             work = work.assign(s=work["s"] + moved_along)
-        again = replace(replay(work, road, simulate, options=options), by_foot=by_foot).tuned(vehicle)
-        vehicle = _better(vehicle, better, again)
-        along, aside = path.wander(again, again(vehicle), vehicle, expected)
+        brought = replace(asked(), by_foot=by_foot).following(vehicle)
+        vehicle, simulated = _better(vehicle, better, brought)
+        along, aside = path.wander(brought.replay, simulated, vehicle, expected)
         work = work.assign(s=work["s"] + along, e=work["e"] + aside)
         moved_along, moved_aside = moved_along + along, moved_aside + aside
-    again = replace(replay(work, road, simulate, options=options), by_foot=by_foot).tuned(vehicle)
-    aligned = _without_gravity(work, again(vehicle))
+    aligned = _without_gravity(work, replace(asked(), by_foot=by_foot).following(vehicle).simulated)
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
         clock_offset=float(clock),
@@ -185,13 +185,16 @@ def _other_units(work: xr.Dataset, road, vehicle, simulate, options: Mapping) ->
     return "".join(f"; {name} is {found:.2g} times what the model does: is its unit right?" for name, found in far.items())
 
 
-def _better(vehicle, values: Mapping[str, float], again: Replay):
-    """The vehicle with these values if it brings the model closer to the drive, else as it was."""
+def _better(vehicle, values: Mapping[str, float], brought: Following) -> tuple[object, Simulated]:
+    """The vehicle with these values if it brings the model closer to the drive than as it was when its driver was ``brought`` there, else as it
+    was, and what it does."""
+    again, as_it_was = brought.replay, brought.simulated
     try:
         changed = vehicle.replace(**values)
-        return changed if place.misfit(again, again(changed)) < place.misfit(again, again(vehicle)) else vehicle
+        simulated = again(changed)
     except ValueError:  # beyond what is plausible, or the drive cannot be driven
-        return vehicle
+        return vehicle, as_it_was
+    return (changed, simulated) if place.misfit(again, simulated) < place.misfit(again, as_it_was) else (vehicle, as_it_was)
 
 
 def _on_path(work: xr.Dataset, lateral: float) -> xr.Dataset:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import fft
 from scipy.signal import csd, welch
 
 from ..vocabulary import SIGNALS
@@ -30,14 +31,17 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Paced:
-    """For a replay and what has the same ``compared``: what the six signals do per m/s at every frequency of its ``time``, (6, frequency)."""
+    """For a replay and what has the same ``compared``: what the six signals do per m/s at every frequency of so many samples as there are in
+    ``length``, (6, frequency)."""
 
     answer: np.ndarray
+    length: int
     compared: np.ndarray
 
     def made_good(self, missing: np.ndarray) -> np.ndarray:
         """Change of the residual (6, compared) when the vehicle comes to drive so much faster, ``missing`` (time,) in m/s."""
-        return np.fft.irfft(self.answer * np.fft.rfft(missing), missing.size, axis=-1)[:, self.compared]
+        change = fft.irfft(self.answer * fft.rfft(missing, self.length), self.length, axis=-1)
+        return change[:, : missing.size][:, self.compared]
 
 
 def paced(again: Replay, vehicle, effects=()) -> Paced | None:
@@ -55,14 +59,15 @@ def paced(again: Replay, vehicle, effects=()) -> Paced | None:
     frequency, own = welch(faster, rate, nperseg=length)
     together, powers = csd(faster, change, rate, nperseg=length)[1], welch(change, rate, nperseg=length)[1]
     answer = np.where(np.abs(together) ** 2 > COHERENT * own * powers, together / own, 0.0)
-    at = np.fft.rfftfreq(again.time.size, 1 / rate)
+    long = fft.next_fast_len(again.time.size, real=True)
+    at = fft.rfftfreq(long, 1 / rate)
     known = (at <= upper) * np.stack([np.interp(at, frequency, row.real) + 1j * np.interp(at, frequency, row.imag) for row in answer])
-    return Paced(known, again.compared)
+    return Paced(known, long, again.compared)
 
 
 def _swing(count: int, rate: float, upper: float) -> np.ndarray:
     """A speed (time,) in m/s that swings at all frequencies from SLOWEST to beyond ``upper``, alike."""
-    frequency = np.fft.rfftfreq(count, 1 / rate)
+    frequency = fft.rfftfreq(count, 1 / rate)
     phases = np.exp(2j * np.pi * np.random.default_rng(SEED).random(frequency.size))
-    swing = np.fft.irfft(((frequency > SLOWEST) & (frequency < 1.2 * upper)) * phases, count)
+    swing = fft.irfft(((frequency > SLOWEST) & (frequency < 1.2 * upper)) * phases, count)
     return SWING * swing / swing.std()

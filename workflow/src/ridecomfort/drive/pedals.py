@@ -41,16 +41,15 @@ ORDER = 4
 
 
 def listening(again, vehicle, effects=()):
-    """The ``Replay`` of a drive, ``again``, its driver brought to the measured speed and path, and to what the accelerometer tells of his foot.
-    Not where that helps little: the driver of another simulator may answer otherwise. Raises
-    InputError when the model cannot be driven."""
+    """The ``Following`` of a drive, ``again``, its driver brought to the measured speed and path, and to what the accelerometer tells of his
+    foot. Not where that helps little: the driver of another simulator may answer otherwise. Raises InputError when the model cannot be driven."""
     slow = again.following(vehicle, effects)
-    by_foot = band(slow.replay, slow.replay.sample(slow.run))
+    by_foot = band(slow.replay, slow.simulated)
     if by_foot is None:
-        return slow.replay
-    heard = replace(slow.replay, by_foot=by_foot)
-    before, after = replace(slow, replay=heard, astray=heard.astray(slow.run)), heard.following(vehicle, effects)
-    return after.replay if after.missed("speed") <= HELPED * before.missed("speed") else slow.replay
+        return slow
+    before = replace(slow, replay=replace(slow.replay, by_foot=by_foot))
+    after = before.brought(vehicle, effects)
+    return after if after.missed("speed") <= HELPED * before.missed("speed") else slow
 
 
 def words(bands: Iterable[tuple[float, float] | None]) -> str:

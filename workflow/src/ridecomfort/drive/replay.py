@@ -83,25 +83,54 @@ class Simulated:
 
 @dataclass(frozen=True)
 class Following:
-    """A ``replay``, the ``run`` that its driver makes on its own clock, and by how much that is ``astray``."""
+    """A ``replay``, and the ``run`` that its driver makes on its own clock; ``left_out``: quantities of which nothing counts as missing."""
 
     replay: Replay
     run: xr.Dataset
-    astray: Mapping[str, np.ndarray]
+    left_out: tuple[str, ...] = ()
+
+    @cached_property
+    def simulated(self) -> Simulated:
+        """The run at the measured instants."""
+        return self.replay.sample(self.run)
+
+    @cached_property
+    def astray(self) -> dict[str, np.ndarray]:
+        """By how much the run is astray (``Replay.astray``)."""
+        found = self.replay.astray(self.run, lambda: self.simulated)
+        return {name: missing for name, missing in found.items() if name not in self.left_out}
 
     def missed(self, name: str) -> float:
         """What is missing of speed (m/s) or path (m), rms; inf where that is not told."""
         return float(np.sqrt(np.mean(self.astray[name][self.replay.compared] ** 2))) if name in self.astray else np.inf
 
-    def without(self, name: str) -> Following:
-        """The same with nothing missing of one quantity."""
-        return replace(self, astray={other: missing for other, missing in self.astray.items() if other != name})
-
     def nearer(self, vehicle, effects=()) -> Following:
         """The same with its driver asked for what is missing."""
         again = self.replay.corrected(self.astray)
-        run = again.run(vehicle, effects)
-        return Following(again, run, again.astray(run))
+        return Following(again, again.run(vehicle, effects))
+
+    def brought(
+        self, vehicle, effects=(), allowed: Mapping[str, float] | None = None, corrections: int = CORRECTIONS
+    ) -> Following:
+        """The same with its driver corrected; arguments as for ``Replay.following``."""
+        allowed, found = self.replay.strictly(CLOSE) if allowed is None else allowed, self
+        for _ in range(corrections):
+            if all(found.missed(name) < allowed[name] for name in found.astray):
+                break
+            nearer = found.nearer(vehicle, effects)
+            helped = lambda one, share: one.missed("lateral") <= max(share * found.missed("lateral"), allowed["lateral"])
+            if "lateral" in found.astray and not helped(nearer, HELPED):
+                at_once = replace(found, replay=replace(found.replay, is_late=False))
+                plainly = at_once.nearer(vehicle, effects) if found.replay.is_late else nearer
+                if not helped(plainly, HELPED):
+                    return nearer if helped(nearer, 1.0) else replace(found, left_out=("lateral",)).nearer(vehicle, effects)
+                nearer = plainly
+            found = nearer
+        return found
+
+    def residual(self) -> np.ndarray:
+        """Simulated minus measured signals (``Replay.residual``), (6, time)."""
+        return self.replay.residual(self.simulated)
 
 
 @dataclass(frozen=True)
@@ -178,30 +207,15 @@ class Replay:
 
         Before that, a correction for a driver who is not late is tried. Raises InputError when the model cannot be driven.
         """
-        allowed = self.strictly(CLOSE) if allowed is None else allowed
-        run = self.run(vehicle, effects)
-        found = Following(self, run, self.astray(run))
-        for _ in range(corrections):
-            if all(found.missed(name) < allowed[name] for name in found.astray):
-                break
-            nearer = found.nearer(vehicle, effects)
-            helped = lambda one, share: one.missed("lateral") <= max(share * found.missed("lateral"), allowed["lateral"])
-            if "lateral" in found.astray and not helped(nearer, HELPED):
-                at_once = replace(found, replay=replace(found.replay, is_late=False))
-                plainly = at_once.nearer(vehicle, effects) if found.replay.is_late else nearer
-                if not helped(plainly, HELPED):
-                    return nearer if helped(nearer, 1.0) else found.without("lateral").nearer(vehicle, effects)
-                nearer = plainly
-            found = nearer
-        return found
+        return Following(self, self.run(vehicle, effects)).brought(vehicle, effects, allowed, corrections)
 
     def strictly(self, allowed: Mapping[str, float]) -> Mapping[str, float]:
         """What a driver may miss (rms, by quantity) where this is ``allowed`` and the speed that he misses is not made good."""
         return allowed if self.by_foot is None else {**allowed, "speed": OF_FOOT * allowed["speed"]}
 
-    def astray(self, run: xr.Dataset) -> dict[str, np.ndarray]:
+    def astray(self, run: xr.Dataset, sampled: Callable[[], Simulated] | None = None) -> dict[str, np.ndarray]:
         """By how much a simulated drive was too slow (m/s) and too far right (m) at the measured instants, as far as a driver is asked for it,
-        (time,).
+        (time,). ``sampled``: makes what ``sample`` does of the run.
 
         By the quantity that is asked for; one that was not measured, or that the simulator does not tell, is left out.
         """
@@ -215,7 +229,7 @@ class Replay:
             elif self.is_foot_kept and name in self.kept_to:
                 found[quantity] = pedals.driven(missing, rate, self.by_foot)
             else:
-                found[quantity] = pedals.missing_speed(self, self.sample(run), missing, self.by_foot)
+                found[quantity] = pedals.missing_speed(self, sampled() if sampled else self.sample(run), missing, self.by_foot)
         return found
 
     def keeping(self, run: xr.Dataset, missed: np.ndarray | None = None) -> Replay:
