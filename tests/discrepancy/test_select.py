@@ -320,3 +320,24 @@ def test_what_was_probed_from_the_same_rung_is_not_probed_again():
     again = select.search(rung, each=each, probed=first.probed)
     assert count == len(rung.experiment.candidates) and len(asked) == count
     assert again.accepted == first.accepted and again.final.values == first.final.values
+
+
+def test_an_effect_beside_which_the_error_grows_once_all_is_fitted_anew_is_taken_back_and_the_next_looked_for(monkeypatch):
+    """As of a second one of which drives that are aligned for it know nothing: its refit alone spoke for it."""
+    model = Linear(1, {"effect_1.size": 1.5, "effect_2.size": 1.0, "effect_4.size": 0.9})
+    first, second, third = select.select(model, {"stiffness": 0.0}, most=3).accepted
+    climbed = select.climb
+
+    def climb(experiment, values, sizes, *arguments, **settings):
+        rung = climbed(experiment, values, sizes, *arguments, **settings)
+        if f"{second}.size" not in {size.key for size in sizes}:
+            return rung
+        larger = {index: 1.5 * residual for index, residual in rung.fit.residuals.items()}
+        return replace(rung, fit=replace(rung.fit, residuals=larger), check={index: 1.5 * own for index, own in rung.check.items()})
+
+    monkeypatch.setattr(select, "climb", climb)
+    found = select.select(model, {"stiffness": 0.0}, most=3)
+    assert found.accepted == (first, third) and f"{second}.size" not in found.final.values
+    objections = {trial.name: trial.objection for trial in found.rounds[1].trials}
+    assert objections[second] == select.VAIN and not objections[third]
+    assert second in found.rounds[1].names and second not in found.rounds[1].passed_over

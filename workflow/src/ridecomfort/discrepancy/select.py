@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import allowance, bursts, cluster, probe, refit
+from . import allowance, bursts, cluster, floor, probe, refit
 from . import experiment as exp
 from .allowance import Allowance
 from .confirm import LEAST_SHARE, Confirmation, best
@@ -41,6 +41,9 @@ MINOR = 0.05
 SETTLED, FAR = 3, 0.25
 """Refits of a round that are settled, the best, and share of the largest gain below which none catches up. From there on shapes are
 fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
+
+VAIN = "makes the error larger once drives are aligned and all is fitted anew with it"
+"""What is said of an effect that is taken back."""
 
 ALIAS, LEAST_OWN = 0.05, 0.01
 """Share of the power that nuisances must leave of an error of an instrument or of what a tyre feels of the road, below which it is one
@@ -94,6 +97,8 @@ class _Search:
     shaped: set[str] = field(default_factory=set)
     """Keys of what shapes accepted effects and is fitted."""
     rounds: list[Round] = field(default_factory=list)
+    vain: dict[str, Trial] = field(default_factory=dict)
+    """Refits of effects that are VAIN beside those accepted, by name."""
     needless: set[str] = field(default_factory=set)
     """Names of accepted effects that the last fit does without."""
 
@@ -109,19 +114,23 @@ class _Search:
         rounds = self.rounds
         while len(self.accepted) < self.most:
             turn = self._round(len(rounds))
-            rounds.append(turn)
             if turn.winner is None:
+                rounds.append(turn)
                 break
+            reached = self._reached(turn.winner)
+            state = State.of(reached, turn.winner.name, reached.fit, reached.check)
+            if self.accepted and self._is_vain(states[-1], state):
+                self.say(f"not accepted: {turn.winner.name}, {VAIN}")
+                self.vain[turn.winner.name] = replace(turn.winner, objection=VAIN)
+                continue
+            rounds.append(turn)
+            self.rung, self.vain = reached, {}
+            self.shaped |= self._shaped_by(turn.winner)
             self.accepted.append(turn.winner.name)
-            self.shaped |= {size.key for size in self.by_name[turn.winner.name].shaping if size.key in turn.winner.fit.keys}
             self.say(f"accepted {turn.winner.name}")
             self.columns = {job: own for job, own in self.columns.items() if self.together(self.accepted, job[0])}
-            self.rung = climb(
-                self.rung.experiment, turn.winner.fit.values, self._sizes(), self.each, before=self.rung
-            )
-            self.rung = awake(self.rung, self._sizes(), self.by_name[turn.winner.name].sizes, self.each)
             self.sooner, _ = self._sooner()
-            states.append(State.of(self.rung, turn.winner.name, self.rung.fit, self.rung.check))
+            states.append(state)
         rung = self.rung
         final, frame, sure = self._final_fit()
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
@@ -138,6 +147,25 @@ class _Search:
             rung.check_frame, wider, self.probed, self._allowed(final, frame), frozenset(self.needless),
             bursts.of_repeats(rung.frame, rung.fit.residuals), rung.is_floor_known,
         )  # fmt: skip
+
+    def _shaped_by(self, winner: Trial) -> set[str]:
+        """Keys of what shapes the effect of a trial and was fitted."""
+        return {size.key for size in self.by_name[winner.name].shaping if size.key in winner.fit.keys}
+
+    def _reached(self, winner: Trial) -> Rung:
+        """The rung of a model with the effect of a trial as well."""
+        own = self.by_name[winner.name]
+        sizes = [*self._sizes(), *own_sizes(own, self.shaped | self._shaped_by(winner))]
+        rung = climb(self.rung.experiment, winner.fit.values, sizes, self.each, before=self.rung)
+        return awake(rung, sizes, own.sizes, self.each)
+
+    def _is_vain(self, before: State, after: State) -> bool:
+        """Whether an effect that its refit spoke for makes the error larger, and drives held out hardly better, once drives are aligned and all
+        is fitted anew with it."""
+        rung, first = self.rung, self.first
+        share = floor.explained_share(before.squares, after.squares, first.squares, rung.floor_squares)
+        held_out = floor.explained_share(before.held_out_squares, after.held_out_squares, first.held_out_squares, rung.held_out_floor_squares)
+        return share < -LEAST_SHARE and not held_out > LEAST_SHARE
 
     def _final_fit(self) -> tuple[Fit, Frame, set[str]]:
         """The fit whose sizes are told, its frame, and keys of the sizes that are there at all: without effects that the others do not need any
@@ -222,7 +250,7 @@ class _Search:
         columns = {job: self.columns[job] for job in jobs}
         found = propose(rung.frame, base.residuals, free, columns, self.by_name, [self.seed, number], self.known)
         self.confirmation = Confirmation(rung, self.by_name, self.first, found.rare, found.certain(), not self.accepted)
-        order = found.significant(PROPOSED)
+        order = [name for name in found.significant(PROPOSED + len(self.vain)) if name not in self.vain][:PROPOSED]
         self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
         likely = refit.information(rung.frame, base.residuals)
         self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self.sooner, likely)
@@ -243,9 +271,9 @@ class _Search:
                 rung.experiment, frames, base.values, winner, trials, found.columns
             )
         return Round(
-            found.names, found.p_value, found.gain, found.absorbed, tuple(trials), winner,
+            found.names, found.p_value, found.gain, found.absorbed, (*trials, *self.vain.values()), winner,
             like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
-            _passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials),
+            _passed_over(found, {trial.name for trial in tried if trial.gain < least}, [*trials, *self.vain.values()]),
         )  # fmt: skip
 
     def _as_is_typical(self, tried: Sequence[Trial], shapes: Mapping[str, int], attempt: Callable[[Job], Trial | None]) -> list[Trial]:
