@@ -19,7 +19,7 @@ ORDER = [
     {"road", "vehicle", "effects", "drive"},
     {"simulate", "space", "sample", "calibrated"},
     {"standin"},
-    {"problem", "descent", "identifiability", "calibrate"},
+    {"problem", "descent", "identifiability", "fitrecord", "calibrate"},
     {"comfort", "discrepancy"},
     {"report", "study", "config", "stepsettings"},
     {"steps", "commands", "__main__"},

@@ -9,7 +9,7 @@ a trust region that bends at the bounds; MINPACK's own "lm" knows no bounds).
 
 What alignment may have left of every drive's clock, path, speed and mounting (``drive.leftover``) is
 projected out of the residuals, about a first rough fit. A driver's foot is heard where the accelerometer tells it (``drive.pedals``), by
-every vehicle anew: springs would make up for braking that the model has not done. The clock no further than CLOCK_LEFT: a damping
+every vehicle anew: springs would make up for braking that the model has not done. The clock no further than ``replay.CLOCK_LEFT``: a damping
 would be fitted to a delay, or a delay to a damping. The intervals are those of a jackknife over stretches of the road
 (``identifiability.assess``); what alignment left moves them as far as it moves the fit.
 """
@@ -22,12 +22,12 @@ import numpy as np
 import xarray as xr
 from scipy.stats import qmc
 
-from . import identifiability, pool
+from . import fitrecord, identifiability, pool
 from . import simulate as simulator
 from .descent import Descent, descend
 from .drive import pedals
 from .drive.record import unstack
-from .drive.replay import CLOCK_LEFT, replay
+from .drive.replay import replay
 from .errors import InputError
 from .problem import Problem
 from .vehicle.parameters import PARAMETERS
@@ -49,17 +49,8 @@ EQUAL = 1e-4
 """Relative difference of cost within which two fits are equally good; the first of them stays, the nearest to the
 nominal vehicle where the data are silent."""
 
-DISAGREE = 0.01
-"""Relative difference of cost from which on two fits are different ones, and which is said."""
-
-AGREE = "agree"
-"""What is said of starts none of which led nowhere, and two of which at least found the best."""
-
 PROFILE_PLACES = 9
 """Places of a profile of the cost."""
-
-NEAR = 1e-12
-"""Share of the way between its bounds by which a parameter may miss one and be there."""
 
 BLOCK = 2.0
 """s; residuals at places farther apart than this at the mean speed are independent in the intervals."""
@@ -142,7 +133,7 @@ def calibrate(
     over ``step`` cost, iterations, evaluations, step_value, step_nrmse, stopped; over ``iteration`` the way there.
     Where asked for, over ``profile`` and ``place``: profile_value and profile_cost, the least cost with the parameter held
     there, up to twice its interval to either side. Attributes: stopping rule, remarks in words, and of these what
-    leaves open whether the best of the ``starts`` is the best there is (AGREE where nothing does), and what of the ``driver`` is heard by the
+    leaves open whether the best of the ``starts`` is the best there is (``fitrecord.AGREE`` where nothing does), and what of the ``driver`` is heard by the
     accelerometer (``drive.pedals``), empty where nothing is. Raises InputError.
     """
     if applied not in ("joint", "sequence"):
@@ -175,15 +166,15 @@ def calibrate(
     chosen = best.point if applied == "joint" else in_sequence
     jacobian = best.jacobian if applied == "joint" else task.jacobian(chosen, everything)
     knowledge = _assess(task, chosen, jacobian)
-    result = _dataset(task, starts[0], chosen, in_sequence, {**steps, "joint": best}, knowledge)
+    result = fitrecord.dataset(task, starts[0], chosen, in_sequence, {**steps, "joint": best}, knowledge)
     if profiles:
         result = result.merge(_profiles(task, chosen, knowledge, profiles))
     result["restart_cost"] = "restart", np.array([fit.cost for fit in fits])
     result["restart_value"] = ("restart", "parameter"), np.stack([task.values(fit.point) for fit in fits])
-    result["unit"] = "parameter", np.array([_unit(name, units or {}) for name in task.parameters])
-    of_starts, in_doubt = _of_starts(task, fits, best, refused)
+    result["unit"] = "parameter", np.array([fitrecord.unit(name, units or {}) for name in task.parameters])
+    of_starts, in_doubt = fitrecord.of_starts(task, fits, best, refused)
     remarks = [
-        *_clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge), *_of_clocks(result),
+        *fitrecord.clipped(task, nominal), *identifiability.remarks(list(task.parameters), chosen, knowledge), *fitrecord.of_clocks(result),
         *of_starts,
     ]  # fmt: skip
     result.attrs.update(
@@ -194,7 +185,7 @@ def calibrate(
         stopping_rule=f"relative change of cost or step below {tolerance:g} (scipy least_squares, trf: ftol, xtol)",
         drives=", ".join(again.drive.attrs["name"] for again in task.replays),
         remarks="; ".join(remarks) or "none",
-        starts="; ".join(in_doubt) or AGREE,
+        starts="; ".join(in_doubt) or fitrecord.AGREE,
         driver=pedals.words(again.by_foot for again in task.replays),
     )
     return result
@@ -223,7 +214,7 @@ def _from_elsewhere(
         except InputError as why:
             refused.append(str(why))
             continue
-        if not -EQUAL < found.cost / known.cost - 1 < DISAGREE:
+        if not -EQUAL < found.cost / known.cost - 1 < fitrecord.DISAGREE:
             found = descend(task, found.point, everything, tolerance, known=found.jacobian, exact=True)
         fits.append(found)
     return fits, refused
@@ -236,41 +227,6 @@ def _least(fits: Sequence[Descent]) -> int:
         if fit.cost < fits[best].cost * (1 - EQUAL):
             best = number
     return best
-
-
-def _of_clocks(result: xr.Dataset) -> list[str]:
-    """What is to be said of drives whose clock would go farther than it may."""
-    eager = result["drive"].values[np.abs(result["clock_correction"].values) >= CLOCK_LEFT]
-    said = f"the clock of {', '.join(eager)} would move by more than the {1e3 * CLOCK_LEFT:g} ms it is trusted to: "
-    lacks = "the model lacks something (mostly a delay, a damping or friction), or s is the distance of another point of the vehicle (alignment.md)"
-    if any("." in name for name in result["parameter"].values.tolist()):
-        lacks += (
-            ", or alignment, which knows effects at the sizes of a rough fit, took some of their delay for one of the clock: then a part of the error stays, "
-            "and the sizes of a verdict are nearer"
-        )
-    return [said + lacks] if eager.size else []
-
-
-def _of_starts(task: Problem, fits: Sequence[Descent], best: Descent, refused: Sequence[str]) -> tuple[list[str], list[str]]:
-    """What is to be said of starts that led nowhere, or elsewhere, and what of it leaves open whether the best was found: one start alone did."""
-    said, in_doubt = [], []
-    if refused:
-        said.append(f"{len(refused)} of {len(refused) + len(fits)} starts led to a vehicle that does not drive ({refused[0]})")
-        in_doubt += said
-    worst = max(fits, key=lambda fit: fit.cost)
-    above = worst.cost / best.cost - 1
-    if above > DISAGREE:
-        most = int(np.argmax(np.abs(worst.point - best.point)))
-        ends = [f"{task.values(fit.point)[most]:.4g}" for fit in (worst, best)]
-        cost = f"a cost {100 * above:.1f} % above the best" if above < 1.0 else f"{1.0 + above:.3g} times the cost of the best"
-        differ = f"the worst of {len(fits)} ends at {cost}, which is taken; they differ most in {task.parameters[most]}, {ends[0]} against {ends[1]}"
-        together = sum(fit.cost < best.cost * (1 + DISAGREE) for fit in fits)
-        if together > 1:
-            said.append(f"{together} of {len(fits)} starts end at the best, {differ}")
-        else:
-            said.append(f"starts disagree: {differ}; more of them (calibration: restarts) may find a better one")
-            in_doubt += said[-1:]
-    return said, in_doubt
 
 
 def effect_parameters(chosen, held: Mapping[str, Mapping[str, float]]) -> tuple[dict, dict]:
@@ -352,54 +308,6 @@ def _assess(task: Problem, point: np.ndarray, jacobian: np.ndarray) -> identifia
     )
 
 
-def _dataset(task, start, chosen, in_sequence, steps: Mapping[str, Descent], knowledge) -> xr.Dataset:
-    names = list(task.parameters)
-    width = task.upper - task.lower
-    bound = np.round(chosen)
-    value = task.values(np.where(np.abs(chosen - bound) < NEAR, bound, chosen))
-    verdicts = [identifiability.verdict(place, size) for place, size in zip(chosen, knowledge.half_width)]
-    left_over = task.left_over(chosen)
-    half = np.minimum(knowledge.half_width, 1.0) * width
-    deviation = np.sqrt(np.diag(knowledge.covariance))
-    with np.errstate(invalid="ignore"):
-        correlation = knowledge.covariance / np.outer(deviation, deviation)
-    path = [(label, point, cost) for label, step in steps.items() for point, cost in step.path]
-    return xr.Dataset(
-        {
-            "value": ("parameter", value),
-            "initial": ("parameter", task.values(start)),
-            "lower": ("parameter", task.lower),
-            "upper": ("parameter", task.upper),
-            "interval_lower": ("parameter", np.maximum(value - half, task.lower)),
-            "interval_upper": ("parameter", np.minimum(value + half, task.upper)),
-            "value_sequence": ("parameter", task.values(in_sequence)),
-            "verdict": ("parameter", np.array(verdicts)),
-            "correlation": (("parameter", "other"), correlation, {"units": "1", "long_name": "correlation of the estimates of two parameters"}),
-            "signal_share": (("parameter", "signal"), knowledge.information),
-            "singular_value": ("rank", knowledge.singular_values),
-            "cost": ("step", np.array([step.cost for step in steps.values()])),
-            "iterations": ("step", np.array([max(len(step.path) - 1, 0) for step in steps.values()])),
-            "evaluations": ("step", np.array([step.evaluations for step in steps.values()])),
-            "stopped": ("step", np.array([step.stopped for step in steps.values()])),
-            "step_value": (("step", "parameter"), np.stack([task.values(step.point) for step in steps.values()])),
-            "step_nrmse": (("step", "drive", "signal"), np.stack([step.nrmse for step in steps.values()])),
-            "initial_nrmse": (("drive", "signal"), task.nrmse(start)),
-            "clock_correction": ("drive", left_over[:, 0], {"units": "s"}),
-            "path_correction": ("drive", left_over[:, 1], {"units": "m"}),
-            "iteration_step": ("iteration", np.array([label for label, _, _ in path])),
-            "iteration_cost": ("iteration", np.array([cost for _, _, cost in path])),
-            "iteration_value": (("iteration", "parameter"), np.array([task.values(point) for _, point, _ in path]).reshape(-1, len(names))),
-        },
-        {
-            "parameter": names,
-            "other": names,
-            "signal": list(task.signals),
-            "step": list(steps),
-            "drive": [again.drive.attrs["name"] for again in task.replays],
-        },
-    )
-
-
 def _bounds(vehicle, parameters: Sequence[str], given: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
     """Bounds of the parameters in their order, those of effects behind them."""
     bounds = {}
@@ -428,15 +336,6 @@ def _started(task: Problem, nominal: Mapping[str, float], given: Mapping[str, fl
     return task.point([given.get(name, value) for name, value in nominal.items()])
 
 
-def _clipped(task: Problem, nominal: Mapping[str, float]) -> list[str]:
-    """A sentence on every parameter that the vehicle's file has outside of its bounds."""
-    return [
-        f"{name} is {nominal[name]:g} in the vehicle's file, outside of its bounds {lower:g} to {upper:g}"
-        for name, lower, upper in zip(task.parameters, task.lower, task.upper)
-        if not lower <= nominal[name] <= upper
-    ]
-
-
 def _nominal(vehicle, effects: Mapping[str, Mapping[str, float]], name: str) -> float:
     effect, dot, parameter = name.partition(".")
     if not dot:
@@ -445,7 +344,3 @@ def _nominal(vehicle, effects: Mapping[str, Mapping[str, float]], name: str) -> 
         return effects[effect][parameter]
     except KeyError:
         raise InputError(f"effect {effect!r} has no starting value of {parameter!r}", place=name) from None
-
-
-def _unit(name: str, units: Mapping[str, str]) -> str:
-    return PARAMETERS[name].unit if name in PARAMETERS else units.get(name, "")

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from scipy.stats import wilcoxon
 
-from ..calibrate import AGREE
+from ..fitrecord import AGREE
 from . import critical
 
 UNCALIBRATED, CALIBRATED = "uncalibrated", "calibrated"

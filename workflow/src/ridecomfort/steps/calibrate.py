@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 import xarray as xr
 
-from ridecomfort import calibrate, simulate, store
+from ridecomfort import calibrate, fitrecord, simulate, store
 from ridecomfort.effects import library
 from ridecomfort.steps.command import Command, counted, note
 from ridecomfort.vehicle import parameters
@@ -15,7 +15,7 @@ def main(road, measured, vehicle, config, output, workers, below=None):
     drives, course, car = store.read(measured), simulate.prepare(store.read(road)), parameters.read(vehicle)
     result = fitted(drives, course, car, config, int(workers), None if below is None else store.read(below))
     print(result.attrs["remarks"], file=sys.stderr)
-    if result.attrs["starts"] != calibrate.AGREE:
+    if result.attrs["starts"] != fitrecord.AGREE:
         note(result.attrs["starts"])
     result.attrs["calibrated_on"] = config["site"]
     store.write(
