@@ -140,6 +140,27 @@ def test_beside_a_sure_form_only_what_is_beyond_its_bounds_still_is_told(monkeyp
     assert told is None and righted.WITHIN in best.verdict.reasons
 
 
+@pytest.mark.parametrize(
+    ("form", "fits_better", "taken"),
+    [((0.99, 0.98), True, True), ((0.99, 0.98), False, False), ((0.96, 0.98), True, False), ((0.99, 0.93), True, False), (None, True, False)],
+)
+def test_names_beside_a_vehicle_put_right_give_way_to_a_form_within_the_bounds_that_leaves_less(monkeypatch, form, fits_better, taken):
+    """Dampers twice as firm with a knee did 97 and 92 % of what dry friction does whose name was taken out."""
+    monkeypatch.setattr(righted, "surely_fits_better", lambda proposal, selection: fits_better)
+    first, second = search(0.4, 0.5), search(0.97, 0.92, kind="named", parameters=ALONE)
+    plain, other = outcome(form=form), outcome("named")
+    found = righted.unless_a_form_alone(first, second, lambda search: plain if search is first else other)
+    assert found == ((plain, None) if taken else (other, ALONE))
+
+
+@pytest.mark.parametrize("kind", ["nothing", "outside", "suspect"])
+def test_a_vehicle_put_right_that_needs_no_name_is_not_held_against_a_form(kind):
+    first, second, asked = search(0.4, 0.5), search(0.97, 0.92, kind=kind, parameters=ALONE), []
+    other = outcome(kind)
+    assert righted.unless_a_form_alone(first, second, lambda search: asked.append(search) or other) == (other, ALONE)
+    assert asked == [second]
+
+
 @pytest.mark.parametrize(("ours", "theirs", "better"), [((NAN, NAN), (0.5, 0.5), False), ((0.7, NAN), (0.5, NAN), True), ((0.7, NAN), (0.5, 0.9), True)])
 def test_shares_that_are_not_known_decide_nothing(ours, theirs, better):
     assert righted.is_better(ours, (NAN, NAN), theirs) is better

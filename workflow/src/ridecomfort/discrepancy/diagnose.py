@@ -19,7 +19,7 @@ from .off_file import OffFile, off_file
 from .rank import ranked
 from .ranking import with_forms
 from .reconsider import beside_a_force, heard, humming, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
-from .righted import Outcome, Ranked, beside_the_vehicle, searched_again
+from .righted import Outcome, Ranked, beside_the_vehicle, searched_again, unless_a_form_alone
 from .rung import begin
 from .verdict import Verdict
 
@@ -49,7 +49,7 @@ def diagnose(
     if is_tried:
         found, second = searched_again(experiment, first.selection, common)
     if second is not None and second.leaves_nothing_out:
-        outcome, found = outcome_of(second), second.parameters
+        outcome, found = unless_a_form_alone(first, second, outcome_of)
     elif is_tried:
         outcome, found = beside_the_vehicle(first, outcome_of(first), found, second, outcome_of)
     else:

@@ -13,7 +13,7 @@ from .car import Car
 from .confirm import EQUAL
 from .discover import Discovery
 from .rank import ranked
-from .reconsider import MOST_LEFT, beside_a_force, is_sure, with_reason
+from .reconsider import MOST_LEFT, beside_a_force, is_sure, surely_fits_better, with_reason
 from .rung import Rung
 from .selection import Selection, shares
 from .verdict import Verdict
@@ -89,6 +89,22 @@ def searched_again(experiment: Car, before: Selection, common: Mapping) -> tuple
     return found, Ranked(table, verdict, after, rung, parameters) if parameters is not None else None
 
 
+def unless_a_form_alone(
+    first: Ranked, second: Ranked, outcome_of: Callable[[Ranked], Outcome]
+) -> tuple[Outcome, BeyondBounds | None]:
+    """The outcome of the ``second`` search, which leaves nothing out, and the parameters to tell with it; where it names effects beside these, that
+    of the ``first`` if a form within the bounds surely fits better and leaves MOST_LEFT, at most: with a knee, dampers twice as firm are nearly
+    dry friction."""
+    outcome = outcome_of(second)
+    if outcome.verdict.verdict not in ("named", "cluster"):
+        return outcome, second.parameters
+    plain = outcome_of(first)
+    if plain.sure is None or not surely_fits_better(plain.sure, second.selection):
+        return outcome, second.parameters
+    leaves_less = _leaves_less(_removed(first, first, plain.sure), _removed(first, second, None))
+    return (plain, None) if leaves_less else (outcome, second.parameters)
+
+
 def beside_the_vehicle(
     first: Ranked, outcome: Outcome, found: BeyondBounds | None, second: Ranked | None, outcome_of: Callable[[Ranked], Outcome]
 ) -> tuple[Outcome, BeyondBounds | None]:
@@ -117,8 +133,12 @@ def beside_the_vehicle(
 def is_better(ours: Shares, without_a_form: Shares, theirs: Shares) -> bool:
     """Whether what removes ``ours``, and without a form that much of it, is a better explanation than what removes ``theirs``: it leaves
     MOST_LEFT, at most, of what that leaves, on fitted drives and on those held out, or needs no form for as much."""
-    leaves_less = _all_known(lambda own, other: 1.0 - own <= MOST_LEFT * (1.0 - other), ours, theirs)
-    return leaves_less or _all_known(lambda own, other: own > other - EQUAL, without_a_form, theirs)
+    return _leaves_less(ours, theirs) or _all_known(lambda own, other: own > other - EQUAL, without_a_form, theirs)
+
+
+def _leaves_less(ours: Shares, theirs: Shares) -> bool:
+    """Whether what removes ``ours`` leaves MOST_LEFT, at most, of what that leaves which removes ``theirs``, on fitted and on held-out drives."""
+    return _all_known(lambda own, other: 1.0 - own <= MOST_LEFT * (1.0 - other), ours, theirs)
 
 
 def is_much(alone: Shares, theirs: Shares) -> bool:
