@@ -201,6 +201,14 @@ def test_what_is_missing_too_does_not_stand_in_for_another():
     assert said.startswith(f"{other} in the place of {winner.name} removes as much (")
 
 
+def test_drives_are_not_said_to_be_less_likely_with_what_gained_more_and_was_refused():
+    selection, found = judged(Linear(1, {"effect_2.size": 1.5}))
+    (turn, *others), winner = selection.rounds, selection.rounds[0].winner
+    refused = replace(winner, name="effect_4", gain=winner.gain + 30.0, objection=select.VAIN)
+    rounds = replace(turn, trials=(winner, refused)), *others
+    assert judge._nearly(replace(selection, rounds=rounds), found.effects[0]) == []
+
+
 def test_what_no_candidate_explains_is_said_to_lie_outside_the_library():
     model = Linear(4, {"effect_5.size": 0.6})
     model.candidates = model.candidates[:5]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -149,15 +150,29 @@ def test_names_beside_a_vehicle_put_right_give_way_to_a_form_within_the_bounds_t
     monkeypatch.setattr(righted, "surely_fits_better", lambda proposal, selection: fits_better)
     first, second = search(0.4, 0.5), search(0.97, 0.92, kind="named", parameters=ALONE)
     plain, other = outcome(form=form), outcome("named")
-    found = righted.unless_a_form_alone(first, second, lambda search: plain if search is first else other)
-    assert found == ((plain, None) if taken else (other, ALONE))
+    best, told = righted.unless_a_form_alone(first, None, second, lambda search: plain if search is first else other)
+    if taken:
+        assert best.proposed is plain.proposed and told is None and righted.TRIED in best.verdict.reasons
+    else:
+        assert (best, told) == (other, ALONE)
+
+
+def test_beside_such_a_form_parameters_are_told_as_wherever_a_vehicle_keeps_to_its_file(monkeypatch):
+    monkeypatch.setattr(righted, "surely_fits_better", lambda proposal, selection: True)
+    much, beside = replace(ALONE, share=0.8, held_out_share=0.7), beyond.BeyondBounds((BAR,), 0.1, 0.1)
+    first, second = search(0.4, 0.5), search(0.97, 0.92, kind="named", parameters=much)
+    plain = outcome(form=(0.99, 0.98))
+    outcome_of = lambda search: plain if search is first else outcome("named")
+    best, told = righted.unless_a_form_alone(first, None, second, outcome_of)
+    assert best is plain and told.is_instead and told.share == 0.8
+    assert righted.unless_a_form_alone(first, beside, second, outcome_of) == (plain, beside)
 
 
 @pytest.mark.parametrize("kind", ["nothing", "outside", "suspect"])
 def test_a_vehicle_put_right_that_needs_no_name_is_not_held_against_a_form(kind):
     first, second, asked = search(0.4, 0.5), search(0.97, 0.92, kind=kind, parameters=ALONE), []
     other = outcome(kind)
-    assert righted.unless_a_form_alone(first, second, lambda search: asked.append(search) or other) == (other, ALONE)
+    assert righted.unless_a_form_alone(first, None, second, lambda search: asked.append(search) or other) == (other, ALONE)
     assert asked == [second]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 from zlib import crc32
 
 import numpy as np
@@ -341,3 +342,12 @@ def test_an_effect_beside_which_the_error_grows_once_all_is_fitted_anew_is_taken
     objections = {trial.name: trial.objection for trial in found.rounds[1].trials}
     assert objections[second] == select.VAIN and not objections[third]
     assert second in found.rounds[1].names and second not in found.rounds[1].passed_over
+
+
+def test_what_was_refitted_for_one_that_was_taken_back_is_told_for_its_gain():
+    """Of six that are significant the first was taken back: the sixth was refitted, and gained little."""
+    names, found = tuple("abcdef"), SimpleNamespace(opposite=frozenset())
+    found.names, found.significant = names, lambda most: list(names)[:most]
+    trials = [SimpleNamespace(name=name) for name in "bcde"]
+    assert select._passed_over(found, {"f"}, trials, {"a"}) == {"f": "its refit gains less than 5 % of the best"}
+    assert select._passed_over(found, set(), trials) == {"a": "could not be simulated", "f": "not refitted: the 5 that gain most were"}

@@ -24,7 +24,7 @@ NEAR = 1e-12
 
 
 def dataset(task, start, chosen, in_sequence, steps: Mapping[str, Descent], knowledge) -> xr.Dataset:
-    """The Dataset of calibration.nc (``calibrate.calibrate``) but for units and words: of a ``task`` (``Problem``) from its point ``start``, with
+    """The Dataset of calibration.nc (``calibrate.calibrate``) but for units, words, profiles and restarts: of a ``task`` (``Problem``) from its point ``start``, with
     the ``chosen`` point, the one that the ``steps`` one after the other led to, ``in_sequence``, and what is known at the chosen one
     (``identifiability.Knowledge``)."""
     names = list(task.parameters)

@@ -36,7 +36,8 @@ def diagnose(
     stands beside that of the library (``ranking.forms``). ``signatures``: with the curves of what is missing (``missing_force``).
 
     Where parameters of the vehicle beyond their bounds may explain more, a second search begins with them: it is the answer if it leaves nothing
-    out or is the better explanation, else they are told beside the first (``righted``). Arguments as for ``rank``, but ``most``; ``name``: of
+    out, unless a form within the bounds leaves less than its names, or is the better explanation, else they are told beside the first
+    (``righted``). Arguments as for ``rank``, but ``most``; ``name``: of
     the effect that is proposed.
     """
     experiment = opening.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
@@ -49,7 +50,7 @@ def diagnose(
     if is_tried:
         found, second = searched_again(experiment, first.selection, common)
     if second is not None and second.leaves_nothing_out:
-        outcome, found = unless_a_form_alone(first, second, outcome_of)
+        outcome, found = unless_a_form_alone(first, found, second, outcome_of)
     elif is_tried:
         outcome, found = beside_the_vehicle(first, outcome_of(first), found, second, outcome_of)
     else:

@@ -236,7 +236,8 @@ def _nearly(selection: Selection, effect: Named) -> list[str]:
     told = []
     for trial in turn.trials:
         known = [(own, most) for own, most in zip(removed(trial), removed(turn.winner)) if np.isfinite(own) and np.isfinite(most)]
-        is_rival = trial.name not in (*selection.accepted, *effect.like) and all(own >= NEARLY * most > 0.0 for own, most in known)
+        is_less_likely = trial.gain < turn.winner.gain
+        is_rival = is_less_likely and trial.name not in (*selection.accepted, *effect.like) and all(own >= NEARLY * most > 0.0 for own, most in known)
         if is_rival and known and not _is_missing_too(selection, turn, trial.name):
             much, less = " and ".join(_percent(own) for own, _ in known), turn.winner.gain - trial.gain
             as_much = "as much" if all(own >= most for own, most in known) else "nearly as much"

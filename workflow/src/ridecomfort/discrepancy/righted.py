@@ -90,19 +90,20 @@ def searched_again(experiment: Car, before: Selection, common: Mapping) -> tuple
 
 
 def unless_a_form_alone(
-    first: Ranked, second: Ranked, outcome_of: Callable[[Ranked], Outcome]
+    first: Ranked, found: BeyondBounds | None, second: Ranked, outcome_of: Callable[[Ranked], Outcome]
 ) -> tuple[Outcome, BeyondBounds | None]:
     """The outcome of the ``second`` search, which leaves nothing out, and the parameters to tell with it; where it names effects beside these, that
-    of the ``first`` if a form within the bounds surely fits better and leaves MOST_LEFT, at most: with a knee, dampers twice as firm are nearly
-    dry friction."""
+    of the ``first``, with the parameters ``found`` beside it, if a form within the bounds surely fits better and leaves MOST_LEFT, at most: with a
+    knee, dampers twice as firm are nearly dry friction."""
     outcome = outcome_of(second)
     if outcome.verdict.verdict not in ("named", "cluster"):
         return outcome, second.parameters
     plain = outcome_of(first)
     if plain.sure is None or not surely_fits_better(plain.sure, second.selection):
         return outcome, second.parameters
-    leaves_less = _leaves_less(_removed(first, first, plain.sure), _removed(first, second, None))
-    return (plain, None) if leaves_less else (outcome, second.parameters)
+    ends = plain.sure.selection, second.selection
+    ours, theirs = (shares(first.selection, first.selection.states[0], end.states[-1], *ends) for end in ends)
+    return _kept(plain, found, second, ours) if _leaves_less(ours, theirs) else (outcome, second.parameters)
 
 
 def beside_the_vehicle(
@@ -123,8 +124,17 @@ def beside_the_vehicle(
             theirs = max(theirs, tuple(beside), key=_mean)
         if (other.verdict.verdict != "suspect" or second.table.attrs["suspected"] == "road") and is_better(_removed(first, second, other.sure), plain, theirs):
             return _put_right(first, second, other)
-        if found is None and is_much((second.parameters.share, second.parameters.held_out_share), theirs):
-            found = replace(second.parameters, is_first=False, is_instead=True)
+        return _kept(outcome, found, second, theirs)
+    return _kept(outcome, found)
+
+
+def _kept(
+    outcome: Outcome, found: BeyondBounds | None, second: Ranked | None = None, removes: Shares | None = None
+) -> tuple[Outcome, BeyondBounds | None]:
+    """The outcome of the first search, with the parameters ``found`` beside it, or those that a ``second`` search began with, if they alone do much of
+    what it ``removes``, or the word that such were tried."""
+    if found is None and second is not None and is_much((second.parameters.share, second.parameters.held_out_share), removes):
+        found = replace(second.parameters, is_first=False, is_instead=True)
     if found is None:
         outcome = replace(outcome, verdict=with_reason(outcome.verdict, outcome.verdict.verdict, TRIED))
     return outcome, found

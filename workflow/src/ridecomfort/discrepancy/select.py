@@ -3,7 +3,7 @@
 Forward selection. Each round tests every candidate on the white residual of the present
 model, refits the best few together with all that is calibrated, and keeps one only if it
 is significant over the whole library, plausible in size, worth its parameters (BIC) and
-makes drives better that it was never fitted to.
+makes drives better that it was never fitted to; a later one is taken back if, all drives aligned for it, the error grows.
 """
 
 from __future__ import annotations
@@ -251,7 +251,8 @@ class _Search:
         found = propose(rung.frame, base.residuals, free, columns, self.by_name, [self.seed, number], self.known)
         self.confirmation = Confirmation(rung, self.by_name, self.first, found.rare, found.certain(), not self.accepted)
         order = [name for name in found.significant(PROPOSED + len(self.vain)) if name not in self.vain][:PROPOSED]
-        self.say(f"round {number + 1}: {', '.join(order) or 'nothing significant'}")
+        again, nothing = (" again", "nothing else significant") if self.vain else ("", "nothing significant")
+        self.say(f"round {number + 1}{again}: {', '.join(order) or nothing}")
         likely = refit.information(rung.frame, base.residuals)
         self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self.sooner, likely)
         jobs, attempt = [found.best[name] for name in order], _Try(self.tries)
@@ -273,7 +274,7 @@ class _Search:
         return Round(
             found.names, found.p_value, found.gain, found.absorbed, (*trials, *self.vain.values()), winner,
             like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
-            _passed_over(found, {trial.name for trial in tried if trial.gain < least}, [*trials, *self.vain.values()]),
+            _passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials, self.vain),
         )  # fmt: skip
 
     def _as_is_typical(self, tried: Sequence[Trial], shapes: Mapping[str, int], attempt: Callable[[Job], Trial | None]) -> list[Trial]:
@@ -307,10 +308,11 @@ class _Search:
         return left, gone(left.power, before.power), before.z, gone(left.faster, before.faster), before.faster_z
 
 
-def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial]) -> dict[str, str]:
+def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial], vain: Collection[str] = ()) -> dict[str, str]:
     """Why candidates that are significant, or would be with the opposite sign, are not among the ``trials`` of a round; ``minor``: names of
-    those whose refits gain little."""
-    significant, judged = found.significant(len(found.names)), {trial.name for trial in trials}
+    those whose refits gain little, ``vain``: of those that were taken back, which are told elsewhere."""
+    significant = [name for name in found.significant(len(found.names)) if name not in vain]
+    judged = {trial.name for trial in trials}
     why = dict.fromkeys(found.opposite, "not refitted: the drives ask for the opposite sign, which is not plausible")
     why |= {name: f"not refitted: the {PROPOSED} that gain most were" for name in significant[PROPOSED:]}
     for name in significant[:PROPOSED]:

@@ -51,7 +51,7 @@ ASTRAY, CORRECTED = {"speed": 0.01, "lateral": 0.003}, 2
 that is done."""
 
 OF_FOOT = 0.2
-"""Share of CLOSE and ASTRAY that a speed may be missed by where it is known by the accelerometer, unless what is missing is made good
+"""Share of CLOSE and ASTRAY that a speed may be missed by where it is known by the accelerometer, of ASTRAY unless what is missing is made good
 (``paced``): 0.5 mm/s at 1 Hz are 3 mm/s2."""
 
 HELPED = 0.5
@@ -202,7 +202,7 @@ class Replay:
     def following(
         self, vehicle, effects=(), allowed: Mapping[str, float] | None = None, corrections: int = CORRECTIONS
     ) -> Following:
-        """The same with its driver corrected until he is off by less than is ``allowed`` (rms, by quantity; by default CLOSE): so many times at
+        """The same with its driver corrected until he is off by less than is ``allowed`` (rms, by quantity; by default CLOSE, ``strictly``): so many times at
         most, and not on where that helps little.
 
         Before that, a correction for a driver who is not late is tried. Raises InputError when the model cannot be driven.
