@@ -24,9 +24,11 @@ NEAR = 1e-12
 
 
 def dataset(task, start, chosen, in_sequence, steps: Mapping[str, Descent], knowledge) -> xr.Dataset:
-    """The Dataset of calibration.nc (``calibrate.calibrate``) but for units, words, profiles and restarts: of a ``task`` (``Problem``) from its point ``start``, with
-    the ``chosen`` point, the one that the ``steps`` one after the other led to, ``in_sequence``, and what is known at the chosen one
-    (``identifiability.Knowledge``)."""
+    """The Dataset of calibration.nc (``calibrate.calibrate``) but for units, words, profiles and restarts.
+
+    Of a ``task`` (``Problem``) from its point ``start``: with the ``chosen`` point, the one that the ``steps`` one after the other led to,
+    ``in_sequence``, and what is known at the chosen one (``identifiability.Knowledge``).
+    """
     names = list(task.parameters)
     width = task.upper - task.lower
     bound = np.round(chosen)

@@ -16,7 +16,7 @@ from .experiment import Candidate
 from .propose import HELD_OUT_Z
 from .refit import Fit
 from .rung import Rung, roles
-from .selection import State, Trial
+from .selection import State, Trial, removed
 from .shared import shared_power
 from .tries import implausible
 
@@ -78,10 +78,7 @@ class Confirmation:
         if not met:
             held_gain, held_z = float("nan"), float("nan")
         now, before, first = State.of(rung, candidate.name, fit, held), State.of(rung, "", rung.fit, rung.check), self.first
-        share = floor.explained_share(before.squares, now.squares, first.squares, rung.floor_squares)
-        held_share = floor.explained_share(
-            before.held_out_squares, now.held_out_squares, first.held_out_squares, rung.held_out_floor_squares
-        )
+        share, held_share = removed(first, before, now, rung.floor_squares, rung.held_out_floor_squares)
         trial = replace(
             trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met,
             before=before, after=now,

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import allowance, bursts, cluster, floor, probe, refit
+from . import allowance, bursts, cluster, probe, refit
 from . import experiment as exp
 from .allowance import Allowance
 from .confirm import LEAST_SHARE, Confirmation, best
@@ -24,7 +24,7 @@ from .probe import Job, Raw
 from .propose import Proposal, propose
 from .refit import Fit
 from .rung import Rung, awake, begin, climb, final_fit
-from .selection import Round, Selection, State, Trial
+from .selection import Round, Selection, State, Trial, removed
 from .shared import Shared, shared_error
 from .tries import LEAST_MOVED, Tries, own_sizes
 
@@ -162,9 +162,7 @@ class _Search:
     def _is_vain(self, before: State, after: State) -> bool:
         """Whether an effect that its refit spoke for makes the error larger, and drives held out hardly better, once drives are aligned and all
         is fitted anew with it."""
-        rung, first = self.rung, self.first
-        share = floor.explained_share(before.squares, after.squares, first.squares, rung.floor_squares)
-        held_out = floor.explained_share(before.held_out_squares, after.held_out_squares, first.held_out_squares, rung.held_out_floor_squares)
+        share, held_out = removed(self.first, before, after, self.rung.floor_squares, self.rung.held_out_floor_squares)
         return share < -LEAST_SHARE and not held_out > LEAST_SHARE
 
     def _final_fit(self) -> tuple[Fit, Frame, set[str]]:

@@ -137,9 +137,16 @@ class Selection:
 def shares(selection: Selection, before: State, after: State, *others: Selection | Rung) -> tuple[float, float]:
     """Share of the explainable error of a selection by which two models differ, on fitted and on held-out drives (nan without); above the
     floor of all that are given."""
-    first, given = selection.states[0], (selection, *others)
-    floor_squares = np.minimum.reduce([one.floor_squares for one in given])
-    held_out_floor_squares = np.minimum.reduce([one.held_out_floor_squares for one in given])
+    given = selection, *others
+    floors = (np.minimum.reduce([getattr(one, name) for one in given]) for name in ("floor_squares", "held_out_floor_squares"))
+    return removed(selection.states[0], before, after, *floors)
+
+
+def removed(
+    first: State, before: State, after: State, floor_squares: np.ndarray, held_out_floor_squares: np.ndarray
+) -> tuple[float, float]:
+    """Share of what was explainable of a ``first`` model by which two others differ, on fitted and on held-out drives (nan without), above these
+    floors, (record, channel)."""
     return (
         floor.explained_share(before.squares, after.squares, first.squares, floor_squares),
         floor.explained_share(before.held_out_squares, after.held_out_squares, first.held_out_squares, held_out_floor_squares),

@@ -202,8 +202,8 @@ class Replay:
     def following(
         self, vehicle, effects=(), allowed: Mapping[str, float] | None = None, corrections: int = CORRECTIONS
     ) -> Following:
-        """The same with its driver corrected until he is off by less than is ``allowed`` (rms, by quantity; by default CLOSE, ``strictly``): so many times at
-        most, and not on where that helps little.
+        """The same with its driver corrected until he is off by less than is ``allowed`` (rms, by quantity; by default CLOSE, ``strictly``): so
+        many times at most, and not on where that helps little.
 
         Before that, a correction for a driver who is not late is tried. Raises InputError when the model cannot be driven.
         """
