@@ -145,6 +145,19 @@ def test_what_the_figure_shortens_is_what_the_search_says():
     assert all(part in source for part in evidence.OBJECTIONS)
 
 
+def test_what_was_taken_back_is_told_in_a_few_words_that_fit_beside_its_bar():
+    found = made_up.diagnosis()
+    objections = found.ranking["trial_objection"].values.astype(object)
+    objections[objections != ""] = select.VAIN
+    found.ranking["trial_objection"] = "trial", objections.astype(str)
+    with style.styled():
+        each = diagnosed.figures(found)["evidence"]()
+        FigureCanvasAgg(each).draw()
+        box = each.get_tightbbox(FigureCanvasAgg(each).get_renderer())
+    assert box.x1 < each.get_size_inches()[0] + 0.02
+    assert any("taken back: error grows" in text.get_text() for text in each.findobj(Text))
+
+
 def test_the_missing_force_is_drawn_beside_what_the_named_effect_would_show():
     found = made_up.diagnosis()
     found.ranking.update(made_up.curves())

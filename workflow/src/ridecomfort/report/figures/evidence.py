@@ -43,6 +43,7 @@ OBJECTIONS = {
     "that gain most were": "not refitted",
     "its refit gains less": "refit gains too little",
     "opposite sign": "not refitted: opposite sign",
+    "makes the error larger": "taken back: error grows",
 }
 """How objections of the search are said in a few words, by a part of each."""
 
