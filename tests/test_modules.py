@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ridecomfort import modules
+from ridecomfort import discrepancy, modules
 
 STEPS = sorted(
     path.stem
@@ -40,7 +40,7 @@ def found():
     return {step: {Path(path).resolve() for path in modules.of_step(step)} for step in STEPS}
 
 
-@pytest.mark.parametrize("step", ["sample", "space", "thresholds"])
+@pytest.mark.parametrize("step", ["sample", "space", "thresholds", "compare"])
 def test_covers_what_python_loads(step, found):
     run = subprocess.run([sys.executable, "-c", LOADED, step], capture_output=True, text=True, check=True)
     loaded = {Path(line).resolve() for line in run.stdout.splitlines()}
@@ -56,6 +56,19 @@ def test_leaves_out_what_a_step_does_not_use(found):
     names = {path.relative_to(modules.PACKAGE).as_posix() for path in found["sample"]}
     assert "sample.py" in names and "steps/command.py" in names and "store.py" in names
     assert not any(name.startswith(("vehicle/", "comfort/", "report/", "standin/")) for name in names)
+
+
+@pytest.mark.parametrize("step", ["compare", "critical", "ladder", "located", "tables"])
+def test_what_compares_does_not_rest_on_the_search_for_effects(step, found):
+    names = {path.relative_to(modules.PACKAGE).as_posix() for path in found[step]}
+    assert any(name.startswith("discrepancy/") for name in names)
+    assert not {f"discrepancy/{search}.py" for search in ("select", "judge", "naming", "discovery", "diagnosis")} & names
+
+
+def test_the_functions_of_the_comparison_are_there_when_asked_for():
+    assert all(getattr(discrepancy, name).__name__ == name for name in discrepancy.MODULES)
+    with pytest.raises(AttributeError, match="no attribute 'guess'"):
+        discrepancy.guess
 
 
 def test_only_its_own_steps_use_the_stand_ins(found):

@@ -10,7 +10,7 @@ import xarray as xr
 from ..effects import library
 from . import experiment as exp
 from .car import Car
-from .discover import Discovery
+from .discovery import Discovery
 from .rung import Rung
 from .selection import Selection
 from .signature import signature

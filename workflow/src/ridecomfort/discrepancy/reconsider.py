@@ -10,7 +10,7 @@ import numpy as np
 from . import refit
 from .balance import CONFIRMED, DOUBTFUL, ENOUGH, LITTLE
 from .confirm import EQUAL
-from .discover import Discovery
+from .discovery import Discovery
 from .places import settings as shaping
 from .propose import SURE
 from .selection import Selection

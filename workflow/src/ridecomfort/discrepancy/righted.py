@@ -11,8 +11,8 @@ import xarray as xr
 from .beyond import BeyondBounds, before_effects, beyond_bounds, searched, still_beyond, without_effects
 from .car import Car
 from .confirm import EQUAL
-from .discover import Discovery
-from .rank import ranked
+from .discovery import Discovery
+from .naming import ranked
 from .reconsider import MOST_LEFT, beside_a_force, is_sure, surely_fits_better, with_reason
 from .rung import Rung
 from .selection import Selection, shares

@@ -10,7 +10,8 @@ import json
 import sys
 from pathlib import Path
 
-from ridecomfort import discrepancy, store
+from ridecomfort import store
+from ridecomfort.discrepancy.diagnosis import diagnose
 from ridecomfort.effects import library
 from ridecomfort.steps.command import Command, note
 from ridecomfort.study import digest
@@ -34,7 +35,7 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     known = library.find(config["effects_folder"])
     name = next(name for name in _names() if name not in known)
     told = {"among": config["among"], "noise_density": config["noise_density"], "signatures": True, "name": name}
-    table, found, proposal = discrepancy.diagnose(drives, car, **told, **settings)
+    table, found, proposal = diagnose(drives, car, **told, **settings)
     if settings["calibration"] is not None:
         table.attrs["calibrated"] = ", ".join(settings["calibration"]["parameter"].values.tolist())
     # By these it is known later whether another verdict speaks of the same drives.

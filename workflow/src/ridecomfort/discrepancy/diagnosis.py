@@ -11,12 +11,12 @@ from . import opening, turns
 from .balance import DOUBTFUL, total_shares
 from .beyond import BeyondBounds, at_bounds, ends_at_bounds
 from .car import Car
-from .discover import Discovery, discovered
+from .discovery import Discovery, discovered
 from .explain import REPEATS
 from .judge import with_allowances, with_bounds, with_held, with_parameters
 from .missing_force import missing_force
 from .off_file import OffFile, off_file
-from .rank import ranked
+from .naming import ranked
 from .ranking import with_forms
 from .reconsider import beside_a_force, heard, humming, is_doubtful, left, named_all_the_same, reconsidered, surely_fits_better
 from .righted import Outcome, Ranked, beside_the_vehicle, searched_again, unless_a_form_alone

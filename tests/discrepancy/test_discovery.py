@@ -11,7 +11,7 @@ import pytest
 
 from ridecomfort.discrepancy import select
 from ridecomfort.discrepancy.car import LONGEST
-from ridecomfort.discrepancy.discover import Discovery, heard_as, may_follow, proposed, terms_of
+from ridecomfort.discrepancy.discovery import Discovery, heard_as, may_follow, proposed, terms_of
 from ridecomfort.discrepancy.experiment import Candidate
 from ridecomfort.discrepancy.form import effect_source, in_words, typically
 from ridecomfort.discrepancy.places import PLACES, parameter, scale, settings
