@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 from zlib import crc32
 
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import probe, select, tries
+from ridecomfort.discrepancy import contest, probe, select, tries
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.rung import begin
 from ridecomfort.errors import InputError
@@ -249,7 +248,7 @@ def test_two_missing_effects_are_both_found():
 
 @pytest.mark.parametrize(("most", "why"), [(5, "its refit gains less than 5 % of the best"), (1, "not refitted: the 1 that gain most were")])
 def test_what_is_significant_and_not_judged_is_said_why(monkeypatch, most, why):
-    monkeypatch.setattr(select, "PROPOSED", most)
+    monkeypatch.setattr(contest, "PROPOSED", most)
     selection, _ = judged(Linear(2, {"effect_1.size": 1.0, "effect_4.size": 0.15}))
     first = selection.rounds[0]
     assert [trial.name for trial in first.trials] == ["effect_1"] and first.p_value[first.names.index("effect_4")] < 0.05
@@ -336,18 +335,12 @@ def test_an_effect_beside_which_the_error_grows_once_all_is_fitted_anew_is_taken
         larger = {index: 1.5 * residual for index, residual in rung.fit.residuals.items()}
         return replace(rung, fit=replace(rung.fit, residuals=larger), check={index: 1.5 * own for index, own in rung.check.items()})
 
+    refitted, refit = [], tries.Tries.first
+    monkeypatch.setattr(tries.Tries, "first", lambda self, job: refitted.append((job[0], id(self.rung))) or refit(self, job))
     monkeypatch.setattr(select, "climb", climb)
     found = select.select(model, {"stiffness": 0.0}, most=3)
     assert found.accepted == (first, third) and f"{second}.size" not in found.final.values
     objections = {trial.name: trial.objection for trial in found.rounds[1].trials}
     assert objections[second] == select.VAIN and not objections[third]
     assert second in found.rounds[1].names and second not in found.rounds[1].passed_over
-
-
-def test_what_was_refitted_for_one_that_was_taken_back_is_told_for_its_gain():
-    """Of six that are significant the first was taken back: the sixth was refitted, and gained little."""
-    names, found = tuple("abcdef"), SimpleNamespace(opposite=frozenset())
-    found.names, found.significant = names, lambda most: list(names)[:most]
-    trials = [SimpleNamespace(name=name) for name in "bcde"]
-    assert select._passed_over(found, {"f"}, trials, {"a"}) == {"f": "its refit gains less than 5 % of the best"}
-    assert select._passed_over(found, set(), trials) == {"a": "could not be simulated", "f": "not refitted: the 5 that gain most were"}
+    assert third in {name for name, _ in refitted} and all(refitted.count(own) == 1 for own in refitted), "others are not refitted again"

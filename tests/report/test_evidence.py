@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from ridecomfort.discrepancy import confirm, select, tries
+from ridecomfort.discrepancy import confirm, contest, select, tries
 from ridecomfort.discrepancy.ranking import FORMS
 from ridecomfort.report import diagnosed, style
 from ridecomfort.report.figures import evidence, signature
@@ -141,7 +141,7 @@ def test_a_round_with_nothing_left_to_test_is_drawn_and_told():
 
 
 def test_what_the_figure_shortens_is_what_the_search_says():
-    source = "".join(inspect.getsource(module) for module in (confirm, select, tries))
+    source = "".join(inspect.getsource(module) for module in (confirm, contest, select, tries))
     assert all(part in source for part in evidence.OBJECTIONS)
 
 
@@ -225,7 +225,7 @@ def test_evidence_of_many_rounds_fits_a_page(rounds):
     drawn = evidence.evidence(replace(found, ranking=_of_rounds(xr.concat([one, *more], "effect"), found.ranking, rounds)))
     assert drawn.get_size_inches()[1] < 9.6 and len(drawn.axes) == 2 * rounds
     bars = [len(axes.get_yticklabels()) for axes in drawn.axes[::2]]
-    assert min(bars) > select.PROPOSED
+    assert min(bars) > contest.PROPOSED
 
 
 def _of_rounds(one, ranking, rounds):

@@ -14,33 +14,23 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import allowance, bursts, cluster, probe, refit
+from . import allowance, bursts, probe, refit
 from . import experiment as exp
 from .allowance import Allowance
-from .confirm import LEAST_SHARE, Confirmation, best
+from .confirm import LEAST_SHARE
 from .consistency import birge_ratio
+from .contest import Contest
 from .experiment import Experiment, Frame
 from .probe import Job, Raw
-from .propose import Proposal, propose
 from .refit import Fit
 from .rung import Rung, awake, begin, climb, final_fit
 from .selection import Round, Selection, State, Trial, removed
 from .shared import Shared, shared_error
-from .tries import LEAST_MOVED, Tries, own_sizes
+from .tries import LEAST_MOVED, own_sizes
 
 EFFECTS = 5
 """Effects that are looked for, one after another. Cars of other programs differ from the model in three or four things at once, beside which
 one more may be missing; a search that ends before them leaves more than half of the error, and what it found has no name."""
-
-PROPOSED = 5
-"""Candidates that are refitted in a round."""
-
-MINOR = 0.05
-"""Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
-
-SETTLED, FAR = 3, 0.25
-"""Refits of a round that are settled, the best, and share of the largest gain below which none catches up. From there on shapes are
-fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
 
 VAIN = "makes the error larger once drives are aligned and all is fitted anew with it"
 """What is said of an effect that is taken back."""
@@ -111,9 +101,9 @@ class _Search:
         self.say(f"probing {len(self.by_name)} candidates")
         self.sooner, residuals = self._sooner()
         self.columns = self._probe(residuals)
-        rounds = self.rounds
+        rounds, contest = self.rounds, self._contest()
         while len(self.accepted) < self.most:
-            turn = self._round(len(rounds))
+            turn = contest.round(self.vain)
             if turn.winner is None:
                 rounds.append(turn)
                 break
@@ -131,6 +121,7 @@ class _Search:
             self.columns = {job: own for job, own in self.columns.items() if self.together(self.accepted, job[0])}
             self.sooner, _ = self._sooner()
             states.append(state)
+            contest = self._contest()
         rung = self.rung
         final, frame, sure = self._final_fit()
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
@@ -146,6 +137,15 @@ class _Search:
             tuple(self.accepted), bounds, frozenset(sure), final, *self._remaining(states[0].fit, rung.fit), rung.check,
             rung.check_frame, wider, self.probed, self._allowed(final, frame), frozenset(self.needless),
             bursts.of_repeats(rung.frame, rung.fit.residuals), rung.is_floor_known,
+        )  # fmt: skip
+
+    def _contest(self) -> Contest:
+        """The next round."""
+        columns = {job: own for job, own in self.columns.items() if job[0] not in self.accepted}
+        first_gain = self.rounds[0].winner.gain if self.accepted else 0.0
+        return Contest(
+            len(self.rounds), self.rung, self.by_name, self._sizes(), columns, self.sooner, self.first, first_gain,
+            self.seed, self.each, self.say, self.simpler, self.known,
         )  # fmt: skip
 
     def _shaped_by(self, winner: Trial) -> set[str]:
@@ -239,104 +239,9 @@ class _Search:
         least = lambda name: ALIAS if name in alias else LEAST_OWN
         return {job: found for job, found in kept.items() if self.rung.frame.own_shares(list(found.values())).max() > least(job[0])}
 
-    def _round(self, number: int) -> Round:
-        rung, base = self.rung, self.rung.fit
-        free = rung.frame.flats([rung.raw[size.key] for size in self._sizes() if refit.is_within(size, base.values)])
-        jobs = [job for job in self.columns if job[0] not in self.accepted]
-        if not jobs:
-            return Round.empty()
-        columns = {job: self.columns[job] for job in jobs}
-        found = propose(rung.frame, base.residuals, free, columns, self.by_name, [self.seed, number], self.known)
-        self.confirmation = Confirmation(rung, self.by_name, self.first, found.rare, found.certain(), not self.accepted)
-        order = [name for name in found.significant(PROPOSED + len(self.vain)) if name not in self.vain][:PROPOSED]
-        again, nothing = (" again", "nothing else significant") if self.vain else ("", "nothing significant")
-        self.say(f"round {number + 1}{again}: {', '.join(order) or nothing}")
-        likely = refit.information(rung.frame, base.residuals)
-        self.tries = Tries(rung, self.by_name, self._sizes(), self.columns, self.sooner, likely)
-        jobs, attempt = [found.best[name] for name in order], _Try(self.tries)
-        # The first shares its records among all cores: five by twos would leave one of two idle while the last is tried.
-        tried = [trial for trial in (*map(attempt, jobs[:1]), *self.each(attempt, jobs[1:])) if trial is not None]
-        tried = self._as_is_typical(tried, dict(jobs), attempt)
-        least = MINOR * max((trial.gain for trial in tried), default=0.0)
-        trials, winner = [], None
-        for stage in ([t for t in tried if t.gain >= least], [t for t in tried if t.gain < least]):
-            if winner is None:
-                trials += self._followed_up(stage)
-                winner = best(trials, self.simpler)
-        like, correlation, apart = (), {}, {}
-        if winner is not None:
-            frames = [frame for frame in (rung.frame, rung.check_frame) if frame is not None]
-            like, correlation, apart = cluster.cluster(
-                rung.experiment, frames, base.values, winner, trials, found.columns
-            )
-        return Round(
-            found.names, found.p_value, found.gain, found.absorbed, (*trials, *self.vain.values()), winner,
-            like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
-            _passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials, self.vain),
-        )  # fmt: skip
-
-    def _as_is_typical(self, tried: Sequence[Trial], shapes: Mapping[str, int], attempt: Callable[[Job], Trial | None]) -> list[Trial]:
-        """Refits with those of another shape (its number by name) than is typical, that gain much, in the typical one where that gains more.
-
-        The score test foresees what small sizes do: of a passenger it took half of the mass at twice the distance, which turns the car as much.
-        """
-        least = FAR * max((trial.gain for trial in tried), default=0.0)
-        again = [(trial.name, 0) for trial in tried if shapes[trial.name] and trial.gain >= least and (trial.name, 0) in self.columns]
-        typical = {trial.name: trial for trial in self.each(attempt, again) if trial is not None}
-        return [max(trial, typical.get(trial.name, trial), key=lambda one: one.gain) for trial in tried]
-
-    def _followed_up(self, tried: Sequence[Trial]) -> list[Trial]:
-        """Refits settled where they gain much, and judged, the best first; without those that cannot be simulated."""
-        leading = sorted(tried, key=lambda trial: trial.bic, reverse=True)
-        least = FAR * max([trial.gain for trial in leading], default=0.0)
-        best = [trial for trial in leading[:SETTLED] if trial.gain >= least]
-        least = max([least, *(LEAST_SHARE * turn.winner.gain for turn in self.rounds[:1])])
-        shaped = {trial.name for trial in best if trial.gain >= least and self.by_name[trial.name].shaping}
-        follow = _FollowUp(self, {trial.name for trial in best}, shaped)
-        # The first that gains much takes as long as all others: it is worth all cores.
-        alone, others = (leading[:1], leading[1:]) if leading and self.tries.is_large(leading[0].gain) else ([], leading)
-        followed = [*map(replace(follow, each=self.each), alone), *self.each(follow, others)]
-        return [trial for trial in followed if trial is not None]
-
     def _remaining(self, first: Fit, last: Fit) -> tuple[Shared, float, float, float, float]:
         """What all repeats still share, the share of it that is gone, and the z that it had at first; of what is faster than a driver the last
         two, too."""
         left, before = shared_error(self.rung.frame, last.residuals), shared_error(self.rung.frame, first.residuals)
         gone = lambda now, then: 1.0 - now / then if then > 0 else float("nan")
         return left, gone(left.power, before.power), before.z, gone(left.faster, before.faster), before.faster_z
-
-
-def _passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial], vain: Collection[str] = ()) -> dict[str, str]:
-    """Why candidates that are significant, or would be with the opposite sign, are not among the ``trials`` of a round; ``minor``: names of
-    those whose refits gain little, ``vain``: of those that were taken back, which are told elsewhere."""
-    significant = [name for name in found.significant(len(found.names)) if name not in vain]
-    judged = {trial.name for trial in trials}
-    why = dict.fromkeys(found.opposite, "not refitted: the drives ask for the opposite sign, which is not plausible")
-    why |= {name: f"not refitted: the {PROPOSED} that gain most were" for name in significant[PROPOSED:]}
-    for name in significant[:PROPOSED]:
-        why[name] = f"its refit gains less than {100 * MINOR:g} % of the best" if name in minor else "could not be simulated"
-    return {name: said for name, said in why.items() if name not in judged}
-
-
-@dataclass(frozen=True)
-class _Try:
-    tries: Tries
-
-    def __call__(self, job: Job) -> Trial | None:
-        return self.tries.first(job)
-
-
-@dataclass(frozen=True)
-class _FollowUp:
-    search: _Search
-    leading: Collection[str]
-    """Names of those whose refits are repeated where they gain much."""
-    shaped: Collection[str]
-    """Names of those whose shapes are fitted."""
-    each: Callable = map
-
-    def __call__(self, trial: Trial) -> Trial | None:
-        tries = replace(self.search.tries, each=self.each)
-        trial = tries.settled(trial) if trial.name in self.leading else trial
-        trial = tries.shaped(trial) if trial.name in self.shaped else trial
-        return self.search.confirmation(trial)
