@@ -69,6 +69,15 @@ def test_what_was_calibrated_is_fitted_again_within_its_bounds_and_nothing_twice
     assert next((size.lower, size.upper) for size in free if size.key == "roll_inertia") == (400.0, 600.0)
 
 
+def test_a_size_that_is_told_is_held_and_others_of_the_effect_are_fitted(made):
+    road = {"trial": (made.replays[0].road, [made.replays[0].drive])}
+    told = {"aerodynamic_drag": {"area": 0.64}, "damper_knee": {"knee": 0.1}, "suspension_friction": {}}
+    car = opening.opened(road, made.vehicle, effects=told, among=["crosswind"], workers=1)
+    fitted = {size.key for size in car.free if "." in size.key}
+    assert {key.partition(".")[0] for key in fitted} == {"damper_knee", "suspension_friction"} and "damper_knee.knee" not in fitted
+    assert car.effects["aerodynamic_drag"]["area"] == 0.64 and car.effects["damper_knee"]["knee"] == 0.1
+
+
 def test_drives_on_other_stretches_are_no_repeats_of_one_another(made):
     drive, road = made.replays[0].drive, made.replays[0].road
     half = int(0.6 * drive.sizes["time"])

@@ -199,3 +199,13 @@ def test_bounds_that_are_proposed_are_those_of_a_vehicle_and_read_as_numbers(pro
     names = ["tyre_radial_stiffness", "damping_front"]
     study = configuration.load({"sites": ["own"], "calibration": {"parameters": names, "bounds": given}}, project)
     assert study.settings["calibration"]["bounds"]["damping_front"] == [700, 30000]
+
+
+@pytest.mark.parametrize("verdict", ["named", "outside"])
+@pytest.mark.parametrize("form", [{}, PROPOSAL | {"share": None, "held_out_share": None}])
+def test_shares_of_an_error_that_none_was_explainable_of_are_unknown_and_no_reason_to_fail(verdict, form):
+    unknown = {"share": None, "held_out_share": None}
+    effects = [{**effect, **unknown} for effect in made_up.VERDICT["effects"]]
+    found = made_up.diagnosis({**made_up.VERDICT, **unknown, "verdict": verdict, "effects": effects, "proposal": form, "at_first": {"a_z": 0.002}})
+    said = " ".join(row["in_words"] for row in rows(diagnosed.tables(found)["verdict"]))
+    assert "an unknown share" in said

@@ -302,7 +302,8 @@ def _lateral_range(study: Study, name: str) -> tuple[float, float] | None:
 
 
 def _extremes(distribution: Mapping, runs: int) -> tuple[float, float]:
-    """Between which all of so many draws lie: the ends, of a normal distribution the middles of its outermost parts."""
+    """Between which so many draws lie but for chance: the ends, of a normal distribution the middles of its outermost parts, beyond which the
+    outermost draws may still lie."""
     ((kind, (first, second)),) = distribution.items()
     reach = second * NormalDist().inv_cdf(1.0 - 0.5 / runs)
     return (first - reach, first + reach) if kind == "normal" else (first, second)

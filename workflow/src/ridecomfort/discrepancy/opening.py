@@ -82,6 +82,7 @@ def car(
     bounds: Mapping[str, Sequence[float]] | None = None,
     uncertain: Mapping[str, float] | None = None,
     library_names: Sequence[str] | None = None,
+    held: Mapping[str, Mapping[str, float]] | None = None,
     simulate: Callable[..., xr.Dataset] = simulator.run,
     noise_density: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
     options: Mapping | None = None,
@@ -94,7 +95,8 @@ def car(
     ``bounds``: of the parameters that are calibrated (default tab:constraints). ``uncertain``: share by which further
     parameters of the vehicle may be wrong (default UNCERTAIN). ``noise_density``: of the instruments by site and drive, as for
     ``explain.explain``. ``library_names``: the effects to look
-    among, by default all of the library and of the user's folder but those of the model. ``each_record``: a ``map`` over drives.
+    among, by default all of the library and of the user's folder but those of the model. ``held``: sizes of ``effects`` that
+    are known. ``each_record``: a ``map`` over drives.
     """
     effects = {name: dict(sizes or {}) for name, sizes in (effects or {}).items()}
     fitted_on = list(fitted_on) if fitted_on else [sites[0].name]
@@ -117,8 +119,9 @@ def car(
     effects |= {effect.name: effect.values(effects[effect.name]) for effect in chosen}
     free = _parameters(vehicle, calibrate.BOUNDS if bounds is None else bounds, UNCERTAIN if uncertain is None else uncertain)
     for effect in chosen:
-        own = candidate(effect)
-        free += [replace(size, neutral=effects[effect.name][size.key.partition(".")[2]]) for size in own.sizes]
+        sizes, known_sizes = effects[effect.name], (held or {}).get(effect.name) or ()
+        own = ((size, size.key.partition(".")[2]) for size in candidate(effect).sizes)
+        free += [replace(size, neutral=sizes[name]) for size, name in own if name not in known_sizes]
     wanted = [name for name in sorted(known if library_names is None else library_names) if name not in effects]
     candidates = tuple(candidate(known[name].effect) for name in wanted)
     quiet = {name: known[name].effect.neutral for name in wanted if known[name].effect.port in COMPILED}
@@ -136,15 +139,16 @@ def opened(
 ) -> Car:  # fmt: skip
     """The experiment of ``measured`` drives, mapping of site to (road, aligned drives), beside a vehicle and its ``calibration``.
 
-    What was calibrated is fitted again, within ``bounds`` or those of the calibration; without one, the parameters of tab:constraints
-    and of ``bounds`` are. ``among``: names of the effects to look among; ``workers``: cores for drives side by side, by default all;
-    ``settings`` as for ``car``.
+    Sizes that ``effects`` tells are held, as in calibration. What was calibrated is fitted again, within ``bounds`` or those of the
+    calibration; without one, the parameters of tab:constraints and of ``bounds`` are. ``among``: names of the effects to look
+    among; ``workers``: cores for drives side by side, by default all; ``settings`` as for ``car``.
     """
+    held = dict(effects or {})
     vehicle, effects = apply(calibration, vehicle, effects)
     count = pool.workers() if workers is None else workers
     each = pool.side_by_side(count)
     limits = _calibrated_bounds(calibration, bounds or {})
-    return car(sites_of(measured), vehicle, effects=effects, bounds=limits, library_names=among, each_record=each, **settings)
+    return car(sites_of(measured), vehicle, effects=effects, bounds=limits, library_names=among, held=held, each_record=each, **settings)
 
 
 def _calibrated_bounds(calibration: xr.Dataset | None, given: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:

@@ -160,14 +160,15 @@ def _farther(one: Mapping) -> tuple[float, float]:
     return max(min(one["wider"][0], 0.5 * one["value"]), known.lower), min(max(one["wider"][1], 2.0 * one["value"]), known.upper)
 
 
-def _held(one: Mapping) -> float:
-    """Share that goes on drives held out, or without any on the fitted ones."""
-    return one["share"] if one["held_out_share"] is None else one["held_out_share"]
+def _shares(one: Mapping) -> tuple[float, float]:
+    """Shares that go on the fitted drives, 0 where nothing of their error was explainable, and on drives held out, or without any the same."""
+    fitted = one["share"] or 0.0
+    return fitted, fitted if one["held_out_share"] is None else one["held_out_share"]
 
 
 def _may_end(verdict: Mapping, *found: Mapping) -> str:
     """What is said before one of those ``found`` is to be switched on, of which none removes most of an error that is little."""
-    is_most = any(min(one["share"], _held(one)) >= ENOUGH for one in found)
+    is_most = any(min(_shares(one)) >= ENOUGH for one in found)
     return MAY_END if is_of_little(verdict["verdict"], verdict.get("at_first") or {}) and not is_most else ""
 
 
@@ -188,8 +189,8 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     go_on = GO_ON.format(keys=named)
     may_end = _may_end(said, said, *([proposal] if proposal.get("form") else []))
     if not proposal.get("form"):
-        return may_end + go_on if library_helps(said) and said["share"] >= LITTLE else NO_FORM + _left(said)
-    (fitted, held_out), (fitted_of_form, held_out_of_form) = ((one["share"], _held(one)) for one in (said, proposal))
+        return may_end + go_on if library_helps(said) and _shares(said)[0] >= LITTLE else NO_FORM + _left(said)
+    (fitted, held_out), (fitted_of_form, held_out_of_form) = map(_shares, (said, proposal))
     if (min if may_end else max)(fitted_of_form, held_out_of_form) < LITTLE:
         return may_end + go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
     file = Path(found.files.get("verdict", "")).parent / f"{proposal['name']}.py"
