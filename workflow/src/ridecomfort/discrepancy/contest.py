@@ -61,7 +61,7 @@ class Contest:
         order = [name for name in found.significant(PROPOSED + len(vain)) if name not in vain][:PROPOSED]
         again, nothing = (" again", "nothing else significant") if vain else ("", "nothing significant")
         self.say(f"round {self.number + 1}{again}: {', '.join(order) or nothing}")
-        tried = self._as_is_typical([trial for trial in self._refits([found.best[name] for name in order]) if trial is not None])
+        tried = self._as_is_typical(self._refits([found.best[name] for name in order]))
         least = MINOR * max((trial.gain for trial in tried), default=0.0)
         trials, winner = [], None
         for stage in ([t for t in tried if t.gain >= least], [t for t in tried if t.gain < least]):
@@ -97,12 +97,12 @@ class Contest:
         found = self.proposal
         return Confirmation(self.rung, self.candidates, self.first, found.rare, found.certain(), self.number == 0)
 
-    def _refits(self, jobs: Sequence[Job]) -> list[Trial | None]:
-        """The first refits of these jobs."""
+    def _refits(self, jobs: Sequence[Job]) -> list[Trial]:
+        """The first refits of these jobs; without those that cannot be simulated."""
         new, attempt = [job for job in jobs if job not in self.refitted], _Try(self.tries)
         # The first shares its records among all cores: five by twos would leave one of two idle while the last is tried.
         self.refitted |= zip(new, (*map(attempt, new[:1]), *self.each(attempt, new[1:])))
-        return [self.refitted[job] for job in jobs]
+        return [trial for job in jobs if (trial := self.refitted[job]) is not None]
 
     def _as_is_typical(self, tried: Sequence[Trial]) -> list[Trial]:
         """Refits with those of another shape than is typical, that gain much, in the typical one where that gains more.
@@ -112,9 +112,7 @@ class Contest:
         least = FAR * max((trial.gain for trial in tried), default=0.0)
         shaped = (trial.name for trial in tried if self.proposal.best[trial.name][1] and trial.gain >= least)
         again = [(name, 0) for name in shaped if (name, 0) in self.columns]
-        new, attempt = [job for job in again if job not in self.refitted], _Try(self.tries)
-        self.refitted |= zip(new, self.each(attempt, new))
-        typical = {job[0]: trial for job in again if (trial := self.refitted[job]) is not None}
+        typical = {trial.name: trial for trial in self._refits(again)}
         return [max(trial, typical.get(trial.name, trial), key=lambda one: one.gain) for trial in tried]
 
     def _followed_up(self, tried: Sequence[Trial]) -> list[Trial]:

@@ -18,7 +18,7 @@ from .propose import LEVEL, SURE
 from .selection import Round, Selection, shares
 from .shared import SLOW
 from .tries import LEAST_MOVED
-from .verdict import Named, Verdict, are_open, kind_of
+from .verdict import Named, Verdict, are_open, kind_of, percent
 
 MOST = 0.8
 """Share of what repeats share that an error of the measurement must take to be all that is wrong."""
@@ -95,16 +95,16 @@ def judge(
     if is_little and not (was_material or balance.is_left):
         if effects:
             names = ", ".join(effect.name for effect in effects)
-            held_out = f", {_percent(balance.held_out)} on drives held out" if np.isfinite(balance.held_out) else ""
+            held_out = f", {percent(balance.held_out)} on drives held out" if np.isfinite(balance.held_out) else ""
             removes = "removes" if len(effects) == 1 else "remove"
-            reasons.append(f"{names} would help, but {removes} too little to be what is missing: {_percent(balance.share)} of the explainable error{held_out}")
+            reasons.append(f"{names} would help, but {removes} too little to be what is missing: {percent(balance.share)} of the explainable error{held_out}")
         effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
     elif not is_vain:
         reasons += _removed(balance, found) if found else _unfound(selection)
         if found and balance.is_all_that_matters:
-            reasons.append(f"that is {_percent(1.0 - material_left)} of what repeats share and is worth explaining: {OF_DRIVER}")
+            reasons.append(f"that is {percent(1.0 - material_left)} of what repeats share and is worth explaining: {OF_DRIVER}")
         if found and balance.is_most_of_fast:
-            reasons.append(f"that is {_percent(selection.faster_gone)} of what repeats share above {SLOW:g} Hz: {OF_DRIVER}")
+            reasons.append(f"that is {percent(selection.faster_gone)} of what repeats share above {SLOW:g} Hz: {OF_DRIVER}")
     if is_little or balance.is_left and not effects:
         kind = "outside"
         reasons.append(_unexplained(selection, balance, is_little))
@@ -188,8 +188,8 @@ def with_allowances(verdict: Verdict, names: Collection[str]) -> Verdict:
 def _removed(balance: Balance, found: Sequence[Named]) -> list[str]:
     """How much of the explainable error the effects that were found remove, in words."""
     names = ", ".join(effect.name for effect in found)
-    held_out = [f"{_percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
-    return [f"{_percent(balance.share)} of the explainable error is removed on the fitted drives, by {names}", *held_out]
+    held_out = [f"{percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
+    return [f"{percent(balance.share)} of the explainable error is removed on the fitted drives, by {names}", *held_out]
 
 
 def _vain(found: Sequence[Named]) -> str:
@@ -239,7 +239,7 @@ def _nearly(selection: Selection, effect: Named) -> list[str]:
         is_less_likely = trial.gain < turn.winner.gain
         is_rival = is_less_likely and trial.name not in (*selection.accepted, *effect.like) and all(own >= NEARLY * most > 0.0 for own, most in known)
         if is_rival and known and not _is_missing_too(selection, turn, trial.name):
-            much, less = " and ".join(_percent(own) for own, _ in known), turn.winner.gain - trial.gain
+            much, less = " and ".join(percent(own) for own, _ in known), turn.winner.gain - trial.gain
             as_much = "as much" if all(own >= most for own, most in known) else "nearly as much"
             told.append(f"{trial.name} in the place of {effect.name} removes {as_much} ({much}), but drives are less likely with it: 2 ln L is lower by {less:.0f}")
     return told
@@ -289,7 +289,7 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
         elif not any(size.key in selection.sure for size in by_name[effect.name].sizes):
             reasons.append(f"{effect.name} helps, but its size may as well be none")
         elif same:
-            reasons.append(f"{effect.name} adds {_percent(effect.share)}, which may be another shape of {same}")
+            reasons.append(f"{effect.name} adds {percent(effect.share)}, which may be another shape of {same}")
         elif moments:
             reasons.append(f"{effect.name} helps in {moments}, less than what drives differ by there within moments: it may stand in for what a driver did")
         elif not shared and effect.p_value > SURE:
@@ -419,7 +419,3 @@ def _held(size: Size, value: float) -> dict:
         "unit": size.unit,
         "is_typical": bool(is_typical),
     }
-
-
-def _percent(share: float) -> str:
-    return f"{round(100 * share)} %" if np.isfinite(share) else "an unknown share"

@@ -143,8 +143,7 @@ def opened(
     calibration; without one, the parameters of tab:constraints and of ``bounds`` are. ``among``: names of the effects to look
     among; ``workers``: cores for drives side by side, by default all; ``settings`` as for ``car``.
     """
-    held = dict(effects or {})
-    vehicle, effects = apply(calibration, vehicle, effects)
+    held, (vehicle, effects) = effects, apply(calibration, vehicle, effects)
     count = pool.workers() if workers is None else workers
     each = pool.side_by_side(count)
     limits = _calibrated_bounds(calibration, bounds or {})

@@ -152,6 +152,11 @@ def is_of_little(kind: str, at_first: Mapping[str, float]) -> bool:
     return kind in IS_MISSING and max(at_first.values(), default=1.0) < SMALL
 
 
+def percent(share: float | None) -> str:
+    """A share of the explainable error in words; nan, or None in a file, where nothing was explainable."""
+    return f"{round(100 * share)} %" if share is not None and np.isfinite(share) else "an unknown share"
+
+
 def sentence(reason: str) -> str:
     """A reason as a sentence; one that begins with the name of an effect or a drive keeps it as it is written."""
     first = reason.partition(" ")[0]

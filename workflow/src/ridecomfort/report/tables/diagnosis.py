@@ -14,7 +14,7 @@ from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.refit import AT_BOUND
 from ...discrepancy.terms import SIDE
-from ...discrepancy.verdict import first_sentence, sentence
+from ...discrepancy.verdict import first_sentence, percent, sentence
 from ...effects.contract import PORTS
 from ...study import BASE, JOIN
 from .. import catalogue
@@ -53,18 +53,13 @@ NO_FORMS = "No force of any form was looked for: the library explains the error,
 
 def _checked(found: Mapping) -> str:
     """What of the error goes on drives held out, if there are any."""
-    return "" if found["held_out_share"] is None else f", {100 * found['held_out_share']:.0f} % on drives held out"
-
-
-def _fitted(found: Mapping) -> str:
-    """What of the error goes on the fitted drives, if any of it was explainable."""
-    return "an unknown share" if found["share"] is None else f"{100 * found['share']:.0f} %"
+    return "" if found["held_out_share"] is None else f", {percent(found['held_out_share'])} on drives held out"
 
 
 def _promise(proposal: Mapping) -> str:
     """What a proposed form removes of the error, and how sure it is."""
     checked = _checked(proposal)
-    fitted = f"{_fitted(proposal)} of the explainable error on the fitted drives"
+    fitted = f"{percent(proposal['share'])} of the explainable error on the fitted drives"
     little = ": too little to be what is missing" if (proposal["share"] or 0.0) < LITTLE else ""
     return f"{fitted}{checked} (p = {proposal['p_value']:.2g}){little}."
 
@@ -83,7 +78,7 @@ def verdict(found: Diagnosis) -> Table:
     if advice.library_helps(said):
         take = "together take" if len(said["effects"]) > 1 else "takes"
         role = "beside the proposed form" if said.get("is_beside_form") else "and may stand in for what is missing"
-        taken = f"{', '.join(names)} {take} {_fitted(said)} on the fitted drives{_checked(said)}, {role}."
+        taken = f"{', '.join(names)} {take} {percent(said['share'])} on the fitted drives{_checked(said)}, {role}."
         rows.append(("in the library", taken))
     if proposal.get("form"):
         of_side = f"; {OF_SIDE}" if SIDE in proposal["form"] else ""
@@ -114,7 +109,7 @@ def _found(effect: Mapping) -> str:
     """The sizes of an effect with their intervals, and what it removes; of an error of the measurement, what that is comes first."""
     what = f"{literal(sentence(effect['sentence'].removesuffix('.')))} " if effect.get("is_of_measurement") else ""
     sizes = sentence(", ".join(map(_size, effect["sizes"])))
-    return f"{what}{sizes} It takes {_fitted(effect)} of the explainable error{_checked(effect)}."
+    return f"{what}{sizes} It takes {percent(effect['share'])} of the explainable error{_checked(effect)}."
 
 
 def _before(effect: Mapping) -> str:
