@@ -90,6 +90,35 @@ def test_slip_builds_up_over_the_relaxation_length_at_any_speed(speed):
     assert slips[0] == slips[2] == 0.0
 
 
+@pytest.mark.parametrize("speed", [5.0, 30.0])
+def test_rolling_radius_shrinks_by_its_share_of_the_load(speed):
+    """A wheel that turns as fast as that radius asks for has no slip."""
+    share, load, radius = 4e-6, 6000.0, 0.32
+    smaller = radius * (1 - share * (load - 4000.0))
+    slip = (speed / smaller) * radius / speed - 1.0
+    slip_x, slip_y, pull = planar("tyre_rolling_radius", share, slip_x=slip, slip_y=0.02, load=load, speed=speed)
+    assert slip_x == pytest.approx(0.0, abs=1e-4)
+    assert (slip_y, pull) == (0.02, 0.0)
+
+
+def test_rolling_radius_that_goes_by_the_load_jolts_the_car_with_the_inertia_of_its_wheels(car):
+    """On waves of the wheelbase all loads swing alike: a_x is -J v / (R^2 m) times the radius lost per load times the rate of all loads, which
+    carry the body as it heaves and the axles, which follow the road."""
+    share, speed, height = 2e-5, 4.0, 0.005
+    turns = 2 * np.pi / car["wheelbase"]
+    ground = road(200.0, height=lambda u, v: height * np.sin(turns * u) + 0 * v)
+    effects = {"tyre_rolling_radius": {"per_load": share}}
+    there, without = (drive(ground, car, effects=own, speed=speed).isel(time=slice(-1000, None)) for own in (effects, []))
+    unsprung = 2 * (car["unsprung_mass_front"] + car["unsprung_mass_rear"])
+    axles = -height * (turns * speed) ** 2 * np.sin(turns * (without.s.values + car["cg_to_front_axle"]))
+    loads = car["sprung_mass"] * without.a_z.values + unsprung * axles
+    per_rate = car["wheel_spin_inertia"] * speed / (car["tyre_radius"] ** 2 * (car["sprung_mass"] + unsprung))
+    foreseen = -per_rate * share * np.gradient(loads, 0.01)
+    added = (there.a_x - without.a_x).values
+    wave = np.exp(-1j * turns * without.s.values) * np.hanning(added.size)
+    assert (added @ wave) / (foreseen @ wave) == pytest.approx(1.0, abs=0.1)
+
+
 def test_rolling_resistance_is_a_share_of_the_load_against_the_motion():
     assert planar("rolling_resistance", 0.012)[2] == pytest.approx(-48.0)
     assert planar("rolling_resistance", 0.012, speed=-20.0)[2] == pytest.approx(48.0)
