@@ -94,10 +94,11 @@ STUDY_MISTAKES = [
     ({"comfort": {"sections": "gliding"}}, "comfort: sections: 'gliding', expected one of sequential, sliding"),
     ({"comfort": {"jerk": {"seated": [2.9, -2.9]}}}, "jerk: seated: [2.9, -2.9], expected the lower value first"),
     ({"comfort": {"jerk": {"seated": [-2.9]}}}, "jerk: seated: [-2.9], expected at least 2 entries"),
-    ({"comfort": {"jerk": {"seated": [2.9, 2.9]}}}, "comfort: jerk: seated: [2.9, 2.9], expected a lower value and one above it"),
+    ({"comfort": {"jerk": {"seated": [2.9, 2.9]}}}, "comfort: jerk: seated: [2.9, 2.9], expected a value below 0 and one above it"),
+    ({"comfort": {"jerk": {"seated": [0, 2.9]}}}, "comfort: jerk: seated: [0, 2.9], expected a value below 0 and one above it"),
     (
         {"comfort": {"thresholds": {"a_z": {"PT": [0.1, 0.1], "ND": [-0.1, 0.1], "AG": [-0.3, 0.3]}}}},
-        "comfort: thresholds: a_z: PT: [0.1, 0.1], expected a lower value and one above it",
+        "comfort: thresholds: a_z: PT: [0.1, 0.1], expected a value below 0 and one above it",
     ),
     ({"comfort": {"thresholds": {"a_x": {"PT": [-1, 1, 2], "ND": [-2, 2], "AG": [-5, 3]}}}}, "2, expected text"),
     ({"comfort": {"iri": {"wheel_tracks": [0.75, -0.75]}}}, "wheel_tracks: [0.75, -0.75], expected the lower value first"),

@@ -95,7 +95,7 @@ def test_configured_bands():
     assert limits.bands({"a_z": {"AG": [-0.2, 0.2, "own survey"]}})["a_z"]["AG"].source == "own survey"
     mixed = limits.bands({"a_y": {"AG": [-5, 5], "PT": [-1, 1], "ND": [-3, 3]}})
     assert list(mixed["a_y"]) == ["PT", "ND", "AG"]  # mildest first, in whatever order they are written
-    with pytest.raises(InputError, match=r"thresholds: a_x: PT: \[2, -1\], expected a lower value and one above it"):
+    with pytest.raises(InputError, match=r"thresholds: a_x: PT: \[2, -1\], expected a value below 0 and one above it"):
         limits.bands({"a_x": {"PT": [2, -1]}})
     with pytest.raises(InputError, match="expected PT"):
         thresholds.evaluate([shard()], {"a_x": {"PT": [-1, 1]}, "a_y": {"ND": [-1, 1]}})

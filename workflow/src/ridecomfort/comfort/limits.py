@@ -23,8 +23,8 @@ class Band:
     source: str = ""
 
     def __post_init__(self) -> None:
-        if not self.lower < self.upper:
-            raise InputError(f"[{self.lower}, {self.upper}], expected a lower value and one above it")
+        if not self.lower < 0 < self.upper:
+            raise InputError(f"[{self.lower}, {self.upper}], expected a value below 0 and one above it")
 
 
 ACCELERATION = {
@@ -67,7 +67,7 @@ def jerk_bands(configured: Mapping | None = None) -> dict[str, Band]:
 def band(configured, published: Band | None = None, place: str = "threshold") -> Band:
     """A band from ``[lower, upper]`` or ``[lower, upper, source]``; with the figures of a published one, that one.
 
-    Raises InputError, which names the ``place``, where the upper value does not lie above the lower one.
+    Raises InputError, which names the ``place``, where they do not lie on either side of 0.
     """
     if isinstance(configured, Band):
         return configured

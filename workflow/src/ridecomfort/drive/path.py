@@ -134,7 +134,7 @@ def find_offset(work: xr.Dataset, road, vehicle, simulate, options: Mapping, aro
         trials = np.arange(middle - round(reach / STEP), middle + round(reach / STEP) + 1) * STEP
         trials = trials[(trials >= right - TIE) & (trials <= left + TIE)]
         if trials.size < 3:
-            return 0.0
+            return middle * STEP
         misfits = [misfit(trial) for trial in trials]
         if max(misfits) - min(misfits) < NO_BETTER:
             return middle * STEP
