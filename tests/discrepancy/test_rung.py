@@ -70,7 +70,7 @@ def test_where_nil_is_best_it_stays():
 class Held(Linear):
     """The same where drives, once they are aligned for a model, hold effect_2 back: they change otherwise than it does as it grows."""
 
-    size = 0.0
+    size, hold = 0.0, 5.0
 
     def retuned(self, values, indices, exactly=False):
         tuned = copy(self)
@@ -78,7 +78,7 @@ class Held(Linear):
         return tuned, {index: tuned.residual(values, index) for index in indices}
 
     def residual(self, values, index):
-        off = 5.0 * (values.get(KEY, 0.0) - self.size)
+        off = self.hold * (values.get(KEY, 0.0) - self.size)
         return super().residual(values, index) + off * self.columns[index]["effect_5.size"]
 
 
@@ -89,6 +89,15 @@ def test_a_fit_that_alignment_holds_back_is_carried_on():
     assert rung.fit.values[KEY] < 0.5
     fit, _ = final_fit(rung, sizes)
     assert fit.values[KEY] == pytest.approx(2.5, abs=0.1)
+
+
+def test_above_another_drives_are_aligned_anew_while_the_fit_gains_much_by_it():
+    model = Held(3, {KEY: 2.5})
+    model.hold = 1.0  # an alignment lets it come half of its way
+    start, sizes = {"stiffness": 0.0, KEY: 0.0}, [*model.free, model.candidates[2].sizes[0]]
+    base = climb(model, start, model.free)
+    reached = [climb(model, start, sizes, before=before).fit.values[KEY] for before in (None, base)]
+    assert reached[0] < 1.5 and reached[1] == pytest.approx(2.5, abs=0.2)
 
 
 def test_what_a_fit_leaves_is_told_of_drivers_who_are_brought_to_the_path_for_it():

@@ -53,20 +53,24 @@ class Edged(Linear):
 
     def edge(self):
         error = np.zeros((4, SAMPLES))
-        error[:, 2000:2010] = 30.0
+        error[:, 2000:2010] = 10.0
         return error
 
 
-@pytest.mark.parametrize("is_known", [True, False])
-def test_an_edge_that_every_simulation_meets_otherwise_hides_no_effect_where_it_is_known_to(is_known):
-    model = Edged(8, {"stiffness": 0.7, "effect_2.size": 0.5})
-    model.inexact = {index: model.edge() for index in range(4)} if is_known else {}
-    selection, found = judged(model)
-    if is_known:
-        assert found.verdict == "named" and [e.name for e in found.effects] == ["effect_2"]
-        assert found.effects[0].sizes[0]["size"] == pytest.approx(0.5, abs=0.1)
-    else:
-        assert "effect_2" not in selection.accepted
+def named_beside_an_edge(is_known):
+    """Of five cars those whose missing effect is named."""
+    found = []
+    for seed in range(5):
+        model = Edged(seed, {"stiffness": 0.7, "effect_2.size": 0.5})
+        model.inexact = {index: model.edge() for index in range(4)} if is_known else {}
+        found.append(judged(model)[1])
+    return [one for one in found if one.verdict == "named" and [effect.name for effect in one.effects] == ["effect_2"]]
+
+
+def test_an_edge_that_every_simulation_meets_otherwise_hides_no_effect_where_it_is_known_to():
+    known, unknown = named_beside_an_edge(True), named_beside_an_edge(False)
+    assert len(known) >= 4 and len(known) > len(unknown)
+    assert all(found.effects[0].sizes[0]["size"] == pytest.approx(0.5, abs=0.1) for found in known)
 
 
 IN_BAND = (40.0 - 0.3) / 50.0 * 28.0 / 30.0

@@ -6,7 +6,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from . import cluster, refit
+import numpy as np
+
+from . import cluster, foresight, refit
 from .confirm import LEAST_SHARE, Confirmation, best
 from .experiment import Candidate, Experiment, Size
 from .probe import Job, Raw
@@ -17,6 +19,9 @@ from .tries import Tries
 
 PROPOSED = 5
 """Candidates that are refitted in a round."""
+
+FORESEEN = 10
+"""Candidates after those by the score test that are asked what they do in their typical sizes, before it is settled which are refitted."""
 
 MINOR = 0.05
 """Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
@@ -32,7 +37,7 @@ class Contest:
 
     ``fitted``: sizes that are fitted anyway; ``columns``: raw change of the residuals per probe of every size, by job, of what may come next;
     ``sooner``: the experiment of the rung in longer steps (``probe.coarsely``); ``first``: the model before any effect; ``first_gain``: that of
-    the first effect's refit, 0 before it; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
+    the first effect's refit, 0 before it; ``typical``: columns over typical sizes as far as they are known, to which more are added; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
     """
 
     number: int
@@ -48,6 +53,7 @@ class Contest:
     say: Callable[[str], None]
     simpler: Collection[str]
     known: Mapping[str, float]
+    typical: dict[Job, Raw]
     refitted: dict[Job, Trial | None] = field(default_factory=dict)
     """Refits as they came, None of what cannot be simulated. They are the same whoever of them is taken back."""
     followed: dict[tuple, Trial | None] = field(default_factory=dict)
@@ -82,15 +88,37 @@ class Contest:
 
     @cached_property
     def proposal(self) -> Proposal:
-        """What the score test says of the candidates."""
-        rung, base = self.rung, self.rung.fit
-        free = rung.frame.flats([rung.raw[size.key] for size in self.fitted if refit.is_within(size, base.values)])
-        return propose(rung.frame, base.residuals, free, self.columns, self.candidates, [self.seed, self.number], self.known)
+        """What the score test says of the candidates and, where that is more, what is foreseen of typical sizes."""
+        gains = foresight.gains(self.rung.frame, self.rung.fit.residuals, self._free, self.candidates, self._typical)
+        return self._small.foreseeing({job[0]: gain for job, gain in gains.items()})
 
     @cached_property
     def tries(self) -> Tries:
-        likely = refit.information(self.rung.frame, self.rung.fit.residuals)
-        return Tries(self.rung, self.candidates, self.fitted, self.columns, self.sooner, likely)
+        rung, gains = self.rung, [dict(zip(found.names, found.gain)) for found in (self._small, self.proposal)]
+        more = {job: own for job, own in self._typical.items() if gains[1][job[0]] > gains[0][job[0]]}
+        likely = refit.information(rung.frame, rung.fit.residuals)
+        return Tries(rung, self.candidates, self.fitted, {**self.columns, **more}, self.sooner, likely)
+
+    @cached_property
+    def _free(self) -> np.ndarray:
+        """White directions that are fitted anyway."""
+        rung = self.rung
+        return rung.frame.flats([rung.raw[size.key] for size in self.fitted if refit.is_within(size, rung.fit.values)])
+
+    @cached_property
+    def _small(self) -> Proposal:
+        """What the score test says of small sizes."""
+        rung = self.rung
+        return propose(rung.frame, rung.fit.residuals, self._free, self.columns, self.candidates, [self.seed, self.number], self.known)
+
+    @cached_property
+    def _typical(self) -> Mapping[Job, Raw]:
+        """Columns over typical sizes of the FORESEEN candidates that come next."""
+        found, base = self._small, self.rung.fit
+        jobs = [found.best[name] for name in found.significant(PROPOSED + FORESEEN)[PROPOSED:]]
+        new = [job for job in jobs if job not in self.typical]
+        self.typical |= zip(new, self.each(foresight.Typical(self.sooner, self.candidates, base.values, base.residuals), new))
+        return {job: self.typical[job] for job in jobs}
 
     @cached_property
     def confirmation(self) -> Confirmation:

@@ -217,17 +217,22 @@ def frame(
     residuals: Mapping[int, np.ndarray],
     nuisances: Mapping[int, Rows],
     cleaned: Mapping[int, np.ndarray] | None = None,
+    least: Frame | None = None,
 ) -> Frame:
     """The frame in which these residuals, less their nuisances, are white.
 
-    ``cleaned``: the residuals less their nuisances where that is known from an earlier frame.
+    ``cleaned``: the residuals less their nuisances where that is known from an earlier frame. ``least``: a frame in which an error of any
+    channel and frequency weighs no more than in this one: a fit in the frame of its own residuals alone may trade a large error of one signal for
+    a small one of another, as what grew weighs less then.
     """
     indices = sorted(residuals)
     found, inexact = condition_spectra(experiment, residuals if cleaned is None else cleaned), experiment.inexact
 
     def whitening(index: int) -> Whitening:
         record = experiment.records[index]
-        plain = Whitening(found[record.condition], record.rate, record.band)
+        own = found[record.condition]
+        own = own if least is None else own.no_larger(least.whitening[index].spectrum)
+        plain = Whitening(own, record.rate, record.band)
         scale = spectrum.local_scale(plain((cleaned or residuals)[index]), record.rate)
         wrong = inexact.get(index)
         return replace(plain, scale=scale if wrong is None else spectrum.beside(scale, plain(wrong), record.rate))
@@ -235,7 +240,7 @@ def frame(
     made = Frame(experiment, indices, by_record(experiment, whitening, indices), dict(nuisances))
     if cleaned is not None:
         return made
-    return frame(experiment, residuals, nuisances, made.all_cleaned(residuals))
+    return frame(experiment, residuals, nuisances, made.all_cleaned(residuals), least)
 
 
 def condition_spectra(experiment: Experiment, residuals: Mapping[int, np.ndarray]) -> dict[str, Spectrum]:

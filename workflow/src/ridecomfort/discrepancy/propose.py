@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -36,7 +36,7 @@ BY_BLOCKS, BY_SHAPE = 1.5, 3.0
 
 @dataclass(frozen=True)
 class Proposal:
-    """The evidence by candidate: ``p_value`` over the whole library, ``gain`` (fall of the white loss) and ``absorbed`` (share
+    """The evidence by candidate: ``p_value`` over the whole library, ``gain`` (fall of the white loss that is foreseen) and ``absorbed`` (share
     that is free anyway) in the best shape, ``best``.
 
     ``columns``: what is projected of every column, by ((candidate, shape), key). ``rare``: names that act at few places.
@@ -53,6 +53,10 @@ class Proposal:
     """Names for a negative size of which the drives speak, where only a positive one is physical."""
     decoy_p_value: float
     decoy_ranks: bool
+
+    def foreseeing(self, gains: Mapping[str, float]) -> Proposal:
+        """The same with these ``gains``, by name, where they are larger."""
+        return replace(self, gain=np.array([max(gain, gains.get(name, 0.0)) for name, gain in zip(self.names, self.gain)]))
 
     def certain(self) -> frozenset[str]:
         """Names that leave no doubt."""

@@ -25,6 +25,10 @@ REACH, LEAST_REACH = 10.0, 0.05
 """Standard errors over which columns of the last fit are taken, and probes at least: over a whole probe the column of a relaxation length
 can be so bent that no step along it makes drives likelier."""
 
+CLIMBS, CLIMBED = 4, 0.02
+"""How often at most drives are aligned and all is fitted for one more effect, and gain of a fit per independent value of the records below which
+not again."""
+
 FITS = 2
 """Fits from one alignment, each in the frame of the residuals of the one before: an error in what makes it white comes out too small."""
 
@@ -65,7 +69,7 @@ def roles(experiment: Experiment) -> tuple[list[int], list[int]]:
 
 def begin(experiment: Experiment, start: Mapping[str, float], each: Callable = map) -> Rung:
     """The calibrated model at ``start`` as a rung, its drives aligned a second time for what the first fit found."""
-    experiment, _, fit, raw = _fitted(experiment, start, experiment.free, each)
+    experiment, _, fit, raw, _ = _fitted(experiment, start, experiment.free, each)
     return climb(experiment, fit.values, experiment.free, each, raw=raw)
 
 
@@ -74,10 +78,18 @@ def climb(
     before: Rung | None = None,
 ) -> Rung:  # fmt: skip
     """The rung of a model from ``values``, its ``sizes`` fitted; ``raw``: columns of these where they are known, ``before``: the rung
-    below it, above whose floor none can lie."""
-    held_out = roles(experiment)[1]
-    experiment, frame, fit, raw = _fitted(experiment, values, sizes, each, raw)
-    check, check_frame = {}, None
+    below it, above whose floor none can lie, and in whose frame errors that grow are weighed.
+
+    Above another, drives are aligned and all is fitted anew while that gains much: sizes that go together come but a part of their way in
+    one alignment, and what is looked for next may stand in for the rest.
+    """
+    least = None if before is None else before.frame
+    for _ in range(CLIMBS):
+        experiment, frame, fit, raw, gained = _fitted(experiment, values, sizes, each, raw, least)
+        if before is None or gained < CLIMBED * independent(experiment):
+            break
+        values, raw = fit.values, None
+    held_out, check, check_frame = roles(experiment)[1], {}, None
     if held_out:
         check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out)
     has_repeats = bool(floor.repeats(experiment, frame.indices))
@@ -86,6 +98,13 @@ def climb(
         floor_squares = np.minimum(before.floor_squares, floor_squares)
         held_out_floor_squares = np.minimum(before.held_out_floor_squares, held_out_floor_squares)
     return Rung(experiment, frame, fit, raw, check, check_frame, floor_squares, held_out_floor_squares, has_repeats, is_floor_known)
+
+
+def independent(experiment: Experiment) -> float:
+    """Independent values in the band of the fitted records and channels."""
+    records = [experiment.records[index] for index in roles(experiment)[0]]
+    seconds = [len(record.place) / record.rate for record in records]
+    return len(experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
 
 
 @dataclass(frozen=True)
@@ -199,22 +218,24 @@ def _woken(experiment: Experiment, frame: Frame, fit: Fit, sizes: Sequence[Size]
         return fit
 
 
-def _fitted(experiment, values, sizes, each, raw: Raw | None = None) -> tuple[Experiment, Frame, Fit, Raw]:
-    """The fitted records aligned for a model, and the model fitted to them, at its own spectrum. Its drivers are brought to the path once
-    more at the end: what a fit changes leads a model a millimetre off it in bends, in every repeat, which lift and wind imitate."""
+def _fitted(experiment, values, sizes, each, raw: Raw | None = None, least: Frame | None = None) -> tuple[Experiment, Frame, Fit, Raw, float]:
+    """The fitted records aligned for a model, the model fitted to them, at its own spectrum, with errors that grow weighed as in ``least``, and
+    what the fit gains in twice the log-likelihood. Its drivers are brought to the path once more at the end: what a fit changes leads a model
+    a millimetre off it in bends, in every repeat, which lift and wind imitate."""
     residuals, frame, experiment = realign.aligned(experiment, values, roles(experiment)[0])
     sooner, base = probe.coarsely(experiment, values, residuals)
-    raw = raw or probe.secants(sooner, values, base, sizes, each)
+    raw, first = raw or probe.secants(sooner, values, base, sizes, each), (frame, residuals)
     for number in range(FITS):
         if number:
-            frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
+            frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals), least)
         columns = probe.white(frame, raw)
         fit = refit.refit(sooner, frame, values, sizes, columns, iterations=3, residuals=residuals)
         values, residuals = fit.values, fit.residuals
     experiment, residuals = experiment.retuned(values, list(residuals), exactly=True)
+    gained = refit.information(first[0], residuals) - refit.information(*first)
     frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
     fit = replace(fit, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
-    return experiment, frame, fit, raw
+    return experiment, frame, fit, raw, gained
 
 
 def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:

@@ -58,6 +58,13 @@ class Spectrum:
     def __mul__(self, factor: float) -> Spectrum:
         return replace(self, density=factor * self.density)
 
+    def no_larger(self, other: Spectrum) -> Spectrum:
+        """The same with the power of every channel brought down to that of ``other`` where it is larger; coherences stay."""
+        most = np.einsum("fii->fi", _at(other, self.frequency)).real
+        own = np.einsum("fii->fi", self.density).real
+        scale = np.sqrt(np.minimum(1.0, np.divide(most, own, out=np.ones_like(own), where=own > 0)))
+        return replace(self, density=self.density * scale[:, :, None] * scale[:, None, :])
+
     @property
     def judged(self) -> np.ndarray:
         """Whether it says something of a channel at a frequency, (frequency, channel)."""

@@ -14,7 +14,7 @@ from .candidates import PROBE
 from .experiment import Candidate, Experiment, Frame, Size
 from .probe import Job, Raw
 from .refit import Fit
-from .rung import Rung, roles
+from .rung import WAKING, Rung, independent
 from .selection import Trial
 
 CONTENT = 0.98
@@ -80,6 +80,7 @@ class Tries:
                 fit = inside if does else fit
             fit = self._begun(fit, [size for size in candidate.sizes if size.key in columns], columns)
             fit = self._from_typical(fit, start, sizes, columns, own)
+            fit = self._from_plausible(fit, start, sizes, columns, candidate.sizes)
             return self._trial(candidate, shape, self._lengthened(fit, sizes))
         except (InputError, ValueError):
             return None
@@ -131,6 +132,32 @@ class Tries:
             return fit
         return found if self._error(found.residuals) < self._error(fit.residuals) else fit
 
+    def _from_plausible(
+        self, fit: Fit, start: Mapping[str, float], sizes: Sequence[Size], columns: Mapping[str, np.ndarray], own: Sequence[Size]
+    ) -> Fit:
+        """A fit beside accepted effects whose sizes are no longer plausible, or the one from typical sizes of these and of the candidate where
+        that fits better.
+
+        What is missing yet may have driven them there, and lie behind a wall: without a rolling radius that goes by the load no force along
+        the wheels was better than any, and their relaxation lengths went to twice what is plausible.
+        """
+        free = {size.key for size in self.rung.experiment.free}
+        far = [size for size in sizes if size.key not in free and size not in own and not size.holds(start.get(size.key, size.neutral))]
+        if not far:
+            return fit
+        sought = [*far, *(size for size in sizes if size in own)]
+        typical = {**start, **{size.key: float(np.clip(size.neutral + TYPICAL * size.probe, size.lower, size.upper)) for size in sought}}
+        try:
+            residuals = exp.simulate(self.rung.experiment, typical, self.rung.frame.indices)
+            raw = probe.secants(self.rung.experiment, typical, residuals, sought, self.each)
+            there, renewed = {**columns, **probe.white(self.rung.frame, raw)}, [size.key for size in sought]
+            found = refit.refit(
+                self.rung.experiment, self.rung.frame, typical, sizes, there, renewed=renewed, iterations=WAKING, residuals=residuals, beyond=0.0,
+            )  # fmt: skip
+        except (InputError, ValueError):
+            return fit
+        return min(fit, found, key=lambda one: one.loss)
+
     def _lengthened(self, fit: Fit, sizes: Sequence[Size]) -> Fit:
         """A fit whose way from the rung is doubled while that is foreseen to be more likely, is so, and the error falls.
 
@@ -177,7 +204,7 @@ class Tries:
         beyond = refit.BEYOND if implausible(candidate, fit.values) else 0.0
         try:
             for _ in range(CYCLES):
-                frame, anew = self._own_frame(fit), own if gained < HUGE * self._count() else every
+                frame, anew = self._own_frame(fit), own if gained < HUGE * independent(self.rung.experiment) else every
                 sooner, base = probe.coarsely(rung.experiment, fit.values, fit.residuals)
                 raw = {**rung.raw, **probe.secants(sooner, fit.values, base, anew, self.each)}
                 columns = probe.white(frame, raw)
@@ -208,7 +235,7 @@ class Tries:
         try:
             frame = self._own_frame(fit) if self.is_large(trial.gain) else rung.frame
             sooner, base = probe.coarsely(rung.experiment, fit.values, fit.residuals)
-            anew = own if trial.gain < HUGE * self._count() else sizes
+            anew = own if trial.gain < HUGE * independent(self.rung.experiment) else sizes
             raw = probe.secants(sooner, fit.values, base, [*anew, *candidate.shaping], self.each)
             columns = probe.white(frame, {**rung.raw, **raw})
             sizes = [size for size in sizes if size.key in columns]
@@ -234,12 +261,12 @@ class Tries:
 
     def is_large(self, gain: float) -> bool:
         """Whether a gain is so large that the error changes its colour by it."""
-        return gain > LARGE * self._count()
+        return gain > LARGE * independent(self.rung.experiment)
 
     def _own_frame(self, fit: Fit) -> Frame:
-        """The frame in which the residuals of a fit are white."""
+        """The frame in which the residuals of a fit are white; what has grown weighs as in that of the rung."""
         frame = self.rung.frame
-        return exp.frame(self.rung.experiment, fit.residuals, frame.nuisances, frame.all_cleaned(fit.residuals))
+        return exp.frame(self.rung.experiment, fit.residuals, frame.nuisances, frame.all_cleaned(fit.residuals), frame)
 
     def _is_promising(
         self, frame: Frame, fit: Fit, columns: Mapping[str, np.ndarray], fitted: Sequence[Size], more: Sequence[Size]
@@ -258,13 +285,6 @@ class Tries:
         bic = gain - (len(candidate.sizes) + more) * frame.price()
         unknown = (float("nan"),) * 4
         return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
-
-    def _count(self) -> float:
-        """Independent values in the band of the fitted records and channels."""
-        experiment = self.rung.experiment
-        records = [experiment.records[index] for index in roles(experiment)[0]]
-        seconds = [len(record.place) / record.rate for record in records]
-        return len(experiment.channels) * sum(2 * t * (r.band[1] - r.band[0]) for t, r in zip(seconds, records))
 
 
 def own_sizes(candidate: Candidate, fitted: Collection[str]) -> list[Size]:
