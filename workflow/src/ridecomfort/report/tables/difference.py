@@ -46,7 +46,8 @@ def alignment(study: Difference) -> Table:
         names = ", ".join(key for key, *_ in shown)
         sources.append(Source(f"all, {site.label}", site.files.get("measured", ""), names, "as in the file, in the unit printed"))
     notes = (
-        "Clock offset: how much later accelerations and rates stand in the record than distance and speed. Speed scale: true "
+        "Clock offset: how much later accelerations and rates stand in the record than distance and speed; its error is "
+        "that by noise, what the model lacks may shift it by milliseconds. Speed scale: true "
         "over recorded speed. Mounting: rotation of the instrument against the body. Gains: against gravity, and against the bends of "
         "the road (below 0.2 Hz; none where it hardly bends). Clock, speed scale, path, mounting and the gain against gravity are put right before "
         "anything is compared, the gain against bends is not: what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. "
