@@ -100,6 +100,13 @@ def test_above_another_drives_are_aligned_anew_while_the_fit_gains_much_by_it():
     assert reached[0] < 1.5 and reached[1] == pytest.approx(2.5, abs=0.2)
 
 
+def test_one_that_still_gains_at_the_last_of_them_is_a_rung_like_any_other():
+    model = Held(3, {KEY: 2.5})
+    sizes = [*model.free, model.candidates[2].sizes[0]]
+    rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes, before=climb(model, {"stiffness": 0.0}, model.free))
+    assert 0.0 < rung.fit.values[KEY] < 1.5 and set(rung.raw) == {size.key for size in sizes}
+
+
 def test_what_a_fit_leaves_is_told_of_drivers_who_are_brought_to_the_path_for_it():
     model = Held(3, {KEY: 2.5})
     rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, [*model.free, model.candidates[2].sizes[0]])

@@ -84,11 +84,11 @@ def climb(
     one alignment, and what is looked for next may stand in for the rest.
     """
     least = None if before is None else before.frame
-    for _ in range(CLIMBS):
+    for number in range(CLIMBS):
+        values, raw = (fit.values, None) if number else (values, raw)
         experiment, frame, fit, raw, gained = _fitted(experiment, values, sizes, each, raw, least)
         if before is None or gained < CLIMBED * independent(experiment):
             break
-        values, raw = fit.values, None
     held_out, check, check_frame = roles(experiment)[1], {}, None
     if held_out:
         check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out)
