@@ -18,18 +18,19 @@ ROUNDS, CLOSE = 3, 1e-3
 
 
 def aligned(
-    experiment: Experiment, values: Mapping[str, float], indices: Sequence[int]
+    experiment: Experiment, values: Mapping[str, float], indices: Sequence[int], least: Frame | None = None
 ) -> tuple[Mapping[int, np.ndarray], Frame, Experiment]:
-    """Residuals of records at these values, their frame, and the experiment in which they are aligned for the model."""
+    """Residuals of records at these values, their frame, and the experiment in which they are aligned for the model; in frames in which what grew
+    weighs as in ``least``, if that is given."""
     experiment, residuals = experiment.retuned(values, indices, exactly=True)
-    frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, residuals))
+    frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, residuals), least=least)
     moved, experiment = closer(experiment, values, residuals, frame)
     if moved is residuals:
         return residuals, frame, experiment
     # What a path does is another on another path: frames that keep the nuisances of before hold sizes back.
     anew = [index for index in moved if moved[index] is not residuals[index]]
     nuisances = {**frame.nuisances, **exp.nuisances(experiment, values, anew)}
-    frame = exp.frame(experiment, moved, nuisances, frame.all_cleaned(moved))
+    frame = exp.frame(experiment, moved, nuisances, frame.all_cleaned(moved), least)
     residuals, experiment = closer(experiment, values, moved, frame)
     return residuals, frame, experiment
 

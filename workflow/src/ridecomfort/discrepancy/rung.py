@@ -91,7 +91,7 @@ def climb(
             break
     held_out, check, check_frame = roles(experiment)[1], {}, None
     if held_out:
-        check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out)
+        check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out, None if before is None else before.check_frame)
     has_repeats = bool(floor.repeats(experiment, frame.indices))
     is_floor_known, floor_squares, held_out_floor_squares = _floor_squares(experiment, frame, fit, check, check_frame)
     if before is not None:
@@ -222,7 +222,7 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None, least: Fram
     """The fitted records aligned for a model, the model fitted to them, at its own spectrum, with errors that grow weighed as in ``least``, and
     what the fit gains in twice the log-likelihood. Its drivers are brought to the path once more at the end: what a fit changes leads a model
     a millimetre off it in bends, in every repeat, which lift and wind imitate."""
-    residuals, frame, experiment = realign.aligned(experiment, values, roles(experiment)[0])
+    residuals, frame, experiment = realign.aligned(experiment, values, roles(experiment)[0], least)
     sooner, base = probe.coarsely(experiment, values, residuals)
     raw, first = raw or probe.secants(sooner, values, base, sizes, each), (frame, residuals)
     for number in range(FITS):
