@@ -32,12 +32,12 @@ class Bent(Linear):
         return super().residual(values, index) + 9.0 * (size**3 - 1.0) * self.columns[index]["at large"]
 
 
-@pytest.mark.parametrize("foreseen", [contest.FORESEEN, 0])
-def test_what_small_sizes_hardly_show_is_refitted_by_what_typical_ones_would_do(foreseen, monkeypatch):
-    monkeypatch.setattr(contest, "FORESEEN", foreseen)
+@pytest.mark.parametrize("asked", [contest.ASKED, 0])
+def test_what_small_sizes_hardly_show_is_refitted_by_what_typical_ones_would_do(asked, monkeypatch):
+    monkeypatch.setattr(contest, "ASKED", asked)
     found = select.select(Bent(1), {"stiffness": 0.0}, most=1)
-    assert ("effect_2" in {trial.name for trial in found.rounds[0].trials}) == bool(foreseen)
-    if foreseen:
+    assert ("effect_2" in {trial.name for trial in found.rounds[0].trials}) == bool(asked)
+    if asked:
         assert found.accepted == ("effect_2",)
         assert found.final.values["effect_2.size"] == pytest.approx(1.0, abs=0.02)
     else:

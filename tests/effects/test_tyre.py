@@ -90,15 +90,16 @@ def test_slip_builds_up_over_the_relaxation_length_at_any_speed(speed):
     assert slips[0] == slips[2] == 0.0
 
 
-@pytest.mark.parametrize("speed", [5.0, 30.0])
+@pytest.mark.parametrize("speed", [5.0, 30.0, -5.0])
 def test_rolling_radius_shrinks_by_its_share_of_the_load(speed):
     """A wheel that turns as fast as that radius asks for has no slip."""
     share, load, radius = 4e-6, 6000.0, 0.32
     smaller = radius * (1 - share * (load - 4000.0))
-    slip = (speed / smaller) * radius / speed - 1.0
+    slip = (speed / smaller * radius - speed) / abs(speed)
     slip_x, slip_y, pull = planar("tyre_rolling_radius", share, slip_x=slip, slip_y=0.02, load=load, speed=speed)
     assert slip_x == pytest.approx(0.0, abs=1e-4)
     assert (slip_y, pull) == (0.02, 0.0)
+    assert planar("tyre_rolling_radius", share, load=load, speed=0.0)[0] == 0.0
 
 
 def test_rolling_radius_that_goes_by_the_load_jolts_the_car_with_the_inertia_of_its_wheels(car):

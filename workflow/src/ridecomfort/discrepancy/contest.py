@@ -20,8 +20,9 @@ from .tries import Tries
 PROPOSED = 5
 """Candidates that are refitted in a round."""
 
-FORESEEN = 10
-"""Candidates after those by the score test that are asked what they do in their typical sizes, before it is settled which are refitted."""
+ASKED, BENT = 15, 2.0
+"""Candidates that gain most by the score test, which are asked what they do in typical sizes before it is settled which are refitted, and times the
+gain by small sizes that they must foresee for a refit to begin by the columns over typical ones."""
 
 MINOR = 0.05
 """Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
@@ -37,7 +38,8 @@ class Contest:
 
     ``fitted``: sizes that are fitted anyway; ``columns``: raw change of the residuals per probe of every size, by job, of what may come next;
     ``sooner``: the experiment of the rung in longer steps (``probe.coarsely``); ``first``: the model before any effect; ``first_gain``: that of
-    the first effect's refit, 0 before it; ``typical``: columns over typical sizes as far as they are known, to which more are added; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
+    the first effect's refit, 0 before it; ``typical``: columns over typical sizes of what
+    was asked for them in this round or before, as ``columns`` never made anew; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
     """
 
     number: int
@@ -88,16 +90,17 @@ class Contest:
 
     @cached_property
     def proposal(self) -> Proposal:
-        """What the score test says of the candidates and, where that is more, what is foreseen of typical sizes."""
-        gains = foresight.gains(self.rung.frame, self.rung.fit.residuals, self._free, self.candidates, self._typical)
-        return self._small.foreseeing({job[0]: gain for job, gain in gains.items()})
+        """What the score test says of the candidates, and what is foreseen of typical sizes."""
+        gains = foresight.gains(self.rung.frame, self.rung.fit.residuals, self._free, self.candidates, self._asked)
+        return replace(self._scored, foreseen={job[0]: gain for job, gain in gains.items()})
 
     @cached_property
     def tries(self) -> Tries:
-        rung, gains = self.rung, [dict(zip(found.names, found.gain)) for found in (self._small, self.proposal)]
-        more = {job: own for job, own in self._typical.items() if gains[1][job[0]] > gains[0][job[0]]}
+        rung, found = self.rung, self.proposal
+        small = dict(zip(found.names, found.gain))
+        bent = {job: own for job, own in self._asked.items() if found.foreseen.get(job[0], 0.0) > BENT * small[job[0]]}
         likely = refit.information(rung.frame, rung.fit.residuals)
-        return Tries(rung, self.candidates, self.fitted, {**self.columns, **more}, self.sooner, likely)
+        return Tries(rung, self.candidates, self.fitted, {**self.columns, **bent}, self.sooner, likely)
 
     @cached_property
     def _free(self) -> np.ndarray:
@@ -106,16 +109,16 @@ class Contest:
         return rung.frame.flats([rung.raw[size.key] for size in self.fitted if refit.is_within(size, rung.fit.values)])
 
     @cached_property
-    def _small(self) -> Proposal:
-        """What the score test says of small sizes."""
+    def _scored(self) -> Proposal:
+        """What the score test says."""
         rung = self.rung
         return propose(rung.frame, rung.fit.residuals, self._free, self.columns, self.candidates, [self.seed, self.number], self.known)
 
     @cached_property
-    def _typical(self) -> Mapping[Job, Raw]:
-        """Columns over typical sizes of the FORESEEN candidates that come next."""
-        found, base = self._small, self.rung.fit
-        jobs = [found.best[name] for name in found.significant(PROPOSED + FORESEEN)[PROPOSED:]]
+    def _asked(self) -> Mapping[Job, Raw]:
+        """Columns over typical sizes of the ASKED candidates that gain most by the score test."""
+        found, base = self._scored, self.rung.fit
+        jobs = [found.best[name] for name in found.significant(ASKED)]
         new = [job for job in jobs if job not in self.typical]
         self.typical |= zip(new, self.each(foresight.Typical(self.sooner, self.candidates, base.values, base.residuals), new))
         return {job: self.typical[job] for job in jobs}

@@ -221,9 +221,9 @@ def frame(
 ) -> Frame:
     """The frame in which these residuals, less their nuisances, are white.
 
-    ``cleaned``: the residuals less their nuisances where that is known from an earlier frame. ``least``: a frame in which an error of any
-    channel and frequency weighs no more than in this one: a fit in the frame of its own residuals alone may trade a large error of one signal for
-    a small one of another, as what grew weighs less then.
+    ``cleaned``: the residuals less their nuisances where that is known from an earlier frame. ``least``: a frame whose power no
+    channel exceeds at any frequency: a fit in the frame of its own residuals alone may trade a large error of one signal for a small one of
+    another, as what grew weighs less then.
     """
     indices = sorted(residuals)
     found, inexact = condition_spectra(experiment, residuals if cleaned is None else cleaned), experiment.inexact

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -36,7 +36,7 @@ BY_BLOCKS, BY_SHAPE = 1.5, 3.0
 
 @dataclass(frozen=True)
 class Proposal:
-    """The evidence by candidate: ``p_value`` over the whole library, ``gain`` (fall of the white loss that is foreseen) and ``absorbed`` (share
+    """The evidence by candidate: ``p_value`` over the whole library, ``gain`` (fall of the white loss) and ``absorbed`` (share
     that is free anyway) in the best shape, ``best``.
 
     ``columns``: what is projected of every column, by ((candidate, shape), key). ``rare``: names that act at few places.
@@ -53,18 +53,17 @@ class Proposal:
     """Names for a negative size of which the drives speak, where only a positive one is physical."""
     decoy_p_value: float
     decoy_ranks: bool
-
-    def foreseeing(self, gains: Mapping[str, float]) -> Proposal:
-        """The same with these ``gains``, by name, where they are larger."""
-        return replace(self, gain=np.array([max(gain, gains.get(name, 0.0)) for name, gain in zip(self.names, self.gain)]))
+    foreseen: Mapping[str, float] = field(default_factory=dict)
+    """Gain that is foreseen of typical sizes, by name, as far as that was asked (``foresight``)."""
 
     def certain(self) -> frozenset[str]:
         """Names that leave no doubt."""
         return frozenset(name for name, p_value in zip(self.names, self.p_value) if p_value <= CERTAIN)
 
     def significant(self, most: int) -> list[str]:
-        """Names that are significant over the library, those with the largest gains, at most ``most``."""
-        order = sorted(zip(-self.gain, self.names, self.p_value))
+        """Names that are significant over the library, those with the largest gains, by small sizes or foreseen, at most ``most``."""
+        gains = (max(gain, self.foreseen.get(name, 0.0)) for name, gain in zip(self.names, self.gain))
+        order = sorted(zip((-gain for gain in gains), self.names, self.p_value))
         return [name for _, name, p_value in order if p_value <= LEVEL][:most]
 
 

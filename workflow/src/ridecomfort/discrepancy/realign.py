@@ -1,7 +1,7 @@
 """Records aligned anew for a model: what it lacked before had its part in their clocks and paths.
 
 A clock that is 2 ms off makes every size some percent small. A model and a trial beside it are aligned equally often, or
-the trial would pass for better because of that.
+the trial would pass for better because of that; an accepted effect may be aligned for more often (``rung.climb``).
 """
 
 from __future__ import annotations

@@ -26,8 +26,8 @@ REACH, LEAST_REACH = 10.0, 0.05
 can be so bent that no step along it makes drives likelier."""
 
 CLIMBS, CLIMBED = 4, 0.02
-"""How often at most drives are aligned and all is fitted for one more effect, and gain of a fit per independent value of the records below which
-not again."""
+"""How often at most, in all, drives are aligned and all is fitted for one more effect, and gain of a fit per independent value of the records
+below which not again."""
 
 FITS = 2
 """Fits from one alignment, each in the frame of the residuals of the one before: an error in what makes it white comes out too small."""
@@ -84,14 +84,19 @@ def climb(
     one alignment, and what is looked for next may stand in for the rest.
     """
     least = None if before is None else before.frame
-    for number in range(CLIMBS):
-        values, raw = (fit.values, None) if number else (values, raw)
-        experiment, frame, fit, raw, gained = _fitted(experiment, values, sizes, each, raw, least)
+    experiment, frame, fit, raw, gained = _fitted(experiment, values, sizes, each, raw, least)
+    for _ in range(CLIMBS - 1):
         if before is None or gained < CLIMBED * independent(experiment):
+            break
+        try:
+            experiment, frame, fit, raw, gained = _fitted(experiment, fit.values, sizes, each, None, least)
+        except (InputError, ValueError):  # where it came to some vehicle may not be probed
             break
     held_out, check, check_frame = roles(experiment)[1], {}, None
     if held_out:
         check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out, None if before is None else before.check_frame)
+        if before is not None:  # aligned it is judged by its own spectrum
+            check_frame = exp.frame(experiment, check, check_frame.nuisances, check_frame.all_cleaned(check))
     has_repeats = bool(floor.repeats(experiment, frame.indices))
     is_floor_known, floor_squares, held_out_floor_squares = _floor_squares(experiment, frame, fit, check, check_frame)
     if before is not None:

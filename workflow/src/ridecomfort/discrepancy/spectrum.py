@@ -59,10 +59,10 @@ class Spectrum:
         return replace(self, density=factor * self.density)
 
     def no_larger(self, other: Spectrum) -> Spectrum:
-        """The same with the power of every channel brought down to that of ``other`` where it is larger; coherences stay."""
+        """The same with the power of every channel brought down to that of ``other`` where it is larger and the other has any; coherences stay."""
         most = np.einsum("fii->fi", _at(other, self.frequency)).real
         own = np.einsum("fii->fi", self.density).real
-        scale = np.sqrt(np.minimum(1.0, np.divide(most, own, out=np.ones_like(own), where=own > 0)))
+        scale = np.sqrt(np.minimum(1.0, np.divide(most, own, out=np.ones_like(own), where=(own > 0) & (most > 0))))
         return replace(self, density=self.density * scale[:, :, None] * scale[:, None, :])
 
     @property

@@ -142,11 +142,13 @@ class Tries:
         the wheels was better than any, and their relaxation lengths went to twice what is plausible.
         """
         free = {size.key for size in self.rung.experiment.free}
-        far = [size for size in sizes if size.key not in free and size not in own and not size.holds(start.get(size.key, size.neutral))]
+        far = [size for size in sizes if size.key not in free and size not in own and size.key in start and not size.holds(start[size.key])]
         if not far:
             return fit
         sought = [*far, *(size for size in sizes if size in own)]
-        typical = {**start, **{size.key: float(np.clip(size.neutral + TYPICAL * size.probe, size.lower, size.upper)) for size in sought}}
+        way = {size.key: np.sign((start[size.key] - size.neutral) * size.probe) for size in far}
+        reached = {size.key: size.neutral + way.get(size.key, 1.0) * TYPICAL * size.probe for size in sought}
+        typical = {**start, **{size.key: float(np.clip(reached[size.key], size.lower, size.upper)) for size in sought}}
         try:
             residuals = exp.simulate(self.rung.experiment, typical, self.rung.frame.indices)
             raw = probe.secants(self.rung.experiment, typical, residuals, sought, self.each)

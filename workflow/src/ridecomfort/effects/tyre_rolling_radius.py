@@ -20,4 +20,5 @@ effect = Effect(
 
 
 def act(wheel, slip_x, slip_y, load, speed, slope, force_x, per_load):
-    return slip_x - per_load * (load - USUAL), slip_y, 0.0
+    forward = min(max(speed, -1.0), 1.0)  # slip is over the amount of the speed
+    return slip_x - forward * per_load * (load - USUAL), slip_y, 0.0
