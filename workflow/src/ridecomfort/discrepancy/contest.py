@@ -38,8 +38,8 @@ class Contest:
 
     ``fitted``: sizes that are fitted anyway; ``columns``: raw change of the residuals per probe of every size, by job, of what may come next;
     ``sooner``: the experiment of the rung in longer steps (``probe.coarsely``); ``first``: the model before any effect; ``first_gain``: that of
-    the first effect's refit, 0 before it; ``typical``: columns over typical sizes of what
-    was asked for them in this round or before, as ``columns`` never made anew; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
+    the first effect's refit, 0 before it; ``typical``: columns over typical sizes of what was asked for them in this round or before, as
+    ``columns`` never made anew; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
     """
 
     number: int

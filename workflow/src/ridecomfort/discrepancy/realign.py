@@ -20,8 +20,8 @@ ROUNDS, CLOSE = 3, 1e-3
 def aligned(
     experiment: Experiment, values: Mapping[str, float], indices: Sequence[int], least: Frame | None = None
 ) -> tuple[Mapping[int, np.ndarray], Frame, Experiment]:
-    """Residuals of records at these values, their frame, and the experiment in which they are aligned for the model; in frames in which what grew
-    weighs as in ``least``, if that is given."""
+    """Residuals of records at these values, their frame, and the experiment in which they are aligned for the model; in frames with no more power
+    than ``least``, if that is given (``experiment.frame``)."""
     experiment, residuals = experiment.retuned(values, indices, exactly=True)
     frame = exp.frame(experiment, residuals, exp.nuisances(experiment, values, residuals), least=least)
     moved, experiment = closer(experiment, values, residuals, frame)

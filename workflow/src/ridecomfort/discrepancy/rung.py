@@ -78,7 +78,7 @@ def climb(
     before: Rung | None = None,
 ) -> Rung:  # fmt: skip
     """The rung of a model from ``values``, its ``sizes`` fitted; ``raw``: columns of these where they are known, ``before``: the rung
-    below it, above whose floor none can lie, and in whose frame errors that grow are weighed.
+    below it, above whose floor none can lie, and than whose frame those that it is fitted in have no more power (``experiment.frame``).
 
     Above another, drives are aligned and all is fitted anew while that gains much: sizes that go together come but a part of their way in
     one alignment, and what is looked for next may stand in for the rest.
@@ -224,7 +224,7 @@ def _woken(experiment: Experiment, frame: Frame, fit: Fit, sizes: Sequence[Size]
 
 
 def _fitted(experiment, values, sizes, each, raw: Raw | None = None, least: Frame | None = None) -> tuple[Experiment, Frame, Fit, Raw, float]:
-    """The fitted records aligned for a model, the model fitted to them, at its own spectrum, with errors that grow weighed as in ``least``, and
+    """The fitted records aligned for a model, the model fitted to them, at its own spectrum, in frames with no more power than ``least``, and
     what the fit gains in twice the log-likelihood. Its drivers are brought to the path once more at the end: what a fit changes leads a model
     a millimetre off it in bends, in every repeat, which lift and wind imitate."""
     residuals, frame, experiment = realign.aligned(experiment, values, roles(experiment)[0], least)

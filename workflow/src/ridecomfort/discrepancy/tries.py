@@ -119,8 +119,7 @@ class Tries:
         if before.loss - fit.loss > REACHED * foreseen:
             return fit
         sought = [size for size in sizes if size.key in own]
-        reached = {size.key: float(np.clip(size.neutral + TYPICAL * size.probe, size.lower, size.upper)) for size in sought}
-        typical = {**start, **reached}
+        typical = {**start, **_typical(sought)}
         try:
             residuals = exp.simulate(rung.experiment, typical, frame.indices)
             if refit.information(frame, residuals) < max(self.likely, refit.information(frame, fit.residuals)) + refit.WORTHWHILE:
@@ -141,20 +140,18 @@ class Tries:
         What is missing yet may have driven them there, and lie behind a wall: without a rolling radius that goes by the load no force along
         the wheels was better than any, and their relaxation lengths went to twice what is plausible.
         """
-        free = {size.key for size in self.rung.experiment.free}
+        rung, free = self.rung, {size.key for size in self.rung.experiment.free}
         far = [size for size in sizes if size.key not in free and size not in own and size.key in start and not size.holds(start[size.key])]
         if not far:
             return fit
         sought = [*far, *(size for size in sizes if size in own)]
-        way = {size.key: np.sign((start[size.key] - size.neutral) * size.probe) for size in far}
-        reached = {size.key: size.neutral + way.get(size.key, 1.0) * TYPICAL * size.probe for size in sought}
-        typical = {**start, **{size.key: float(np.clip(reached[size.key], size.lower, size.upper)) for size in sought}}
+        typical = {**start, **_typical(sought, start)}
         try:
-            residuals = exp.simulate(self.rung.experiment, typical, self.rung.frame.indices)
-            raw = probe.secants(self.rung.experiment, typical, residuals, sought, self.each)
-            there, renewed = {**columns, **probe.white(self.rung.frame, raw)}, [size.key for size in sought]
+            residuals = exp.simulate(rung.experiment, typical, rung.frame.indices)
+            there = {**columns, **probe.white(rung.frame, probe.secants(rung.experiment, typical, residuals, sought, self.each))}
             found = refit.refit(
-                self.rung.experiment, self.rung.frame, typical, sizes, there, renewed=renewed, iterations=WAKING, residuals=residuals, beyond=0.0,
+                rung.experiment, rung.frame, typical, sizes, there, renewed=[size.key for size in sought], iterations=WAKING,
+                residuals=residuals, beyond=0.0,
             )  # fmt: skip
         except (InputError, ValueError):
             return fit
@@ -206,7 +203,7 @@ class Tries:
         beyond = refit.BEYOND if implausible(candidate, fit.values) else 0.0
         try:
             for _ in range(CYCLES):
-                frame, anew = self._own_frame(fit), own if gained < HUGE * independent(self.rung.experiment) else every
+                frame, anew = self._own_frame(fit), own if not self._is_huge(gained) else every
                 sooner, base = probe.coarsely(rung.experiment, fit.values, fit.residuals)
                 raw = {**rung.raw, **probe.secants(sooner, fit.values, base, anew, self.each)}
                 columns = probe.white(frame, raw)
@@ -237,7 +234,7 @@ class Tries:
         try:
             frame = self._own_frame(fit) if self.is_large(trial.gain) else rung.frame
             sooner, base = probe.coarsely(rung.experiment, fit.values, fit.residuals)
-            anew = own if trial.gain < HUGE * independent(self.rung.experiment) else sizes
+            anew = own if not self._is_huge(trial.gain) else sizes
             raw = probe.secants(sooner, fit.values, base, [*anew, *candidate.shaping], self.each)
             columns = probe.white(frame, {**rung.raw, **raw})
             sizes = [size for size in sizes if size.key in columns]
@@ -265,8 +262,12 @@ class Tries:
         """Whether a gain is so large that the error changes its colour by it."""
         return gain > LARGE * independent(self.rung.experiment)
 
+    def _is_huge(self, gain: float) -> bool:
+        """Whether a gain is so large that the columns of all parameters change by it."""
+        return gain >= HUGE * independent(self.rung.experiment)
+
     def _own_frame(self, fit: Fit) -> Frame:
-        """The frame in which the residuals of a fit are white; what has grown weighs as in that of the rung."""
+        """The frame in which the residuals of a fit are white; what has grown weighs by its power in that of the rung."""
         frame = self.rung.frame
         return exp.frame(self.rung.experiment, fit.residuals, frame.nuisances, frame.all_cleaned(fit.residuals), frame)
 
@@ -287,6 +288,12 @@ class Tries:
         bic = gain - (len(candidate.sizes) + more) * frame.price()
         unknown = (float("nan"),) * 4
         return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
+
+
+def _typical(sizes: Sequence[Size], values: Mapping[str, float] = {}) -> dict[str, float]:
+    """Typical values of ``sizes`` that are plausible, by key; on the side of the neutral one on which they lie, of those that have ``values``."""
+    way = {size.key: -1.0 if (values.get(size.key, size.neutral) - size.neutral) * size.probe < 0 else 1.0 for size in sizes}
+    return {size.key: float(np.clip(size.neutral + way[size.key] * TYPICAL * size.probe, size.lower, size.upper)) for size in sizes}
 
 
 def own_sizes(candidate: Candidate, fitted: Collection[str]) -> list[Size]:
