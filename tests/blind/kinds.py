@@ -41,7 +41,8 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "balance_control_damper", "drag_link_steer", "gyroscopic_steer", "hydraulic_bump_stop", "lateral_runout", "latching_valve",
            "lorry_wake", "soft_ground", "trailer_porpoising",
            "active_roll_bars", "airless_tyre", "bent_arm", "hydraulic_interconnection",
-           "ride_control_by_torque", "sticky_steering", "switched_air_chamber", "tie_rod_length", "worn_track_rod_end")  # fmt: skip
+           "ride_control_by_torque", "sticky_steering", "switched_air_chamber", "tie_rod_length", "worn_track_rod_end",
+           "antiroll_bar_friction", "diagonal_dampers", "linked_struts")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",

@@ -176,6 +176,10 @@ def work(entry, rng):
     if effect.port == "tyre_planar":
         load, speed = rng.uniform(0.0, 8000.0), rng.uniform(-40.0, 40.0)
         return -entry.act(0, 0.0, 0.0, load, speed, 0.0, 0.0, *[0.0] * len(effect.states), *sizes)[2] * speed
+    if effect.port == "interconnection":
+        motion = rng.normal(0.0, (0.01, 0.1), (4, 2))
+        force = [entry.act(i, *motion[i], *motion[i ^ 2], *motion[i ^ 1], *motion[i ^ 3], *[0.0] * len(effect.states), *sizes) for i in range(4)]
+        return float(np.dot(np.atleast_2d(force).reshape(4, -1)[:, 0], motion[:, 1]))
     step, period = 1e-4, rng.uniform(0.1, 2.0)
     phase = 2 * np.pi * np.arange(0.0, period, step) / period
     amplitudes, shifts = 0.02 * rng.uniform(size=3), rng.uniform(0, 6.3, size=3)

@@ -93,7 +93,8 @@ def test_a_curve_returns_what_its_port_does(seen, tmp_path):
     """At a knot, its value there; on the left and on the right side of the front axle."""
     (tmp_path / "drawn.py").write_text(curves.source("drawn", seen))
     act = library.find(tmp_path)["drawn"].act
-    given = {key: 0.0 if key == "rest" else 1.0 for key in PORTS[seen.port].sees} | {seen.expression.partition(" ")[0]: seen.knots[1]}
+    motion, _, against = seen.expression.partition(" - ")
+    given = {key: float(key != against) for key in PORTS[seen.port].sees} | {motion: seen.knots[1]}
     values = {size.key.partition(".")[2]: 0.0 for size in curves.candidate("drawn", seen).sizes} | {"front_1": 0.5 * seen.usual}
     for wheel in (0, 1):
         found = act(**{**given, "wheel": wheel}, **values)

@@ -52,6 +52,13 @@ SEEN: Mapping[str, Seen] = {
         "suspension", "deflection", "m", "strut deflection, in compression",
         (-0.05, -0.03, -0.015, -0.005, 0.0, 0.005, 0.015, 0.03, 0.05),
     ),
+    **{
+        f"strut against {other}": Seen(
+            "interconnection", f"velocity - velocity_{which}", "m/s", f"velocity of a strut against {other}, in compression",
+            (-0.6, -0.3, -0.12, -0.04, 0.0, 0.04, 0.12, 0.3, 0.6),
+        )
+        for which, other in (("along", "front or rear"), ("across", "left or right"), ("opposite", "diagonal"))
+    },
     "tyre deflection": Seen(
         "tyre_vertical", "deflection - rest", "m", "tyre deflection, in compression",
         (-0.015, -0.008, -0.004, 0.0, 0.004, 0.008, 0.015),

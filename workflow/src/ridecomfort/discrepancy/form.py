@@ -42,7 +42,9 @@ RETURNED = {"force": "N", "pull": "N", "moment": "N m", "toe": "mrad", "angle": 
 """Unit of what a port returns, by the name of that up to its axis; shares have none."""
 
 SEEN = {
-    "deflection": "m", "velocity": "m/s", "speed": "m/s", "side_speed": "m/s", "vertical_speed": "m/s", "force_x": "N", "force_y": "N", "load": "N",
+    "deflection": "m", "velocity": "m/s",
+    **{f"{motion}_{other}": unit for other in ("along", "across", "opposite") for motion, unit in (("deflection", "m"), ("velocity", "m/s"))},
+    "speed": "m/s", "side_speed": "m/s", "vertical_speed": "m/s", "force_x": "N", "force_y": "N", "load": "N",
     "angle": "rad", "spin": "rad/s", "roll": "rad", "pitch": "rad", "roll_rate": "rad/s", "pitch_rate": "rad/s", "yaw_rate": "rad/s",
     "vertical_acceleration": "m/s2", "roll_acceleration": "rad/s2", "pitch_acceleration": "rad/s2", "slip_x": "", "slip_y": "", "slope": "",
 }  # fmt: skip

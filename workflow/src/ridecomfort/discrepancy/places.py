@@ -12,9 +12,9 @@ import numpy as np
 
 from ..effects.contract import Parameter
 from .terms import (
-    ANGLE, AT_ONCE, AXLES, KNEE, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
-    following, hardening, on_spring, pressed_down, remembering, running_out_aside, shape_setting, sliding, steering_along, swaying,
-    swinging, turning, turning_as_heard, when_thrown,
+    ANGLE, AT_ONCE, AXLES, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
+    following, hardening, on_spring, pressed_down, remembering, running_out_aside, saturating, shape_setting, shared_slowly, sliding,
+    steering_along, swaying, swinging, turning, turning_as_heard, when_thrown,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -58,7 +58,7 @@ PLACES: Mapping[str, Place] = {
         {"deflection": 0.012, "velocity": 0.12, "stiffness": 28000.0, "damping": 2100.0, "force_x": 300.0, "force_y": 600.0},
         {
             "velocity_direction": Term("tanh(velocity / 0.005)", "N", beside="velocity"),
-            "velocity_saturating": Term("velocity / (1.0 + abs(velocity) / knee)", "N s/m", settings=(KNEE,), beside="velocity"),
+            "velocity_saturating": saturating("velocity", AXLES),
             "velocity_size": Term("abs(velocity)", "N s/m", beside="velocity"),
             "velocity_signed_square": Term("velocity * abs(velocity)", "N s2/m2", beside="velocity"),
             "velocity_cube": Term("velocity**3", "N s3/m3", beside="velocity"),
@@ -102,6 +102,32 @@ PLACES: Mapping[str, Place] = {
             "bump_at_first": at_first("max(velocity, 0.0)", "velocity > 0.0"),
             "rebound_at_first": at_first("min(velocity, 0.0)", "velocity < 0.0", in_rebound=True),
             "swinging_deflection": swinging("deflection", 0.006, "deflection - way", "N/m", "force", AXLES, "deflection"),
+        },
+    ),
+    "interconnection": Place(
+        "interconnection",
+        (
+            "wheel", "deflection", "velocity", "deflection_along", "velocity_along", "deflection_across", "velocity_across",
+            "deflection_opposite", "velocity_opposite",
+        ),
+        {"deflection": 0.012, "velocity": 0.12}
+        | {f"{motion}_{other}": -size for other in ("along", "across", "opposite") for motion, size in (("deflection", 0.01), ("velocity", 0.1))},
+        {
+            "stiffness_along": Term("deflection_along", "N/m", parts=WHOLE, beside="deflection"),
+            "damping_along": Term("velocity_along", "N s/m", parts=WHOLE, beside="velocity"),
+            "slow_stiffness_along": shared_slowly("deflection", "deflection_along", "N/m", 0.02),
+            "slow_damping_along": shared_slowly("velocity", "velocity_along", "N s/m", 0.2),
+            "damping_saturating_along": saturating("(velocity - velocity_along)", WHOLE),
+            "damping_across": Term("velocity_across", "N s/m", beside="velocity"),
+            "stiffness_within_across": Term(
+                "min(max(deflection - deflection_across, -play), play)", "N/m",
+                settings=(shape_setting("play", "m", 0.004, 0.0005, 0.02, "difference of the struts to either side within which it acts"),),
+                beside="(deflection - deflection_across)",
+            ),
+            "sliding_across": sliding("strain", "N", "(velocity - velocity_across)", "(velocity - velocity_across)"),
+            "stiffness_opposite": Term("deflection_opposite", "N/m", parts=WHOLE, beside="deflection"),
+            "damping_opposite": Term("velocity_opposite", "N s/m", parts=WHOLE, beside="velocity"),
+            "damping_saturating_opposite": saturating("(velocity - velocity_opposite)", WHOLE),
         },
     ),
     "tyre": Place(

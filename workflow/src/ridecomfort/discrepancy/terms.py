@@ -144,6 +144,14 @@ def at_first(part: str, is_there: str, in_rebound: bool = False) -> Term:
     return Term(f"{part} * (1.0 - closed)", "N s/m", states=(closed,), settings=(frequency,), beside="velocity", in_rebound=in_rebound)
 
 
+def shared_slowly(own: str, others: str, unit: str, typical: float) -> Term:
+    """What two struts make of the difference (typically ``typical``) between this one's ``own`` motion and the ``others``, as far as fluid has time
+    to flow."""
+    frequency = shape_setting("frequency", "Hz", 3.0, 0.3, 20.0, "frequency that the flow follows up to")
+    slow = State("slow", f"{2 * pi:.4f} * frequency * ({own} - {others} - slow)", typical)
+    return Term("slow", unit, parts=WHOLE, states=(slow,), settings=(frequency,), beside=f"({own} - {others})")
+
+
 def remembering(what: str, unit: str, *times: float) -> Term:
     """What a damper or spring makes of ``what`` it sees, times how fast it moved of late; ``times`` for which it remembers that: the typical
     one, the least and the largest (s)."""
@@ -151,10 +159,10 @@ def remembering(what: str, unit: str, *times: float) -> Term:
     return Term(f"recent * {what}", unit, states=(State("recent", "(abs(velocity) - recent) / time", 0.1),), settings=(time,), beside=what)
 
 
-def sliding(expression: str, unit: str, beside: str) -> Term:
+def sliding(expression: str, unit: str, beside: str, velocity: str = "velocity") -> Term:
     """The direction of motion, which ``strain`` follows over some millimetres; no faster than the step of the kernel bears."""
     presliding = shape_setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")
-    strain = State("strain", "(velocity - abs(velocity) * strain) / (presliding + 0.003 * abs(velocity))", 1.0)
+    strain = State("strain", f"({velocity} - abs({velocity}) * strain) / (presliding + 0.003 * abs({velocity}))", 1.0)
     return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
 
 
@@ -276,6 +284,11 @@ def coming_back(
 
 
 KNEE = shape_setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
+
+def saturating(velocity: str, parts: tuple[str, ...]) -> Term:
+    """What grows less and less with a ``velocity``."""
+    return Term(f"{velocity} / (1.0 + abs({velocity}) / knee)", "N s/m", parts=parts, settings=(KNEE,), beside=velocity)
+
 
 ANGLE = shape_setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
 """What shapes a force that grows less and less with velocity, or a moment with the angle of roll."""

@@ -51,6 +51,17 @@ PORTS: Mapping[str, Port] = MappingProxyType(
             "(m, m/s) positive in compression; stiffness and damping of this corner's spring and damper (N/m, N s/m); "
             "force_x, force_y of the tyre (N)",
         ),
+        "interconnection": Port(
+            (
+                "wheel", "deflection", "velocity", "deflection_along", "velocity_along", "deflection_across", "velocity_across",
+                "deflection_opposite", "velocity_opposite",
+            ),
+            ("force",),
+            True,
+            "extra force in N between body and wheel, positive pushing apart, that other struts take part in; deflection from rest and "
+            "velocity (m, m/s), positive in compression, of this strut, of that `along` the car on its side, of that `across` on its axle, "
+            "and of that `opposite` to it in both",
+        ),  # fmt: skip
         "tyre_vertical": Port(
             ("wheel", "deflection", "velocity", "stiffness", "rest", "rotation", "spin"),
             ("force",),

@@ -32,6 +32,15 @@ def suspension_port(wheel, deflection, velocity, stiffness, damping, force_x, fo
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
+def interconnection_port(
+    wheel, deflection, velocity, deflection_along, velocity_along, deflection_across, velocity_across, deflection_opposite,
+    velocity_opposite, parameters, states, slopes,
+):  # fmt: skip
+    """Extra force in N between body and wheel, positive pushing them apart, that other struts take part in."""
+    return 0.0
+
+
+@njit(forceinline=True, error_model="numpy", _nrt=False)
 def tyre_vertical_port(wheel, deflection, velocity, stiffness, rest, rotation, spin, parameters, states, slopes):
     """Extra radial force in N of the tyre, positive pushing the wheel up."""
     return 0.0

@@ -25,6 +25,7 @@ from ridecomfort.effects.neutral import (
     body_port,
     drive_port,
     flexing_port,
+    interconnection_port,
     kinematics_port,
     road_port,
     steer_port,
@@ -314,6 +315,10 @@ def _vertical(
     for i in range(4):
         held[i] += suspension_port(
             i, travel[i], travel_rate[i], wheels[SPRING, i], wheels[DAMPING, i], force_x[i], force_y[i],
+            parameters, states, slopes,
+        )  # fmt: skip
+        held[i] += interconnection_port(
+            i, travel[i], travel_rate[i], travel[i ^ 2], travel_rate[i ^ 2], travel[i ^ 1], travel_rate[i ^ 1], travel[i ^ 3], travel_rate[i ^ 3],
             parameters, states, slopes,
         )  # fmt: skip
         recession[i], toe[i], scrub[i] = kinematics_port(i, travel[i], parameters, states, slopes)
