@@ -162,8 +162,14 @@ def remembering(what: str, unit: str, *times: float) -> Term:
 def sliding(expression: str, unit: str, beside: str, velocity: str = "velocity") -> Term:
     """The direction of motion, which ``strain`` follows over some millimetres; no faster than the step of the kernel bears."""
     presliding = shape_setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")
-    strain = State("strain", f"({velocity} - abs({velocity}) * strain) / (presliding + 0.003 * abs({velocity}))", 1.0)
+    size = _absolute(velocity)
+    strain = State("strain", f"({velocity} - {size} * strain) / (presliding + 0.003 * {size})", 1.0)
     return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
+
+
+def _absolute(expression: str) -> str:
+    """The size of what an expression, in parentheses if it is more than a name, comes to."""
+    return f"abs({expression.strip('()')})"
 
 
 def acting_beyond(expression: str, *clearances: float, unit: str = "N/m", beside: str = "deflection", in_rebound: bool = False) -> Term:
@@ -287,7 +293,7 @@ KNEE = shape_setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is hal
 
 def saturating(velocity: str, parts: tuple[str, ...]) -> Term:
     """What grows less and less with a ``velocity``."""
-    return Term(f"{velocity} / (1.0 + abs({velocity}) / knee)", "N s/m", parts=parts, settings=(KNEE,), beside=velocity)
+    return Term(f"{velocity} / (1.0 + {_absolute(velocity)} / knee)", "N s/m", parts=parts, settings=(KNEE,), beside=velocity)
 
 
 ANGLE = shape_setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
