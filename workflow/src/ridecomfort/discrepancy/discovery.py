@@ -1,7 +1,7 @@
 """A missing effect that is in no library: where it acts, what form it has, and an effect file that says so.
 
-At every place where a force could act (strut, tyre, contact, links, body, steering, structure) it is written as a sum of
-terms of what that place sees. Each term is simulated as an effect, so that the vehicle itself
+At every place where a force could act (strut, interconnection of struts, tyre, contact, links, body,
+steering, structure) it is written as a sum of terms of what that place sees. Each term is simulated as an effect, so that the vehicle itself
 carries it to the signals, and the terms are selected like effects of the library: over all
 places at once, sparsely, decided by the drives held out (compare Brunton et al. 2016, PNAS
 113:3932, for sparse regression on a library of terms).
