@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -70,26 +70,13 @@ def judge(
     if is_vain:
         effects, reasons, balance = [], [_vain(found)], replace(balance, share=0.0, held_out=0.0)
     reasons += notes
-    is_little = bool(found) and balance.is_little and not is_vain
-    is_wrong, is_like_error = lambda name: by_name[name].instrument, False
-    wrong = [effect for effect in effects if is_wrong(effect.name) and all(is_wrong(name) for name in effect.like)]
-    vehicle = [effect for effect in effects if effect not in wrong]
-    if wrong:
-        names = ", ".join(effect.name for effect in wrong)
-        # An error of the measurement that leaves much, or that drives held out refute, is what something else, not in the library, looks like.
-        is_little = is_little or balance.is_refuted or balance.held_out <= 0 or (selection.remaining.z > SHARED_Z and selection.shared_gone < MOST)
-        is_lesser = sum(effect.share for effect in vehicle) > sum(effect.share for effect in wrong)
-        if is_little or is_lesser and not are_open(vehicle):
-            # Beside what explains most, one that removes little may be a part of what is left, as any effect may.
-            is_like_error = sum(effect.share for effect in wrong) >= LITTLE * (1.0 - balance.share)
-            effects, wrong = vehicle, []
-            reasons.append(f"{names} would help, an error of the measurement that may stand in for something else")
-        else:
-            reasons.append(f"{names} is an error of the measurement, not of the vehicle")
+    told = _of_measurement(selection, balance, effects, by_name, bool(found) and balance.is_little and not is_vain)
+    effects, is_little = told.effects, told.is_little
+    reasons += told.reasons
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if decoys:
         reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
-    if wrong or decoys or suspicions:
+    if told.is_wrong or decoys or suspicions:
         said = (*reasons, *suspicions)
         return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
     if is_little and not (was_material or balance.is_left):
@@ -122,7 +109,39 @@ def judge(
     said = (*reasons, *_of_drives(selection, bool(effects)), *bursts.words(selection.floor_time_share))
     left = balance.is_left, balance.is_shared or not selection.has_repeats
     moments = tuple(bursts.of_moments(selection.floor_time_share))
-    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=is_like_error, of_moments=moments)
+    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=told.is_like_error, of_moments=moments)
+
+
+@dataclass(frozen=True)
+class _Told:
+    """The ``effects`` that are left of a verdict once errors of the measurement are told from effects of the vehicle, ``reasons`` for that, whether
+    the measurement ``is_wrong``, whether what is left ``is_like_error``, as one that was left out as a stand-in, and whether it ``is_little``."""
+
+    effects: list[Named]
+    is_little: bool
+    reasons: tuple[str, ...] = ()
+    is_wrong: bool = False
+    is_like_error: bool = False
+
+
+def _of_measurement(selection: Selection, balance: Balance, effects: list[Named], by_name: Mapping[str, Candidate], is_little: bool) -> _Told:
+    """Which of the ``effects`` the verdict keeps: an error of the measurement that leaves much, that drives held out refute, or beside which effects
+    of the vehicle remove more, is what something else, not in the library, looks like."""
+    is_error = lambda name: by_name[name].instrument
+    wrong = [effect for effect in effects if all(is_error(name) for name in (effect.name, *effect.like))]
+    if not wrong:
+        return _Told(effects, is_little)
+    vehicle = [effect for effect in effects if effect not in wrong]
+    names, removed = ", ".join(effect.name for effect in wrong), sum(effect.share for effect in wrong)
+    is_refuted = balance.is_refuted or balance.held_out <= 0
+    leaves_much = selection.remaining.z > SHARED_Z and selection.shared_gone < MOST
+    is_little = is_little or is_refuted or leaves_much
+    is_lesser = sum(effect.share for effect in vehicle) > removed and not are_open(vehicle)
+    if not (is_little or is_lesser):
+        return _Told(effects, is_little, (f"{names} is an error of the measurement, not of the vehicle",), is_wrong=True)
+    # Beside what explains most, one that removes little may be a part of what is left, as any effect may.
+    is_like_error = removed >= LITTLE * (1.0 - balance.share)
+    return _Told(vehicle, is_little, (f"{names} would help, an error of the measurement that may stand in for something else",), is_like_error=is_like_error)
 
 
 def with_remainder(
