@@ -228,6 +228,19 @@ def test_profile_of_the_cost_is_lowest_where_the_fit_ended_and_rises_to_the_ends
     assert cost[1] == cost.min() and min(cost[0], cost[2]) > (1.0 + 1e-6) * cost[1]
 
 
+def test_a_profile_is_not_known_where_the_vehicle_cannot_be_driven(road, nominal):
+    def run(course, vehicle, **options):
+        if vehicle["spring_stiffness_front"] > 1.1 * nominal["spring_stiffness_front"]:
+            raise InputError("the vehicle cannot be driven")
+        return quarter_cars.run(course, vehicle, **options)
+
+    chosen = ("spring_stiffness_front",)
+    task = calibrate.problem(measured(road, nominal, count=1), road, nominal, simulate=run, parameters=chosen)
+    stiffness = nominal["spring_stiffness_front"] * np.array([0.95, 1.0, 1.15])
+    cost = calibrate.profile(task, task.point([nominal["spring_stiffness_front"]]), "spring_stiffness_front", stiffness).values
+    assert cost[1] < cost[0] and np.isnan(cost[2])
+
+
 def test_any_parameter_of_the_vehicle_may_be_calibrated(road, nominal):
     drives = measured(road, nominal.replace(damping_front=1500.0), count=1)
     chosen = ("damping_front", "tyre_radial_stiffness")

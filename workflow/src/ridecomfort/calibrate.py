@@ -260,7 +260,7 @@ def profile(
     """Profile of the cost: least cost over all other parameters with ``parameter`` held at each place.
 
     ``point`` is the optimum and ``places`` are values of the parameter in SI units. Returns cost over
-    ``value``; flat where the data do not see the parameter.
+    ``value``; flat where the data do not see the parameter, nan where the vehicle cannot be driven.
     """
     held = task.parameters.index(parameter)
     free = [index for index in range(len(task.parameters)) if index != held]
@@ -269,7 +269,10 @@ def profile(
     for place in np.asarray(places, dtype=float):
         first = np.array(point, dtype=float)
         first[held] = (place - task.lower[held]) / width
-        costs.append(descend(task, first, free, tolerance).cost)
+        try:
+            costs.append(descend(task, first, free, tolerance).cost)
+        except InputError:
+            costs.append(np.nan)
     return xr.DataArray(costs, {"value": places}, "value", name=parameter)
 
 
