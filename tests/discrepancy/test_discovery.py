@@ -319,8 +319,8 @@ def test_terms_of_a_force_act_at_one_place_and_effects_of_the_library_beside_the
     assert not follows(full, "strut:deflection_square") and follows(full, "suspension_friction")
 
 
-def found_beside(port, **truth):
-    """What is proposed where the second effect of a linear model is a term of a force at the strut, and the fifth one of the library."""
+def selected_beside(port, **truth):
+    """What is selected where the second effect of a linear model is a term of a force at the strut, and the fifth one of the library, and the latter."""
     model, key = Linear(1, {f"{name}.size": value for name, value in truth.items()}), "unknown_strut_velocity_size.velocity_size_front"
     term, of_library = (model.candidates[k] for k in (2, 4))
     model.truth[key] = model.truth.pop("effect_2.size")
@@ -329,7 +329,13 @@ def found_beside(port, **truth):
     model.candidates = (term, replace(of_library, port=port))
     selection = select.select(model, {"stiffness": 0.0}, most=3)
     assert set(selection.accepted) == {"strut:velocity_size", "effect_4"}
-    return proposed(selection, "found", model.candidates[1:])
+    return selection, model.candidates[1:]
+
+
+def found_beside(port, **truth):
+    """What is proposed of that."""
+    selection, of_library = selected_beside(port, **truth)
+    return proposed(selection, "found", of_library)
 
 
 def test_effects_that_are_missing_too_are_told_beside_the_form_and_what_all_remove():
@@ -339,6 +345,16 @@ def test_effects_that_are_missing_too_are_told_beside_the_form_and_what_all_remo
     size, *shape = found.json()["sizes"]
     assert (size["parameter"], size["unit"]) == ("velocity_size_front", "N s/m")
     assert size["interval"][0] < 1.5 < size["interval"][1] and all(one["interval"] is None for one in shape)
+
+
+@pytest.mark.parametrize(("factor", "names"), [(0.999, ["effect_4"]), (1.001, []), (np.nan, ["effect_4"])])
+def test_what_makes_the_error_of_drives_held_out_larger_does_not_stand_beside_the_form(factor, names):
+    selection, of_library = selected_beside("suspension", effect_2=1.5, effect_4=1.0)
+    assert selection.accepted[-1] == "effect_4"
+    before, last = selection.states[-2:]
+    last = replace(last, held_out_squares=factor * before.held_out_squares)
+    found = proposed(replace(selection, states=(*selection.states[:-1], last)), "found", of_library)
+    assert found.names_beside() == names and set(found.terms) == {"velocity_size"}
 
 
 def test_a_factor_that_is_nearly_nil_may_be_as_large_as_the_others_of_its_term(tmp_path):

@@ -205,10 +205,13 @@ def _told(selection: Selection, place: str, term: str, values: Mapping[str, floa
 
 
 def _beside(selection: Selection, known: Sequence[Candidate], port: str, terms: Sequence[str]) -> list[Named]:
-    """Effects of the library that stand beside the ``terms`` of a force at a ``port``, without what is small there beside these: no form need
-    be exact, and what that leaves another shape may take up."""
+    """Effects of the library that stand beside the ``terms`` of a force at a ``port``, without what is small there beside these, or what makes
+    the error of drives held out larger that meet it: no form need be exact, and what that leaves another shape may take up."""
     ports, least = {candidate.name: candidate.port for candidate in known}, ANOTHER_SHAPE * _removed(selection, terms)[0]
-    return [effect for effect in standing(selection, known) if ports[effect.name] != port or effect.share >= least]
+    is_another_shape = lambda effect: ports[effect.name] == port and effect.share < least
+    met = {turn.winner.name for turn in selection.rounds if turn.winner is not None and turn.winner.met}
+    is_refuted = lambda effect: effect.held_out_share < 0.0 and effect.name in met
+    return [effect for effect in standing(selection, known) if not (is_another_shape(effect) or is_refuted(effect))]
 
 
 def _removed(selection: Selection, names: Sequence[str]) -> tuple[float, float]:
