@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -86,6 +88,23 @@ def test_stiffness_that_grows_less_than_the_load_shows_as_a_falling_line(car):
 def test_only_what_acts_where_named_effects_do_is_estimated_beside_struts_and_tyres(found):
     assert list(found["seen"].values) == ["strut velocity", "strut deflection", "tyre deflection"]
     assert list(curves.at(["kinematics"])) == ["strut velocity", "strut deflection", "tyre deflection", "wheel travel"]
+
+
+def test_dampers_that_are_joined_show_as_a_line_over_what_moves_them(car):
+    """Of 300 N s/m: no damper of a single strut, which calibration could change, does what they do."""
+    trial = trials.make(7, car, {}, 0.0)
+    experiment = opening.opened(trial.measured, car, among=(), workers=1)
+    rung = begin(experiment, {**opening.start_values(experiment), **trial.truth["car"]})
+    joined = {"joined_dampers.damping": 300.0}
+    folder = Path(__file__).parents[1] / "contract" / "user_effects"
+    with_them = opening.opened(trial.measured, car, effects={"joined_dampers": {"damping": 0.0}}, effects_folder=folder, among=(), workers=1)
+    missing = simulate(with_them, {**rung.fit.values, **joined}, rung.fit.residuals)
+    found = signature(rung, found=missing, ports=["interconnection"]).sel(seen="strut against other axle")
+    for axle in ("front", "rear"):
+        own = found.sel(axle=axle).dropna("knot")
+        assert float(own["seen_at"].max()) >= 0.3
+        slope = np.polyfit(own["seen_at"], own["named_missing"], 1)[0]
+        assert slope == pytest.approx(300.0, rel=0.15)
 
 
 @pytest.mark.parametrize("seen", curves.SEEN.values(), ids=curves.SEEN.keys())

@@ -10,8 +10,8 @@ from .experiment import Candidate, Size
 from .places import FORCE
 from .terms import AXLES, SIDE
 
-LINE, LEVEL = "line", "level"
-"""What of a curve no drive knows: its value at rest and a line through it, or its level alone."""
+LINE, REST, LEVEL = "line", "rest", "level"
+"""What of a curve no drive knows: its value at rest and a line through it, its value at rest alone, or, of what has no rest, its level."""
 
 USUAL = 500.0
 """N; usual size of a missing force, which is probed with FORCE."""
@@ -23,7 +23,7 @@ class Seen:
 
     ``expression``: in what the ``port`` sees, with its ``unit``, and ``axis``, what that means; ``knots`` of the curve; ``lacks``: what the
     model lacks there, in ``lacks_unit``, with its ``usual`` size. ``returns``: what the port returns, by the value ``y`` of the curve of the
-    wheel's axle. ``open``: LINE or LEVEL.
+    wheel's axle. ``open``: LINE, REST or LEVEL.
     """
 
     port: str
@@ -54,10 +54,10 @@ SEEN: Mapping[str, Seen] = {
     ),
     **{
         f"strut against {other}": Seen(
-            "interconnection", f"velocity - velocity_{which}", "m/s", f"velocity of a strut against {other}, in compression",
-            (-0.6, -0.3, -0.12, -0.04, 0.0, 0.04, 0.12, 0.3, 0.6),
+            "interconnection", f"velocity - velocity_{which}", "m/s", f"velocity against {other}",
+            (-0.6, -0.3, -0.12, -0.04, 0.0, 0.04, 0.12, 0.3, 0.6), open=REST,
         )
-        for which, other in (("along", "front or rear"), ("across", "left or right"), ("opposite", "diagonal"))
+        for which, other in (("along", "other axle"), ("across", "other side"), ("opposite", "diagonal"))
     },
     "tyre deflection": Seen(
         "tyre_vertical", "deflection - rest", "m", "tyre deflection, in compression",

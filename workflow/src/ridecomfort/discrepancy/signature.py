@@ -19,7 +19,7 @@ import xarray as xr
 from scipy.linalg import block_diag
 
 from . import curves, event, evidence, probe, refit
-from .curves import LINE, Seen
+from .curves import LINE, REST, Seen
 from .experiment import Frame
 from .made import beside
 from .rung import Rung
@@ -87,14 +87,14 @@ class _Estimate:
         is_often = event.participation(white, blocks) >= LEAST_PLACES
         if not is_often.any():
             return nothing
-        where = [curves.row(key, seen) for key, often in zip(columns, is_often) if often]
-        rows, residual = evidence.without(white[is_often], self.free), self.to_explain[0]
-        # What is usual holds what the data do not show, near zero.
+        where = np.array([curves.row(key, seen) for key in columns])
+        rows, residual = evidence.without(white, self.free), self.to_explain[0]
+        # What is usual holds what the data do not show, near zero; a knot that is met too seldom to be shown is not held to zero.
         known = np.eye(len(rows)) / seen.usual**2
         held = np.linalg.inv(rows @ rows.T + known)
         found = -self.to_explain @ rows.T @ held
         left = residual + found[0] @ rows
-        values, spread, is_met = np.zeros((2, count)), np.zeros((count, count)), np.isin(np.arange(count), where)
+        values, spread, is_met = np.zeros((2, count)), np.zeros((count, count)), np.isin(np.arange(count), where[is_often])
         values[: len(found), where] = found
         spread[np.ix_(where, where)] = refit.clustered(held, rows, left, blocks, len(rows), known)[0]
         shown = _as_known(seen, spread, is_met)
@@ -107,8 +107,8 @@ class _Estimate:
 def _as_known(seen: Seen, spread: np.ndarray, is_met: np.ndarray) -> np.ndarray:
     """Matrix that takes from the values at the knots of all axles what no drive knows of them; ``is_met``: the knots that drives come near.
 
-    A force that is there at rest only moves the place of rest, and a line is what calibration takes up; of what has no rest
-    only the level is unknown: the mean by how well each value is known.
+    A force that is there at rest only moves the place of rest, and a line in what one strut or tyre sees is what calibration takes up; of what
+    has no rest only the level is unknown: the mean by how well each value is known.
     """
     knots, count = np.array(seen.knots), len(seen.knots)
     rest = np.eye(count) - np.repeat(np.eye(count)[[np.argmin(np.abs(knots))]], count, axis=0)
@@ -116,7 +116,9 @@ def _as_known(seen: Seen, spread: np.ndarray, is_met: np.ndarray) -> np.ndarray:
     parts = []
     for axle in range(len(AXLES)):
         own = slice(axle * count, (axle + 1) * count)
-        if seen.open == LINE:
+        if seen.open == REST:
+            parts.append(rest)
+        elif seen.open == LINE:
             weight = is_met[own] / (np.diag(rest @ spread[own, own] @ rest.T) + least)
             line = np.outer(knots, knots * weight) / (np.sum(knots**2 * weight) or 1.0)
             parts.append((np.eye(count) - line) @ rest)

@@ -29,7 +29,7 @@ EXPLAINS, PALE = 0.01, 0.4
 ROW, LONGEST, IN_LEGEND = 1.9, 20, 48
 """Inches of a row of panels, letters in a line beside it and of one in the legend."""
 
-READ = "Straight lines and levels do not show: calibration could take them up."
+READ = "Levels do not show, nor do lines in what one strut or tyre sees: calibration could take them up."
 """How the figure is read."""
 
 NONE_EXPLAINS = f"No curve explains {100 * EXPLAINS:.0f} % of the error, noise included: all are pale."
