@@ -24,8 +24,8 @@ LEAST = 1.0
 PAGE, HEAD, AROUND, EACH = 9.0, 0.9, 0.5, 0.155
 """Inches: the height that a page has room for, and what the figure, a round and a bar take of it."""
 
-FOUR_DIGITS = 9999
-"""Gain beyond which labels of four ticks collide."""
+FOUR_DIGITS, THREE_DIGITS, LONG = 9999, 999, 30
+"""Gain beyond which labels of four ticks collide, and where names of so many letters leave less room for them."""
 
 FEWEST = 6
 """Bars of a round that are drawn however many rounds there are: more than are refitted."""
@@ -82,12 +82,13 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         came = f": none of {tested} accepted" if tested else ": nothing left to test"
         left.set_title(f"round {turn}{drawn_of if winner else came}")
         _refits(right, one, names)
-        crowded = left.get_xlim()[1] > FOUR_DIGITS
-        for axes, count in ((left, 3 if crowded else 4), (right, 5)):
+        is_narrow = max((len(_label(name)) for name in names), default=0) > LONG
+        is_crowded = left.get_xlim()[1] > (THREE_DIGITS if is_narrow else FOUR_DIGITS)
+        for axes, count in ((left, 3 if is_crowded else 4), (right, 3 if is_narrow else 5)):
             axes.locator_params(axis="x", nbins=count)
             axes.tick_params(axis="y", length=0)
     panels[0][1].set_title("refits: fitted / held out")
-    panels[-1][0].set_xlabel("gain of 2 ln(likelihood), square-root scale [-]")
+    panels[-1][0].set_xlabel("gain of 2 ln L, square-root scale [-]")
     panels[-1][1].set_xlabel("error removed [%]")
     handles = [
         Patch(color=ACCEPTED, label="accepted into the next round"),
