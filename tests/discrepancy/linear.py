@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -65,3 +66,9 @@ def judged(model, suspicions=()):
     """What a search of at most three rounds found on such a model, and the verdict on it."""
     selection = select.select(model, {"stiffness": 0.0}, most=3)
     return selection, judge.judge(selection, model.candidates, suspicions)
+
+
+def alone(model):
+    """The same drives where none repeats another."""
+    model.records = [replace(record, condition=record.name) for record in model.records]
+    return model

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import allowance, judge, probe, refit, select
+from ridecomfort.discrepancy import allowance, amended, judge, probe, refit, select
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy.allowance import Allowance, allowances
 
@@ -108,7 +108,7 @@ def test_the_verdict_says_what_intervals_allow_for_but_not_for_what_it_says_alre
     found = judge.judge(select.select(made, {"stiffness": 0.0}), made.candidates)
     effect = replace(found.effects[0], sizes=({**found.effects[0].sizes[0], "allows_for": "effect_1"},))
     said = "intervals of effect_0 allow for effect_1, which the drives leave open"
-    told = lambda own, names=("effect_1",): judge.with_allowances(replace(found, effects=(own,)), set(names)).reasons
+    told = lambda own, names=("effect_1",): amended.with_allowances(replace(found, effects=(own,)), set(names)).reasons
     assert told(effect)[-1] == said
     assert said not in told(replace(effect, like=("effect_1",))) and said not in told(effect, ("effect_2",))
 

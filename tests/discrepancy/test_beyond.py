@@ -10,7 +10,7 @@ import pytest
 
 from ridecomfort.discrepancy import beyond, diagnose, opening, refit, rung, select
 from ridecomfort.discrepancy.experiment import Size
-from ridecomfort.discrepancy.judge import with_parameters
+from ridecomfort.discrepancy.amended import with_parameters
 from ridecomfort.discrepancy.verdict import Named, Verdict
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters

@@ -9,7 +9,7 @@ import pytest
 from ridecomfort.discrepancy.beyond import AtBound, Beyond, BeyondBounds
 from ridecomfort.discrepancy.diagnosis import _beside_the_file
 from ridecomfort.discrepancy.discovery import Discovery
-from ridecomfort.discrepancy.judge import with_bounds, with_parameters, with_remainder
+from ridecomfort.discrepancy.amended import with_bounds, with_parameters, with_remainder
 from ridecomfort.discrepancy.off_file import Held, OffFile
 from ridecomfort.discrepancy.reconsider import beside_a_force, heard, humming, is_doubtful, named_all_the_same, reconsidered
 from ridecomfort.discrepancy.righted import Outcome

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import judge, select
+from ridecomfort.discrepancy import amended, judge, select
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.off_file import Held, OffFile, off_file
 
@@ -49,7 +49,7 @@ def test_one_that_drives_find_elsewhere_is_told_with_its_interval_and_with_what_
 def test_its_verdict_says_so_and_names_what_is_missing_beside_it():
     model = OfVehicle({"inertia": 1.5, "effect_1.size": 1.0})
     selection = searched(model)
-    found = judge.with_held(judge.judge(selection, model.candidates), off_file(selection))
+    found = amended.with_held(judge.judge(selection, model.candidates), off_file(selection))
     assert [effect.name for effect in found.effects] == ["effect_1"] and found.reasons[-1] == found.off_file.words()
     assert found.json()["off_file"]["parameters"][0]["parameter"] == "inertia"
 
@@ -59,7 +59,7 @@ def test_where_drives_agree_with_the_file_nothing_is_told():
     selection = searched(model)
     assert off_file(selection) is None
     said = judge.judge(selection, model.candidates)
-    assert judge.with_held(said, None) is said
+    assert amended.with_held(said, None) is said
 
 
 def test_nor_where_it_matters_to_no_signal():

@@ -8,12 +8,12 @@ import xarray as xr
 
 from .. import pool
 from . import opening, turns
+from .amended import with_allowances, with_bounds, with_held, with_parameters
 from .balance import DOUBTFUL, total_shares
 from .beyond import BeyondBounds, at_bounds, ends_at_bounds
 from .car import Car
 from .discovery import Discovery, discovered
 from .explain import REPEATS
-from .judge import with_allowances, with_bounds, with_held, with_parameters
 from .missing_force import missing_force
 from .off_file import OffFile, off_file
 from .naming import ranked

@@ -11,9 +11,10 @@ import xarray as xr
 from .. import pool
 from ..drive import pedals
 from . import floor, opening, suspect, turns
+from .amended import with_remainder
 from .balance import CONFIRMED, ENOUGH, is_slow, may_share, total_shares, worth_explaining
 from .car import Car
-from .judge import judge, standing, with_remainder
+from .judge import judge, standing
 from .ranking import dataset
 from .rung import Rung, begin
 from .select import EFFECTS, search
