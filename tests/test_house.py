@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import tomllib
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import ridecomfort
+from ridecomfort import discrepancy
 
 PACKAGE = Path(ridecomfort.__file__).parent
 REPOSITORY = Path(__file__).resolve().parent.parent
@@ -69,6 +71,16 @@ def test_no_modules_import_one_another():
     found = {own: {name[:k] for name in imports(path) for k in (1, 2, 3) if name[:k] in known} for own, path in known.items()}
     assert sum(len(theirs) for theirs in found.values()) > len(found)
     list(TopologicalSorter(found).static_order())
+
+
+def test_the_face_of_the_largest_room_names_its_modules_each_before_those_that_rest_on_it():
+    groups = (group.split(": ", 1)[1] for group in re.split(r"\n- ", discrepancy.__doc__)[1:])
+    listed = [name for group in groups for name in re.findall(r"\w+", group)]
+    known = {path.stem: path for path in modules() if room(path) == "discrepancy"}
+    assert sorted(listed) == sorted(known)
+    for name, path in known.items():
+        theirs = {other[1] for other in imports(path) if other[0] == "discrepancy" and other[1] in known}
+        assert not theirs & set(listed[listed.index(name) + 1 :]), f"{name} rests on what is named after it"
 
 
 def test_only_its_own_steps_import_the_stand_in():
