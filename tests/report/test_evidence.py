@@ -197,6 +197,19 @@ def test_what_no_curve_explains_looks_small_and_pale():
         assert axes.get_ylim()[1] == signature.LEAST_REACH["N"] > 5 * max(np.nanmax(np.abs(line.get_ydata())) for line in axes.lines)
 
 
+def test_a_large_and_sure_curve_is_not_pale_however_little_of_noise_and_error_it_explains():
+    """A force of some ten newtons explains less than a hundredth of the power of noisy drives."""
+    found = made_up.diagnosis()
+    found.ranking.update(made_up.curves())
+    share, error = 0.0 * found.ranking["seen_share"] + 0.005, np.abs(found.ranking["missing"])
+    for times, is_pale in ((0.1, False), (0.5, True)):
+        found.ranking["seen_share"], found.ranking["missing_error"] = share, times * error.max() + 0.0 * error
+        with style.styled():
+            each = diagnosed.figures(found)["signature"]()
+        assert all((line.get_alpha() < 1.0) is is_pale for line in each.axes[0].lines if line.get_marker() in ("o", "s"))
+        assert (signature.NONE_EXPLAINS in each.legends[0].get_title().get_text()) is is_pale
+
+
 def test_the_names_of_five_effects_fit_beside_their_curves():
     effects = [{**made_up.VERDICT["effects"][0], "name": name} for name in ("damper_asymmetry", "damper_knee", "wheel_recession", "roll_centre_height", "bump_steer")]
     found = made_up.diagnosis({**made_up.VERDICT, "effects": effects})

@@ -23,8 +23,9 @@ SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "1": (100.0, "%"), "N": (1.0, "
 LEAST_REACH = {"N": 30.0, "rad": 5e-4, "1": 0.03}
 """By unit, what the scale of a panel reaches at least: what is smaller is none to look for a cause in, and looks flat."""
 
-EXPLAINS, PALE = 0.01, 0.4
-"""Share of the error below which curves are pale, and how pale: mostly they show traces of what is missing elsewhere, or chance."""
+EXPLAINS, SURELY, PALE = 0.01, 5.0, 0.4
+"""Share of the error below which curves are pale, unless they reach beyond LEAST_REACH by so many standard errors, and how pale: mostly they
+show traces of what is missing elsewhere, or chance."""
 
 ROW, LONGEST, IN_LEGEND = 1.9, 20, 48
 """Inches of a row of panels, letters in a line beside it and of one in the legend."""
@@ -32,7 +33,7 @@ ROW, LONGEST, IN_LEGEND = 1.9, 20, 48
 READ = "Levels do not show, nor do lines in what one strut or tyre sees: calibration could take them up."
 """How the figure is read."""
 
-NONE_EXPLAINS = f"No curve explains {100 * EXPLAINS:.0f} % of the error, noise included: all are pale."
+NONE_EXPLAINS = f"No curve explains {100 * EXPLAINS:.0f} % of the error, noise included, or is surely large: all are pale."
 """What it says where none does."""
 
 AXLE_LINES = {"front": ("#0072B2", "o"), "rear": ("#009E73", "s")}
@@ -53,7 +54,7 @@ def signature(found: Diagnosis) -> Figure:
     panels = drawn.subplots(len(places), len(axles), squeeze=False, sharex="row", sharey="row")
     rows = {str(place): ranking.sel(seen=place) for place in places}
     reaches = {kind: max(_reach(one) for one in rows.values() if _kind(one) == kind) for kind in map(_kind, rows.values())}
-    explains = {place: bool(one["seen_share"] >= EXPLAINS) for place, one in rows.items()}
+    explains = {place: bool(one["seen_share"] >= EXPLAINS) or _is_surely_large(one) for place, one in rows.items()}
     for panel, (place, one) in zip(panels, rows.items()):
         factor, unit = SHOWN[str(one["seen_unit"].item())]
         times, missing_unit = SHOWN[str(one["missing_unit"].item())]
@@ -99,6 +100,13 @@ def _reach(one) -> float:
     shown = np.abs(one["named_missing"].fillna(0.0))
     reach = np.maximum(estimated, shown).values[known]
     return max(1.1 * float(reach.max(initial=0.0)), LEAST_REACH[str(one["missing_unit"].item())])
+
+
+def _is_surely_large(one) -> bool:
+    """Whether an estimate reaches beyond what is small and is surely another than none there."""
+    size = np.abs(one["missing"])
+    is_large = (size > LEAST_REACH[str(one["missing_unit"].item())]) & (size > SURELY * one["missing_error"])
+    return bool((is_large & _known(one)).any())
 
 
 def _known(one):
