@@ -6,6 +6,9 @@ import os
 import shutil
 from pathlib import Path
 
+# Tests run side by side; threads of one that wait for cores slow all of them down, most in small matrices. NumPy asks once, as it is imported.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
 import pytest
 
 from ridecomfort import modules
@@ -15,8 +18,6 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(REPOSITORY / ".cache" / "numba" / modules.compiled()))
 os.environ.setdefault("RIDECOMFORT_CACHE", str(REPOSITORY / ".cache"))
-# Tests run side by side; threads of one that wait for cores slow all of them down, most in small matrices.
-os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 
 def pytest_collection_modifyitems(items):
