@@ -19,10 +19,20 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 os.environ.setdefault("NUMBA_CACHE_DIR", str(REPOSITORY / ".cache" / "numba" / modules.compiled()))
 os.environ.setdefault("RIDECOMFORT_CACHE", str(REPOSITORY / ".cache"))
 
+FIRST = ("blind", "study")
+"""Folders whose files are begun first. The first of them compiles the kernel of the library, which that of the second does without:
+two workers that need it at once would both compile it."""
+
 
 def pytest_collection_modifyitems(items):
     """The workflow's files first: a long one that is begun last would keep one worker busy and leave the other idle."""
-    items.sort(key=lambda item: not any(item.get_closest_marker(name) for name in ("slow", "long")))
+
+    def place(item):
+        is_long = any(item.get_closest_marker(name) for name in ("slow", "long"))
+        folder = item.path.parent.name
+        return not is_long, FIRST.index(folder) if folder in FIRST else len(FIRST)
+
+    items.sort(key=place)
 
 
 @pytest.fixture(scope="session")
