@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -12,11 +10,12 @@ from ridecomfort.discrepancy.experiment import simulate
 from ridecomfort.discrepancy.rung import begin
 from ridecomfort.discrepancy.signature import _Estimate, signature
 from ridecomfort.effects import library
-from ridecomfort.effects.contract import PORTS
+from ridecomfort.effects.contract import COMPILED, PORTS
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import describe
 from tests.blind import trials
 from tests.described import undescribed
+from tests.effects import whole
 
 
 @pytest.fixture(scope="module")
@@ -96,8 +95,9 @@ def test_dampers_that_are_joined_show_as_a_line_over_what_moves_them(car):
     experiment = opening.opened(trial.measured, car, among=(), workers=1)
     rung = begin(experiment, {**opening.start_values(experiment), **trial.truth["car"]})
     joined = {"joined_dampers.damping": 300.0}
-    folder = Path(__file__).parents[1] / "contract" / "user_effects"
-    with_them = opening.opened(trial.measured, car, effects={"joined_dampers": {"damping": 0.0}}, effects_folder=folder, among=(), workers=1)
+    # Beside all others at neutral: the kernel that has them all is compiled for other tests, too.
+    neutral = {name: sizes for name, sizes in whole.NEUTRAL.items() if whole.ENTRIES[name].effect.port in COMPILED}
+    with_them = opening.opened(trial.measured, car, effects=neutral, effects_folder=whole.FOLDER, among=(), workers=1)
     missing = simulate(with_them, {**rung.fit.values, **joined}, rung.fit.residuals)
     found = signature(rung, found=missing, ports=["interconnection"]).sel(seen="strut against other axle")
     for axle in ("front", "rear"):
