@@ -1,14 +1,18 @@
-"""What the workflow does: a small study, what reruns, and that shards leave no trace."""
+"""What the workflow does: a small study, what reruns, that shards leave no trace, and that drives computed elsewhere may take the place of ours."""
 
 import math
 import os
 import shutil
 import time
 
+import numpy as np
+import pandas as pd
 import pytest
 import yaml
 
-from ridecomfort import store
+from ridecomfort import config, stepsettings, store
+from ridecomfort.steps import simulate
+from ridecomfort.vocabulary import DRIVE
 from tests.described import undescribed
 
 pytestmark = pytest.mark.slow
@@ -122,9 +126,57 @@ def test_maps_of_a_model_with_effects_lie_beside_those_of_the_base_model(finishe
 def test_results_depend_neither_on_shards_nor_on_where_the_folder_lies(finished):
     moved = finished.copied(finished.folder.with_name("moved"))
     assert "Nothing to be done" in moved.snakemake("--dry-run", "one", "two").text
-    answer = moved.snakemake("-j2", "one", "--config", "simulation={runs_per_shard: 5}")
+    comfort = [f"results/one/base/comfort/{method}.nc" for method in METHODS]
+    answer = moved.snakemake("-j2", "--config", "simulation={runs_per_shard: 6}", "--", *comfort)
     assert answer.status == 0, answer.text
-    assert "results/one/base/space/0000-0004.nc" in moved.files()
-    for method in METHODS:
-        name = f"results/one/base/comfort/{method}.nc"
-        assert (moved.folder / name).read_bytes() == (finished.folder / name).read_bytes(), method
+    assert "results/one/base/space/0000-0005.nc" in moved.files()
+    for name in comfort:
+        assert (moved.folder / name).read_bytes() == (finished.folder / name).read_bytes(), name
+
+
+@pytest.fixture(scope="module")
+def handed_in(finished, tmp_path_factory):
+    """A project whose second site takes the drives of the first from files, one CSV and the others NetCDF."""
+    project = finished.copied(tmp_path_factory.mktemp("handed_in"))
+    results, elsewhere = project.folder / "results", project.folder / "elsewhere"
+    elsewhere.mkdir()
+    study = config.load(yaml.safe_load((project.folder / "config" / "study.yaml").read_text()), project.folder)
+    one = {name: results / "one" / f"{name}.nc" for name in ("road", "samples")}
+    one |= {"vehicle": project.folder / "config" / "vehicles" / "midsize.yaml", "calibration": None, "config": stepsettings.of_step(study, "simulate", "one", "base")}
+    simulate.main(**one, runs="0000-0005", output=project.folder / "drives.nc")
+    drives = store.read(project.folder / "drives.nc")
+    for run in drives["run"].values:
+        drive = drives.sel(run=run, drop=True)[list(DRIVE)].dropna("time").astype(float)
+        if run == 0:
+            drive.to_dataframe().to_csv(elsewhere / f"{run:04d}.csv")
+        else:
+            store.write(drive, elsewhere / f"{run:04d}.nc", title="a drive of another simulator")
+    shutil.rmtree(results / "two" / "base")
+    project.site("two", simulated="elsewhere")
+    project.study(sites=["two"], runs=6, simulation={"runs_per_shard": 4})
+    return project
+
+
+def test_drives_from_files_give_the_comfort_that_they_gave_before(handed_in):
+    answer = handed_in.snakemake("-j2", "two", "results/tables/rid_comf_res.csv")
+    assert answer.status == 0, answer.text
+    assert "handed_in" in answer.text and "simulate" not in answer.text.split("handed_in")[0]
+    for method, name in zip(METHODS, ("exceedance_probability", "a_v", "iri")):
+        ours, theirs = (store.read(handed_in.folder / f"results/{site}/base/comfort/{method}.nc")[name] for site in ("one", "two"))
+        np.testing.assert_allclose(theirs, ours, rtol=1e-3)
+    assert "two" in pd.read_csv(handed_in.folder / "results/tables/rid_comf_res.csv").to_string()
+
+
+def test_one_drive_a_run_is_asked_for(handed_in):
+    answer = handed_in.snakemake("--dry-run", "--config", "runs=7")
+    (said,) = answer.errors
+    assert said == "config/sites/two.yaml: simulated: 6 drives in 'elsewhere', expected one for each of the 7 runs"
+
+
+def test_a_drive_that_ends_early_is_refused_by_name(handed_in, tmp_path):
+    spoilt = handed_in.copied(tmp_path)
+    path = spoilt.folder / "elsewhere" / "0000.csv"
+    pd.read_csv(path).iloc[:400].to_csv(path, index=False)
+    answer = spoilt.snakemake("-j1", "two")
+    assert answer.status != 0 and "Traceback" not in answer.text
+    assert any("run 0: covers" in line and "expected" in line for line in answer.errors), answer.text
