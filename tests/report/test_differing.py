@@ -233,11 +233,13 @@ def test_conditions_have_the_same_axis_for_every_model_with_ticks_to_read_it_by(
     assert sum(low <= tick <= high for tick in axes.get_yticks()) > 6
 
 
-def test_a_ladder_on_which_nothing_was_above_the_floor_is_drawn(study):
+def test_a_ladder_on_which_nothing_was_above_the_floor_says_so(study):
     found = study.ladder.copy(deep=True)
     found["left"][:], found["left_overall"][:] = np.nan, np.nan
     drawn = ladder.error_ladder(replace(study, ladder=found))
     assert np.isfinite(drawn.axes[0].get_ylim()).all()
+    said = lambda figure: [text.get_text() for text in figure.findobj(Text)]
+    assert ladder.NONE_LEFT in said(drawn) and ladder.NONE_LEFT not in said(ladder.error_ladder(study))
 
 
 def test_what_lies_beyond_the_axis_of_the_ladder_is_said_with_its_signal(study):

@@ -42,6 +42,9 @@ NUMBERS = 3.5
 LONGEST = 16
 """Letters in a line under a rung."""
 
+NONE_LEFT = "nothing above the floor on any rung"
+"""What a panel says that has no line."""
+
 CROWDED, SMALL = 0.45, 5.0
 """Inches a rung below which its name stands upright in one line, and points of the print of such names and numbers."""
 
@@ -107,6 +110,8 @@ def _left(axes, chosen: xr.Dataset, places: np.ndarray, size: float) -> None:
         axes.plot(*_known(places, values), color=colour, marker=marker, markersize=3.5)
     overall = _known(places, 100 * chosen["left_overall"].values)
     axes.plot(*overall, color="black", linewidth=2.2, zorder=1)
+    if not np.isfinite(chosen["left"]).any():
+        axes.text(0.5, 0.5, NONE_LEFT, transform=axes.transAxes, ha="center", va="center", path_effects=LEGIBLE)
     at = offset_copy(axes.get_xaxis_transform(), axes.figure, y=NUMBERS, units="points")
     for place, value in zip(*overall):
         number = f"{value:.0f}" if value >= LINEAR else f"{value:.1f}"
