@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy.candidates import candidate
+from ridecomfort.discrepancy.candidates import ALIGNED, candidate
 from ridecomfort.effects import library
 
 
@@ -20,3 +20,9 @@ def test_an_effect_is_tried_at_the_settings_that_may_turn_it_round():
     assert stop[0] == (0.03, 0.04) and stop[1] == pytest.approx((np.sqrt(0.03 * 0.01), 0.02)) and stop[-1] == (0.01, 0.01)
     ahead = {shape["payload.ahead"] for shape in candidate(known["payload"].effect).shapes}
     assert min(ahead) < -0.8 < 0.0 < max(ahead)
+
+
+def test_what_alignment_takes_out_is_known_by_its_name_and_an_error_of_the_measurement():
+    found = {name: candidate(entry.effect) for name, entry in library.find().items()}
+    assert {name for name, own in found.items() if own.is_aligned} == set(ALIGNED)
+    assert all(found[name].instrument for name in ALIGNED)

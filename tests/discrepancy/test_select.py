@@ -41,6 +41,30 @@ def test_sizes_of_opposite_signs_are_found_though_each_alone_and_their_sum_show_
     assert sizes["front"] == pytest.approx(0.3, abs=0.1) and sizes["rear"] == pytest.approx(-0.3, abs=0.1)
 
 
+class Nearby(Linear):
+    """The same where all but 3 % of the power of what effect_2 does is what alignment leaves open."""
+
+    def __init__(self, seed, truth, **told):
+        super().__init__(seed, truth)
+        self.candidates = tuple(replace(one, instrument=True, **told) if one.name == "effect_2" else one for one in self.candidates)
+        rng = np.random.default_rng([seed, 3])
+        self.open = {id(columns): coloured(rng, SAMPLES) for columns in {id(columns): columns for columns in self.columns}.values()}
+        for columns in {id(columns): columns for columns in self.columns}.values():
+            columns["effect_2.size"] = np.sqrt(0.97) * self.open[id(columns)] + np.sqrt(0.03) * columns["effect_2.size"]
+
+    def nuisances(self, values, index):
+        return 10.0 * self.open[id(self.columns[index])][None]
+
+
+def test_an_error_of_an_instrument_that_is_nearly_what_alignment_leaves_open_is_named_and_one_that_alignment_takes_out_not_tried():
+    truth = {"stiffness": 0.7, "effect_2.size": 3.0}
+    selection, found = judged(Nearby(1, truth))
+    assert found.verdict == "suspect" and [effect.name for effect in found.effects] == ["effect_2"]
+    assert selection.final.values["effect_2.size"] == pytest.approx(3.0, rel=0.15)
+    aligned, _ = judged(Nearby(1, truth, is_aligned=True))
+    assert "effect_2" in selection.rounds[0].names and "effect_2" not in aligned.rounds[0].names
+
+
 class Edged(Linear):
     """The same with an edge of the road for 0.1 s, which the steps of the integration meet anew at any value: an error there that is another at
     each, far larger than the noise, and nil at the values of the calibrated model."""

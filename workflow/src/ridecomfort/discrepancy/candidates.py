@@ -13,6 +13,9 @@ PROBE = 0.25
 OF_THE_ROAD = ("road_bank", "road_grade")
 """Effects that are errors of the road's file, not of the vehicle."""
 
+ALIGNED = ("clock_drift", "clock_offset", "imu_tilt", "path_offset", "sensor_gain")
+"""Effects that are what alignment takes out of every drive, and leaves open by as much as is usual."""
+
 VARIED_UNITS = ("Hz", "m/s")
 """Units of parameters that shape an effect so much that it is tried with several values; clearances do, too, and what may be of either
 sign or none."""
@@ -41,7 +44,7 @@ def candidate(effect: Effect) -> Candidate:
     instrument = effect.port in ("sensor", "path") or effect.name in OF_THE_ROAD
     return Candidate(
         effect.name, tuple(_size(p, effect) for p in sizes), tuple(shapes), tuple(shaping_size(p, f"{effect.name}.{p.name}") for p in shaping),
-        effect.sentence, instrument, effect.port,
+        effect.sentence, instrument, effect.port, effect.name in ALIGNED,
     )  # fmt: skip
 
 

@@ -83,6 +83,8 @@ class Candidate:
     """Whether it is an error of the measurement, not of the model."""
     port: str = ""
     """Where it acts; two at one port may stand in for one another."""
+    is_aligned: bool = False
+    """Whether it is what alignment takes out of every drive."""
 
     def at(self, shares: Mapping[str, float], shape: int = 0) -> dict[str, float]:
         """Values with each size at this many probes from neutral, the others neutral."""

@@ -36,8 +36,8 @@ VAIN = "makes the error larger once drives are aligned and all is fitted anew wi
 """What is said of an effect that is taken back."""
 
 ALIAS, LEAST_OWN = 0.05, 0.01
-"""Share of the power that nuisances must leave of an error of an instrument or of what a tyre feels of the road, below which it is one
-of them under another name, and of any other effect, which may be much like one and yet be there."""
+"""Share of the power that nuisances must leave of what alignment takes out of every drive, below which it is one of them under another name,
+and of any other effect, which may be much like one and yet be there: where an instrument is slow, its errors are what counts least."""
 
 
 def select(
@@ -237,8 +237,7 @@ class _Search:
         found = self.each(probe.Probe(self.sooner, self.rung.fit.values, residuals), unknown)
         self.probed = {**self.probed, **dict(zip(unknown, found))}
         kept = {job: self.probed[job] for job in jobs if self.probed[job]}
-        alias = {name for name, candidate in self.by_name.items() if candidate.instrument or candidate.port == "road"}
-        least = lambda name: ALIAS if name in alias else LEAST_OWN
+        least = lambda name: ALIAS if self.by_name[name].is_aligned else LEAST_OWN
         return {job: found for job, found in kept.items() if self.rung.frame.own_shares(list(found.values())).max() > least(job[0])}
 
     def _remaining(self, first: Fit, last: Fit) -> tuple[Shared, float, float, float, float]:
