@@ -54,6 +54,18 @@ def test_an_effect_whose_interval_holds_none_once_it_is_widened_is_told_with_a_w
     assert found.words().startswith(f"Missing: effect_2{' or something else; the data do not tell those apart' if is_said else ''}.")
 
 
+@pytest.mark.parametrize(("is_open", "names"), [("effect_4", ["effect_2"]), ("effect_2", ["effect_2", "effect_4"])])
+def test_a_lesser_effect_of_an_open_size_is_not_named_beside_one_that_is_surely_there(is_open, names):
+    """As `roll_centre_height` beside a bump steer that goes by the load, which the library's does not."""
+    model = Linear(2, {SIZE: 1.2, "effect_4.size": 0.9})
+    selection = select.select(model, {"stiffness": 0.0}, most=2)
+    blurred = judge.judge(replace(selection, intervals={**selection.intervals, f"{is_open}.size": (-9.0, 9.0)}), model.candidates)
+    assert [effect.name for effect in judge.judge(selection, model.candidates).effects] == ["effect_2", "effect_4"]
+    assert blurred.verdict == "named" and [effect.name for effect in blurred.effects] == names
+    said = "effect_4 is not named for that: it may make good what another shape of effect_2 would do"
+    assert (said in blurred.reasons) is (is_open == "effect_4")
+
+
 def test_beside_an_error_of_the_measurement_what_may_as_well_be_none_leaves_the_data_suspect():
     """As of an instrument of a bandwidth of a few Hz, for which three effects of the vehicle and two of the instrument did 85 and 90 %."""
     model = Linear(2, {SIZE: 1.2, "effect_4.size": 0.9})

@@ -146,7 +146,11 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
             reasons += [reasoning.size_open(effect)] if effect.is_open else []
             if effect.name in unmet:
                 reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
-    return kept, reasons
+    surely = [effect for effect in kept if not (effect.is_open or effect.is_of_measurement)]
+    least = sum(effect.share for effect in surely)
+    blurred = [effect for effect in kept if effect.is_open and effect.share < least]
+    reasons += [reasoning.open_beside(effect, surely) for effect in blurred]
+    return [effect for effect in kept if effect not in blurred], reasons
 
 
 def _of_moments(selection: Selection, name: str) -> str:

@@ -109,6 +109,11 @@ def size_open(effect: Named) -> str:
     return f"{effect.name} explains what chance would not, but the interval of its size holds none, too: how large it is these drives leave open"
 
 
+def open_beside(effect: Named, surely: Sequence[Named]) -> str:
+    """What is said of such an effect beside others that are ``surely`` there and remove more."""
+    return f"{effect.name} is not named for that: it may make good what another shape of {', '.join(other.name for other in surely)} would do"
+
+
 def settings_held(selection: Selection, candidate: Candidate) -> list[str]:
     """At which settings an effect was found that are not typical, nor fitted, in words."""
     values = {size: selection.final.values.get(size.key, size.neutral) for size in candidate.shaping if size.key not in selection.intervals}
