@@ -31,7 +31,7 @@ from .places import FORCE, PLACES, parameter, scale, settings
 from .probe import Job, Raw
 from .ranking import dataset
 from .rung import Rung, begin
-from .select import EFFECTS, search
+from .select import search
 from .selection import Selection, shares
 from .terms import FIRM, LINEAR, ORDER, PERIOD, TURNING, Term
 from .turns import Line
@@ -43,8 +43,8 @@ ROLLING = 0.05
 NEAR = 3.0
 """Widths of a line within which what is once a turn of each wheel may be heard."""
 
-TERMS = 3
-"""Terms of a force at most: the rod that nods on a tail pushes with three accelerations."""
+TERMS, TOGETHER = 3, 5
+"""Terms of a force at most (the rod that nods on a tail pushes with three accelerations), and terms and effects of the library together."""
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def discovered(
         terms = [candidate for place in PLACES for candidate in terms_of(place, line, radius)]
         rung = replace(rung, experiment=rung.experiment.looking_for([*known, *terms], folder))
         selection = search(
-            rung, most=EFFECTS if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
+            rung, most=TOGETHER if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
             say=say, simpler={candidate.name for candidate in known}, probed=probed,
             known=heard_as(line, radius),
         )  # fmt: skip

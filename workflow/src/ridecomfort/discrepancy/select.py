@@ -28,9 +28,9 @@ from .selection import Round, Selection, State, Trial, removed
 from .shared import Shared, shared_error
 from .tries import LEAST_MOVED, own_sizes
 
-EFFECTS = 5
-"""Effects that are looked for, one after another. Cars of other programs differ from the model in three or four things at once, beside which
-one more may be missing; a search that ends before them leaves more than half of the error, and what it found has no name."""
+EFFECTS = 6
+"""Effects that are looked for, one after another. Cars of other programs differ from the model in up to five things at once, beside which one
+more may be missing; a search that ends before them leaves more than half of the error, and what it found has no name."""
 
 VAIN = "makes the error larger once drives are aligned and all is fitted anew with it"
 """What is said of an effect that is taken back."""
