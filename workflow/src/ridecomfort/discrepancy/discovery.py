@@ -23,6 +23,7 @@ from .balance import LITTLE
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
 from .form import effect_source, in_words, typically
+from .found import turn_of
 from .judge import ANOTHER_SHAPE, standing
 from .made import beside
 from .meanings import senses, such_as, told
@@ -209,8 +210,7 @@ def _beside(selection: Selection, known: Sequence[Candidate], port: str, terms: 
     the error of drives held out larger that meet it: no form need be exact, and what that leaves another shape may take up."""
     ports, least = {candidate.name: candidate.port for candidate in known}, ANOTHER_SHAPE * _removed(selection, terms)[0]
     is_another_shape = lambda effect: ports[effect.name] == port and effect.share < least
-    met = {turn.winner.name for turn in selection.rounds if turn.winner is not None and turn.winner.met}
-    is_refuted = lambda effect: effect.held_out_share < 0.0 and effect.name in met
+    is_refuted = lambda effect: effect.held_out_share < 0.0 and turn_of(selection, effect.name).winner.met
     return [effect for effect in standing(selection, known) if not (is_another_shape(effect) or is_refuted(effect))]
 
 

@@ -121,12 +121,11 @@ def _of_measurement(selection: Selection, balance: Balance, effects: list[Named]
 
 def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[Named], list[str]]:
     """The effects that stand, and in words what is to be said of them and of the others."""
-    unmet = {turn.winner.name for turn in selection.rounds if turn.winner is not None and not turn.winner.met}
     shared = not selection.has_repeats or selection.shared_z > SHARED_Z
     kept, reasons = [], []
     for effect in found:
         same = _shaped_by(selection, effect, found, by_name)
-        moments = _of_moments(selection, effect.name)
+        moments, is_met = _of_moments(selection, effect.name), turn_of(selection, effect.name).winner.met
         if effect.name in selection.needless:
             reasons.append(f"{effect.name} helped when it was found, but what was found with it does as well without it")
         elif not any(size.key in selection.sure for size in by_name[effect.name].sizes):
@@ -137,14 +136,14 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
             reasons.append(f"{effect.name} helps in {moments}, less than what drives differ by there within moments: it may stand in for what a driver did")
         elif not shared and effect.p_value > SURE:
             reasons.append(f"{effect.name} may be chance: repeats share no error for certain")
-        elif effect.name in unmet and effect.p_value > SURE:
+        elif not is_met and effect.p_value > SURE:
             reasons.append(f"{effect.name} may be chance: no drive held out meets it")
         else:
             kept.append(effect)
             reasons += reasoning.settings_held(selection, by_name[effect.name])
             reasons += [reasoning.beyond_plausible(effect, size) for size in effect.beyond()]
             reasons += [reasoning.size_open(effect)] if effect.is_open else []
-            if effect.name in unmet:
+            if not is_met:
                 reasons.append(f"no drive held out meets {effect.name}: it rests on the fitted drives alone")
     surely = [effect for effect in kept if not (effect.is_open or effect.is_of_measurement)]
     least = sum(effect.share for effect in surely)
