@@ -241,6 +241,11 @@ def test_where_there_was_little_to_explain_the_first_sentence_says_how_little(at
     assert "It is little" not in with_remainder(NOTHING, {}, {"a_z": at_first}).words()
 
 
+def test_a_limit_that_would_be_rounded_to_nothing_is_the_least_that_is_said():
+    found = with_remainder(replace(NOTHING, verdict="named", effects=(FOUND,)), {"a_x": 0.0}, {"a_x": 0.0001, "a_z": 0.0004})
+    assert "no signal has more than 0.1 % of its power above the floor" in found.words()
+
+
 def test_parameters_beyond_their_bounds_are_a_reason_more():
     named = replace(NOTHING, verdict="named", effects=(FOUND,))
     said = with_parameters(named, beyond())
@@ -401,4 +406,13 @@ def test_beside_effects_of_the_library_too_parameters_are_told_only_where_these_
     """In a car of another program, where 69 % were explained, a roll inertia came out at 416 kg m2 (413 to 418) for 470."""
     monkeypatch.setitem(_beside_the_file.__globals__, "off_file", lambda selection, told: HELD)
     verdict = replace(NOTHING, verdict=kind, share=share, held_out_share=share)
+    assert _beside_the_file(verdict, Outcome(None, verdict, None, None, None), None) is (HELD if is_told else None)
+
+
+@pytest.mark.parametrize(("remainder", "is_told"), [({"a_z": 0.0002, "a_y": 0.0006}, True), ({"a_z": 0.0002, "a_y": 0.004}, False), ({}, False)])
+def test_where_next_to_nothing_is_left_they_are_told_however_little_there_was_to_explain(monkeypatch, remainder, is_told):
+    """A tyre that progresses took 63 and 84 % of an error of 0.1 %. The centre of gravity lay 0.04 m above that of the file, of which nothing was
+    said: on the ladder, where it is held, the right effect took nothing."""
+    monkeypatch.setitem(_beside_the_file.__globals__, "off_file", lambda selection, told: HELD)
+    verdict = replace(NOTHING, verdict="named", share=0.63, held_out_share=0.84, remainder=remainder)
     assert _beside_the_file(verdict, Outcome(None, verdict, None, None, None), None) is (HELD if is_told else None)

@@ -20,6 +20,11 @@ BEYOND = "; if the car may lie beyond, have it calibrated in wider bounds (calib
 """...where there can be more or less of them."""
 
 
+def is_all_but_nil(remainder: Mapping[str, float]) -> bool:
+    """Whether what is left, share of the power by signal, is of no signal worth a word; not where it is unknown."""
+    return max(remainder.values(), default=1.0) < LEAST_TOLD
+
+
 def with_remainder(
     verdict: Verdict, remainder: Mapping[str, float], at_first: Mapping[str, float], accepted: Sequence[str] = ()
 ) -> Verdict:

@@ -8,7 +8,7 @@ import xarray as xr
 
 from .. import pool
 from . import opening, turns
-from .amended import with_allowances, with_bounds, with_held, with_parameters
+from .amended import is_all_but_nil, with_allowances, with_bounds, with_held, with_parameters
 from .balance import DOUBTFUL, total_shares
 from .beyond import BeyondBounds, at_bounds, ends_at_bounds
 from .car import Car
@@ -75,11 +75,11 @@ def diagnose(
 
 
 def _beside_the_file(verdict: Verdict, outcome: Outcome, found: BeyondBounds | None) -> OffFile | None:
-    """Parameters that calibration holds beside the drives, where what was found explains most, or nothing is missing: else what is missing may
-    drive them there. Beside those ``found`` beyond their bounds, only where these came first: else no model has all of it."""
+    """Parameters that calibration holds beside the drives, where what was found explains most or leaves next to nothing, or nothing is missing:
+    else what is missing may drive them there. Beside those ``found`` beyond their bounds, only where these came first: else no model has all of it."""
     is_in_model = found is None or found.is_first
     if verdict.verdict in ("named", "cluster", "nothing"):
-        is_explained = verdict.verdict == "nothing" or left(verdict) <= 1.0 - DOUBTFUL
+        is_explained = verdict.verdict == "nothing" or left(verdict) <= 1.0 - DOUBTFUL or is_all_but_nil(verdict.remainder)
         return off_file(outcome.selection, found.names() if found else ()) if is_in_model and is_explained else None
     if found is not None:
         return None

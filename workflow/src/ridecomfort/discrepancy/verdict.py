@@ -34,8 +34,11 @@ SMALL = 0.02
 IS_MISSING = ("named", "cluster", "outside")
 """Verdicts that something is..."""
 
-LITTLE_TO_EXPLAIN = " It is little: no signal has more than {most:.1f} % of its power above the floor."
+LITTLE_TO_EXPLAIN = " It is little: no signal has more than {most} of its power above the floor."
 """...and what they say where that is SMALL."""
+
+LEAST_SAID = 0.001
+"""Share of a signal's power that is the least of which a limit is said: "no more than 0.0 %" would say that there is none."""
 
 
 @dataclass(frozen=True)
@@ -144,12 +147,17 @@ def first_sentence(said: Mapping, names: Sequence[str]) -> str:
     other = not_told_from(said)
     told = ", ".join(names) + (f" or {other}" if other else "")
     first = SAID[kind].format(names=f": {told}" if kind == "suspect" and told else told)
-    return first + LITTLE_TO_EXPLAIN.format(most=100 * max(at_first.values())) if is_of_little(kind, at_first) else first
+    return first + LITTLE_TO_EXPLAIN.format(most=at_most(max(at_first.values()))) if is_of_little(kind, at_first) else first
 
 
 def is_of_little(kind: str, at_first: Mapping[str, float]) -> bool:
     """Whether something is missing, and all that it could explain ``at_first``, by signal, is SMALL."""
     return kind in IS_MISSING and max(at_first.values(), default=1.0) < SMALL
+
+
+def at_most(share: float) -> str:
+    """A share of a signal's power as a limit in words, LEAST_SAID or more."""
+    return f"{100 * max(share, LEAST_SAID):.1f} %"
 
 
 def percent(share: float | None) -> str:

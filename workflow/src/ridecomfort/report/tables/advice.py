@@ -8,7 +8,7 @@ from pathlib import Path
 from ...discrepancy.balance import ENOUGH, LITTLE
 from ...discrepancy.confirm import EQUAL
 from ...discrepancy.explain import NIL
-from ...discrepancy.verdict import SMALL, is_of_little, told_beyond
+from ...discrepancy.verdict import SMALL, at_most, is_of_little, told_beyond
 from ...effects import library
 from ...schema import as_written
 from ...vehicle.parameters import PARAMETERS
@@ -44,9 +44,9 @@ LITTLE_FOUND = "Nothing that was found explains much. "
 MAY_END = "The loop may end here. Else: "
 """What comes before advice where all that there was to explain is little, and what was found is not most of it."""
 
-END = "What is left is no more than {most:.1f} % of the power of any signal: the loop may end here."
+END = "What is left is no more than {most} of the power of any signal: the loop may end here."
 
-GO_DEEPER = "What is left, {most:.1f} % of the power of {signal}, is worth a look at where it lies (compare): the loop ends here, unless an effect of your own explains it."
+GO_DEEPER = "What is left, {most} of the power of {signal}, is worth a look at where it lies (compare): the loop ends here, unless an effect of your own explains it."
 
 ROAD_FIRST = (
     "First set road: options: interpolation: {other} in the site file, which the drives fit better, and diagnose again, unless the road's "
@@ -178,7 +178,7 @@ def _left(verdict: Mapping) -> str:
     if not remainder:
         return "See where the error lies (compare)."
     signal = max(remainder, key=remainder.get)
-    return (END if remainder[signal] < SMALL else GO_DEEPER).format(most=100 * remainder[signal], signal=signal)
+    return (END if remainder[signal] < SMALL else GO_DEEPER).format(most=at_most(remainder[signal]), signal=signal)
 
 
 def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str) -> str:
