@@ -8,10 +8,10 @@ from dataclasses import replace
 from .balance import CONFIRMED
 from .beyond import AtBound, BeyondBounds
 from .off_file import OffFile
-from .verdict import Verdict
+from .verdict import LEAST_TOLD, Verdict
 
-TOLD, LEAST_TOLD = 3, 0.001
-"""Signals of which it is told what is left, and share of their power below which it is not."""
+TOLD = 3
+"""Signals of which it is told what is left."""
 
 MAY_DRIVE = "something that is missing may drive it there"
 """What is said of parameters of the vehicle that end at their bounds..."""

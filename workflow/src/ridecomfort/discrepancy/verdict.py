@@ -37,8 +37,9 @@ IS_MISSING = ("named", "cluster", "outside")
 LITTLE_TO_EXPLAIN = " It is little: no signal has more than {most} of its power above the floor."
 """...and what they say where that is SMALL."""
 
-LEAST_SAID = 0.001
-"""Share of a signal's power that is the least of which a limit is said: "no more than 0.0 %" would say that there is none."""
+LEAST_TOLD = 0.001
+"""Share of a signal's power below which what is left of it is not told, and the least that a limit is said to be: "no more than 0.0 %" would say
+that there is none."""
 
 
 @dataclass(frozen=True)
@@ -156,8 +157,8 @@ def is_of_little(kind: str, at_first: Mapping[str, float]) -> bool:
 
 
 def at_most(share: float) -> str:
-    """A share of a signal's power as a limit in words, LEAST_SAID or more."""
-    return f"{100 * max(share, LEAST_SAID):.1f} %"
+    """A share of a signal's power as a limit in words, LEAST_TOLD or more."""
+    return f"{100 * max(share, LEAST_TOLD):.1f} %"
 
 
 def percent(share: float | None) -> str:
