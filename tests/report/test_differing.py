@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
@@ -297,6 +298,22 @@ def test_a_gain_beyond_what_is_drawn_is_marked(study):
         titles = [axes.get_title(loc="left") for axes in conditions.responses(replace(site, comparison=comparison)).axes]
     marked = {signal: titles[3 * place + 1] for place, signal in enumerate(SIGNALS)}
     assert marked["a_z"] == "drives over model (▲: above 2)" and marked["a_x"] == "drives over model"
+
+
+@pytest.mark.parametrize("least", [0.5, 1e-2, 1e-4, 1e-7])
+def test_gains_from_the_road_have_numbers_however_many_decades_they_span(study, least):
+    """A yaw rate that fell by five decades had an axis without any."""
+    site = study.sites[0]
+    comparison = site.comparison.copy(deep=True)
+    comparison["road_gain"] = xr.full_like(comparison["road_gain"], 30.0)
+    comparison["road_gain"].loc[{"frequency": comparison["frequency"][-40:]}] = least
+    with style.styled():
+        drawn = conditions.responses(replace(site, comparison=comparison))
+        drawn.canvas.draw()
+    for axes in drawn.axes[::3]:
+        low, high = axes.get_ylim()
+        numbers = [tick for tick in axes.get_yticks() if low <= tick <= high]
+        assert 2 <= len(numbers) <= 12, axes.get_title(loc="left")
 
 
 @pytest.mark.parametrize("name", list(catalogue.difference_figures(["ts1"])))

@@ -35,6 +35,9 @@ SOURCES = {"measured": ("measured drives", style.MEASURED), "simulated": ("model
 HIGHEST = 2.0
 """Gain of drives over model up to which it is drawn: about 1 is what must be seen."""
 
+BETWEEN = 3000.0
+"""Largest over least gain from the road up to which an axis has numbers between decades."""
+
 READ = (
     "Gain of drives over model: above 1 the model moves too little, below 1 too much. Coherence: 1 where one follows from the other\n"
     "by gain and phase alone; noise, a wrong path or clock and what is not linear (friction) lower it; with the road, other inputs, too."
@@ -95,7 +98,9 @@ def responses(site: Compared) -> Figure:
                 look = {"color": colour, "linewidth": 0.7, "linestyle": (0, (2, 1)), "label": f"coherence with the road, {label}"}
                 coherent.plot(frequency, one["road_coherence"].sel(source=source).values[kept], **look)
             road.set_yscale("log")
-            road.yaxis.set_major_locator(LogLocator(subs=(1, 3)))
+            low, high = road.get_ylim()
+            # Where decades are many, matplotlib would leave some out, and with them all that lies between.
+            road.yaxis.set_major_locator(LogLocator(subs=(1, 3) if high < BETWEEN * low else (1,), numticks=12))
             road.yaxis.set_major_formatter("{x:g}")
             road.yaxis.set_minor_locator(NullLocator())
         road.set_ylabel(f"{notation.signal(signal)}\n[{unit} per m/s]")
