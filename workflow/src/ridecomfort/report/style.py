@@ -14,7 +14,9 @@ from pathlib import Path
 
 import matplotlib
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator
 
 from ..vocabulary import SIGNALS, VARIABLES
 from . import notation
@@ -111,6 +113,10 @@ LETTER = 0.0085
 """Inches of width that a letter takes by the point of its size, on average of mixed text."""
 
 
+BETWEEN = 3000.0
+"""Ratio of its ends from which on a logarithmic axis has numbers at decades alone."""
+
+
 def figure(width: float, height: float, **options) -> Figure:
     """An empty figure of a size in inches with the study's style, laid out so that nothing overlaps."""
     options.setdefault("layout", "constrained")
@@ -157,6 +163,17 @@ def legend_columns(handles, width: float) -> int:
 def axis_label(name: str) -> str:
     """Symbol and unit of a variable for an axis."""
     return f"{notation.symbol(name)} [{notation.unit(VARIABLES[name].unit)}]"
+
+
+def number_decades(axis: Axis, between: tuple[int, ...]) -> None:
+    """Plain numbers at the decades of a logarithmic axis whose limits are known and, where it spans less than BETWEEN, at these multiples.
+
+    Left to itself matplotlib leaves out decades where there are many, and with them every number that is not at one.
+    """
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=between if high < BETWEEN * low else (1,), numticks=12))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_locator(NullLocator())
 
 
 def note(axes: Axes, text: str, place: tuple[float, float]) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullLocator
 
 from ...discrepancy.response import INPUT
 from ...vocabulary import SIGNALS
@@ -34,9 +33,6 @@ SOURCES = {"measured": ("measured drives", style.MEASURED), "simulated": ("model
 
 HIGHEST = 2.0
 """Gain of drives over model up to which it is drawn: about 1 is what must be seen."""
-
-BETWEEN = 3000.0
-"""Largest over least gain from the road up to which an axis has numbers between decades."""
 
 READ = (
     "Gain of drives over model: above 1 the model moves too little, below 1 too much. Coherence: 1 where one follows from the other\n"
@@ -98,11 +94,7 @@ def responses(site: Compared) -> Figure:
                 look = {"color": colour, "linewidth": 0.7, "linestyle": (0, (2, 1)), "label": f"coherence with the road, {label}"}
                 coherent.plot(frequency, one["road_coherence"].sel(source=source).values[kept], **look)
             road.set_yscale("log")
-            low, high = road.get_ylim()
-            # Where decades are many, matplotlib would leave some out, and with them all that lies between.
-            road.yaxis.set_major_locator(LogLocator(subs=(1, 3) if high < BETWEEN * low else (1,), numticks=12))
-            road.yaxis.set_major_formatter("{x:g}")
-            road.yaxis.set_minor_locator(NullLocator())
+            style.number_decades(road.yaxis, (1, 3))
         road.set_ylabel(f"{notation.signal(signal)}\n[{unit} per m/s]")
         road.set_title(f"road {INPUTS[INPUT[signal]]} → {notation.signal(signal)}")
         gain.axhline(1.0, color=style.FAINT, linewidth=0.7)

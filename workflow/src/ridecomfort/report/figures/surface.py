@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import MaxNLocator
 
 from ...road import roughness
 from .. import style
@@ -108,9 +108,9 @@ def smoothing(study: Study) -> Figure:
             error.loglog(tried, missed, color=colour, label=f"{direction}: {one['cutoff'].item():.2f} m")
             error.plot(tried[missed.argmin()], missed.min(), marker, color=colour, markersize=4)
         low, high = error.get_ylim()
-        error.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)) if high > 10 * low else MaxNLocator(4))
-        error.yaxis.set_major_formatter("{x:g}")
-        error.yaxis.set_minor_formatter(NullFormatter())
+        style.number_decades(error.yaxis, (1, 2, 5))
+        if high < 10 * low:
+            error.yaxis.set_major_locator(MaxNLocator(4))
         error.set_ylabel("held-out error [mm]")
         error.legend(title="cut-off of least error", title_fontsize=7)
         error.set_title(site.label)
