@@ -28,7 +28,7 @@ from .descent import Descent, descend
 from .drive import pedals
 from .drive.record import unstack
 from .drive.replay import replay
-from .errors import InputError
+from .errors import InputError, hint
 from .problem import Problem
 from .vehicle.parameters import PARAMETERS
 from .vocabulary import SIGNALS
@@ -316,11 +316,11 @@ def _bounds(vehicle, parameters: Sequence[str], given: Mapping[str, Sequence[flo
     bounds = {}
     for name in parameters:
         if name not in PARAMETERS:
-            raise InputError(f"unknown parameter {name!r}; known are {', '.join(PARAMETERS)}", place="parameters")
+            raise InputError(f"unknown parameter {name!r}; {hint(name, PARAMETERS)}", place="parameters")
         bounds[name] = given.get(name, BOUNDS.get(name, vehicle.about(name)))
     for name in given:
         if "." not in name and name not in PARAMETERS:
-            raise InputError(f"unknown parameter {name!r}; known are {', '.join(PARAMETERS)}", place="bounds")
+            raise InputError(f"unknown parameter {name!r}; {hint(name, PARAMETERS)}", place="bounds")
     found = {**bounds, **{name: pair for name, pair in given.items() if "." in name}}
     if not found:
         raise InputError("nothing is calibrated (expected at least one parameter)", place="parameters")

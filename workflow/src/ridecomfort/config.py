@@ -12,7 +12,7 @@ from .comfort import bands, limits
 from .comfort.iriedges import Edges
 from .drive import readers, units
 from .effects import library
-from .errors import InputError
+from .errors import InputError, hint
 from .road import checks
 from .schema import as_written, read_yaml, validate
 from .study import DATA, NO_CALIBRATION, VEHICLES, Study, has_fit
@@ -52,7 +52,7 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
         if name in TAKEN:
             raise InputError(f"{name!r} is the name of something else; call the site otherwise", file=source, place=place)
         if name not in known:
-            raise InputError(f"unknown site {name!r}; known sites: {', '.join(known)}", file=source, place=place)
+            raise InputError(f"unknown site {name!r}; {hint(name, known, 'known sites:')}", file=source, place=place)
         sites[name] = _site(name, folder, standin)
         other = sites[name].get("calibrated_on", NO_CALIBRATION)
         if other != NO_CALIBRATION:
@@ -197,7 +197,7 @@ def _check_profiles(profiles: Sequence[str], folder: Path | None, source) -> Non
             continue
         sizes = [parameter.name for parameter in known[effect].effect.parameters] if effect in known else []
         if size not in sizes:
-            what = f"effect {effect!r} has no parameter {size!r}; it has {', '.join(sizes)}" if sizes else f"unknown effect {effect!r}"
+            what = f"effect {effect!r} has no parameter {size!r}; {hint(size, sizes, 'it has')}" if sizes else f"unknown effect {effect!r}"
             raise InputError(f"{name!r}: {what}", file=source, place="calibration: profiles")
 
 
@@ -206,8 +206,8 @@ def _check_parameters(calibration: Mapping, source) -> None:
     for key, known in (("parameters", parameters.PARAMETERS), ("bounds", sorted({*chosen, *CALIBRATED}))):
         for name in calibration[key]:
             if name not in known:
-                what = "is not calibrated; expected of" if key == "bounds" else "is no parameter of a vehicle; known are"
-                raise InputError(f"{name!r} {what} {', '.join(known)}", file=source, place=f"calibration: {key}")
+                what = f"is not calibrated; expected of {', '.join(known)}" if name in parameters.PARAMETERS else _no_parameter(name)
+                raise InputError(f"{name!r} {what}", file=source, place=f"calibration: {key}")
     for name, (lower, upper) in calibration["bounds"].items():
         span = parameters.PARAMETERS[name]
         if not span.lower <= lower < upper <= span.upper:
@@ -232,9 +232,13 @@ def _check_uncertain(uncertain: Mapping[str, float], calibrated: Sequence[str], 
     fitted = {*CALIBRATED} & {*calibrated}  # others may stand among what is uncertain by default and be calibrated all the same
     for name in uncertain:
         if name not in parameters.PARAMETERS or name in fitted:
-            why = "is calibrated" if name in fitted else "is no parameter of a vehicle"
             known = ", ".join(key for key in parameters.PARAMETERS if key not in fitted)
-            raise InputError(f"{name!r} {why}; expected of {known}", file=source, place="diagnosis: uncertain")
+            what = f"is calibrated; expected of {known}" if name in fitted else _no_parameter(name)
+            raise InputError(f"{name!r} {what}", file=source, place="diagnosis: uncertain")
+
+
+def _no_parameter(name: str) -> str:
+    return f"is no parameter of a vehicle; {hint(name, parameters.PARAMETERS)}"
 
 
 def _check_vehicles(study: Study, given: list[str]) -> None:

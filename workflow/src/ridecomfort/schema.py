@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import difflib
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
@@ -12,7 +11,7 @@ from pathlib import Path
 import yaml
 from jsonschema import Draft202012Validator, ValidationError, validators
 
-from .errors import InputError
+from .errors import InputError, hint
 
 SCHEMAS = Path(__file__).parents[2] / "schemas"
 
@@ -146,19 +145,17 @@ def _explain(error: ValidationError) -> str:
         case "additionalProperties":
             known = list(error.schema.get("properties", {}))
             unknown = next(key for key in value if key not in known)
-            close = difflib.get_close_matches(str(unknown), known, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known keys: {', '.join(known)}"
-            return f"unknown key {unknown!r}; {hint}"
+            return f"unknown key {unknown!r}; {hint(unknown, known, 'known keys:')}"
         case "required":
             missing = next(key for key in expected if key not in value)
             return f"key {missing!r} is missing"
         case "type":
             kinds = [expected] if isinstance(expected, str) else expected
-            hint = f"; YAML reads this as text, write {_plain(float(value))!r}" if _is_number_as_text(error) else ""
+            as_text = f"; YAML reads this as text, write {_plain(float(value))!r}" if _is_number_as_text(error) else ""
             quoted = ""
             if "string" in kinds and not isinstance(value, (str, dict, list)):
                 quoted = f"; YAML reads what stands there as {NOT_TEXT.get(type(value), 'a number or a date')}, write it in quotes if it is a name"
-            return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{hint}{meaning}{quoted}"
+            return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{as_text}{meaning}{quoted}"
         case "minimum":
             return f"{value!r}, expected at least {expected}{meaning}"
         case "maximum":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib.util
 import inspect
 import keyword
@@ -15,7 +14,7 @@ from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
 
-from ..errors import InputError
+from ..errors import InputError, hint
 from .contract import PORTS, Effect, Parameter
 
 FOLDER = Path(__file__).parent
@@ -67,15 +66,14 @@ def choose(effects: str | Iterable[str] | Mapping[str, Mapping[str, float]] | No
     chosen = []
     for name in sorted(sizes):
         if name not in entries:
-            close = difflib.get_close_matches(str(name), entries, n=1)
-            elsewhere = "" if folder else "; effects_folder names no folder with others"
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(sorted(entries))}{elsewhere}"
-            raise InputError(f"unknown effect {name!r}; {hint}")
+            meant = hint(name, sorted(entries))
+            elsewhere = "; effects_folder names no folder with others" if meant.startswith("known") and not folder else ""
+            raise InputError(f"unknown effect {name!r}; {meant}{elsewhere}")
         effect = entries[name].effect
         known = [parameter.name for parameter in effect.parameters]
         for parameter in sizes[name] or {}:
             if parameter not in known:
-                raise InputError(f"effect {name!r} has no parameter {parameter!r}; it has {', '.join(known)}")
+                raise InputError(f"effect {name!r} has no parameter {parameter!r}; {hint(parameter, known, 'it has')}")
         chosen.append((entries[name], effect.values(sizes[name])))
     return sorted(chosen, key=lambda one: one[0].effect.rank)
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
 
-from ..errors import InputError
+from ..errors import InputError, hint
 from ..schema import read_yaml, validate
 
 
@@ -92,9 +91,7 @@ def read(path) -> Vehicle:
     values, sources = {}, {}
     for name, entry in parameters.items():
         if name not in PARAMETERS:
-            close = difflib.get_close_matches(str(name), PARAMETERS, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(PARAMETERS)}"
-            raise InputError(f"unknown parameter {name!r}; {hint}", file=path, place="parameters")
+            raise InputError(f"unknown parameter {name!r}; {hint(name, PARAMETERS)}", file=path, place="parameters")
         if str(entry["unit"]) != PARAMETERS[name].unit:
             raise InputError(
                 f"unit {entry['unit']!r}, expected {PARAMETERS[name].unit!r}", file=path, place=name
