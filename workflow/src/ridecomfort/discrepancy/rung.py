@@ -29,6 +29,11 @@ CLIMBS, CLIMBED = 4, 0.02
 """How often at most, in all, drives are aligned and all is fitted for one more effect, and gain of a fit per independent value of the records
 below which not again."""
 
+NEAR = 1.0
+"""Probes that every size of a fit has moved at most for its columns not to be made anew. What columns from elsewhere leave of the parameters
+passes for evidence, and a refit with them comes to a stand: of a tyre that progresses, from a file with other springs, after a fortieth of
+its gain."""
+
 FITS = 2
 """Fits from one alignment, each in the frame of the residuals of the one before: an error in what makes it white comes out too small."""
 
@@ -70,7 +75,7 @@ def roles(experiment: Experiment) -> tuple[list[int], list[int]]:
 def begin(experiment: Experiment, start: Mapping[str, float], each: Callable = map) -> Rung:
     """The calibrated model at ``start`` as a rung, its drives aligned a second time for what the first fit found."""
     experiment, _, fit, raw, _ = _fitted(experiment, start, experiment.free, each)
-    return climb(experiment, fit.values, experiment.free, each, raw=raw)
+    return climb(experiment, fit.values, experiment.free, each, raw=raw if _is_near(fit, start, experiment.free) else None)
 
 
 def climb(
@@ -89,9 +94,11 @@ def climb(
         if before is None or gained < CLIMBED * independent(experiment):
             break
         try:
-            experiment, frame, fit, raw, gained = _fitted(experiment, fit.values, sizes, each, None, least)
+            farther = _fitted(experiment, fit.values, sizes, each, None, least)
         except (InputError, ValueError):  # where it came to some vehicle may not be probed
             break
+        values, (experiment, frame, fit, raw, gained) = fit.values, farther
+    raw = raw if _is_near(fit, values, sizes) else _anew(experiment, fit, sizes, each, raw)
     held_out, check, check_frame = roles(experiment)[1], {}, None
     if held_out:
         check, check_frame, experiment = realign.aligned(experiment, fit.values, held_out, None if before is None else before.check_frame)
@@ -241,6 +248,21 @@ def _fitted(experiment, values, sizes, each, raw: Raw | None = None, least: Fram
     frame = exp.frame(experiment, residuals, frame.nuisances, frame.all_cleaned(residuals))
     fit = replace(fit, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
     return experiment, frame, fit, raw, gained
+
+
+def _is_near(fit: Fit, start: Mapping[str, float], sizes: Sequence[Size]) -> bool:
+    """Whether the columns of ``sizes`` at the values ``start`` are nearly those of where a fit ended."""
+    value = lambda size: start.get(size.key, size.neutral)
+    return all(abs(fit.values[size.key] - value(size)) < NEAR * abs(size.probe) for size in sizes)
+
+
+def _anew(experiment: Experiment, fit: Fit, sizes: Sequence[Size], each: Callable, raw: Raw) -> Raw:
+    """Columns where a fit ended; the same where some vehicle there may not be probed."""
+    try:
+        sooner, base = probe.coarsely(experiment, fit.values, fit.residuals)
+        return {**raw, **probe.secants(sooner, fit.values, base, sizes, each)}
+    except (InputError, ValueError):
+        return raw
 
 
 def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
