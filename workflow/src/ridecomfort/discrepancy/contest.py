@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from . import cluster, foresight, refit
+from . import cluster, foresight, probe, refit
 from .confirm import LEAST_SHARE, Confirmation, best
 from .experiment import Candidate, Experiment, Size
 from .probe import Job, Raw
@@ -36,17 +36,16 @@ fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
 class Contest:
     """The round of this ``number`` (from 0 on) on a ``rung``, between ``candidates`` (by name).
 
-    ``fitted``: sizes that are fitted anyway; ``columns``: raw change of the residuals per probe of every size, by job, of what may come next;
-    ``sooner``: the experiment of the rung in longer steps (``probe.coarsely``); ``first``: the model before any effect; ``first_gain``: that of
-    the first effect's refit, 0 before it; ``typical``: columns over typical sizes of what was asked for them in this round or before, as
-    ``columns`` never made anew; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
+    ``fitted``: sizes that are fitted anyway; ``columns``: raw change of the residuals per probe of every size, by job, of what may come next, some
+    made anew; ``sooner``: the experiment of the rung in longer steps (``probe.coarsely``); ``first``: the model before any effect; ``first_gain``: that of
+    the first effect's refit, 0 before it; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
     """
 
     number: int
     rung: Rung
     candidates: Mapping[str, Candidate]
     fitted: Sequence[Size]
-    columns: Mapping[Job, Raw]
+    columns: dict[Job, Raw]
     sooner: Experiment
     first: State
     first_gain: float
@@ -55,7 +54,6 @@ class Contest:
     say: Callable[[str], None]
     simpler: Collection[str]
     known: Mapping[str, float]
-    typical: dict[Job, Raw]
     refitted: dict[Job, Trial | None] = field(default_factory=dict)
     """Refits as they came, None of what cannot be simulated. They are the same whoever of them is taken back."""
     followed: dict[tuple, Trial | None] = field(default_factory=dict)
@@ -110,7 +108,17 @@ class Contest:
 
     @cached_property
     def _scored(self) -> Proposal:
-        """What the score test says."""
+        """What the score test says. Above the first rung the columns of what it speaks for most are made anew, until it speaks by such alone:
+        what those of another rung leave of a candidate, beside columns of the parameters that are made there, passes for evidence of it."""
+        base, anew, found = self.rung.fit, set(), self._tested()
+        while self.number and (old := {*found.significant(ASKED)} - anew):
+            jobs = [job for job in self.columns if job[0] in old]
+            made = zip(jobs, self.each(probe.Probe(self.sooner, base.values, base.residuals), jobs))
+            self.columns |= {job: own for job, own in made if own.keys() == self.columns[job].keys()}
+            anew, found = anew | old, self._tested()
+        return found
+
+    def _tested(self) -> Proposal:
         rung = self.rung
         return propose(rung.frame, rung.fit.residuals, self._free, self.columns, self.candidates, [self.seed, self.number], self.known)
 
@@ -119,9 +127,7 @@ class Contest:
         """Columns over typical sizes of the ASKED candidates that gain most by the score test."""
         found, base = self._scored, self.rung.fit
         jobs = [found.best[name] for name in found.significant(ASKED)]
-        new = [job for job in jobs if job not in self.typical]
-        self.typical |= zip(new, self.each(foresight.Typical(self.sooner, self.candidates, base.values, base.residuals), new))
-        return {job: self.typical[job] for job in jobs}
+        return dict(zip(jobs, self.each(foresight.Typical(self.sooner, self.candidates, base.values, base.residuals), jobs)))
 
     @cached_property
     def confirmation(self) -> Confirmation:

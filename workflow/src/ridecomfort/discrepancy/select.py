@@ -83,8 +83,6 @@ class _Search:
     simpler: Collection[str] = ()
     probed: Mapping[Job, Raw] = field(default_factory=dict)
     known: Mapping[str, float] = field(default_factory=dict)
-    typical: dict[Job, Raw] = field(default_factory=dict)
-    """Columns over typical sizes, as they were asked for (``Contest.typical``)."""
     accepted: list[str] = field(default_factory=list)
     shaped: set[str] = field(default_factory=set)
     """Keys of what shapes accepted effects and is fitted."""
@@ -147,7 +145,7 @@ class _Search:
         first_gain = self.rounds[0].winner.gain if self.accepted else 0.0
         return Contest(
             len(self.rounds), self.rung, self.by_name, self._sizes(), columns, self.sooner, self.first, first_gain,
-            self.seed, self.each, self.say, self.simpler, self.known, self.typical,
+            self.seed, self.each, self.say, self.simpler, self.known,
         )  # fmt: skip
 
     def _shaped_by(self, winner: Trial) -> set[str]:
