@@ -42,3 +42,32 @@ def test_what_small_sizes_hardly_show_is_refitted_by_what_typical_ones_would_do(
         assert found.final.values["effect_2.size"] == pytest.approx(1.0, abs=0.02)
     else:
         assert found.rounds[0].passed_over["effect_2"] == "not refitted: the 5 that gain most were"
+
+
+class Changed(Linear):
+    """The same where effect_2, at the size of 2 that is missing, changes what effect_4 and effect_5 do: of effect_4 to half of it and as much of
+    something else, of effect_5 to what the stiffness does. Beside effect_2 is missing what effect_4 does then, and what effect_5 did before."""
+
+    def __init__(self, seed):
+        super().__init__(seed, {"effect_2.size": 2.0}, library=7)
+        for own in {id(own): own for own in self.columns}.values():
+            own["something else"] = own.pop("effect_6.size")
+        self.candidates = self.candidates[:6]
+
+    def residual(self, values, index):
+        own, there = self.columns[index], values.get("effect_2.size", 0.0) / 2.0
+        fourth, fifth = (values.get(f"effect_{k}.size", 0.0) for k in (4, 5))
+        changed = -0.5 * own["effect_4.size"] + own["something else"], own["stiffness"] - own["effect_5.size"]
+        missing = 0.3 * (own["effect_4.size"] + changed[0]) + 0.1 * own["effect_5.size"]
+        return super().residual(values, index) + there * (fourth * changed[0] + fifth * changed[1]) - missing
+
+
+def test_above_the_first_rung_the_evidence_is_that_of_columns_as_they_are_there():
+    found = select.select(Changed(1), {"stiffness": 0.0}, most=2)
+    assert found.accepted == ("effect_2", "effect_4")
+    first, second = found.rounds
+    gain = dict(zip(second.names, second.gain))["effect_4"]
+    assert gain > 0.6 * second.winner.gain  # by the column of the first rung 0.13
+    at_first, beside = (dict(zip(turn.names, turn.p_value))["effect_5"] for turn in (first, second))
+    assert at_first < 0.01 and beside > 0.05
+    assert "effect_5" not in {trial.name for trial in second.trials}

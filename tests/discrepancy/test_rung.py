@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import rung as rung_module
-from ridecomfort.discrepancy.rung import awake, climb, final_fit
+from ridecomfort.discrepancy.rung import awake, begin, climb, final_fit
 
 from .linear import Linear
 
@@ -66,6 +66,25 @@ def test_where_nil_is_best_it_stays():
     rung = climb(model, {"stiffness": 0.0, KEY: 0.0}, sizes)
     fit, _ = final_fit(rung, sizes)
     assert fit.values[KEY] == pytest.approx(0.0, abs=0.1) and awake(rung, sizes, model.candidates[2].sizes) is rung
+
+
+class Curved(Linear):
+    """The same where what the stiffness does changes with it, by as much at 10 N/m as it is from the start."""
+
+    def residual(self, values, index):
+        stiffness = values.get("stiffness", 0.0)
+        curved = 0.05 * (stiffness**2 - self.truth["stiffness"] ** 2) * self.columns[index]["effect_5.size"]
+        return super().residual(values, index) + curved
+
+
+@pytest.mark.parametrize("truth", [6.0, 0.03])
+def test_columns_of_the_parameters_are_those_of_where_the_fit_ended(truth):
+    rung = begin(Curved(3, {"stiffness": truth}), {"stiffness": 0.0})
+    assert rung.fit.values["stiffness"] == pytest.approx(truth, abs=0.05)
+    for index, column in rung.raw["stiffness"].items():
+        own = rung.experiment.columns[index]
+        there = 0.1 * (own["stiffness"] + 0.1 * truth * own["effect_5.size"])
+        assert np.linalg.norm(column - there) < 0.02 * np.linalg.norm(there)
 
 
 class Held(Linear):
