@@ -52,7 +52,7 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
         if name in TAKEN:
             raise InputError(f"{name!r} is the name of something else; call the site otherwise", file=source, place=place)
         if name not in known:
-            raise InputError(f"unknown site {name!r}; {hint(name, known, 'known sites:')}", file=source, place=place)
+            raise InputError(f"unknown site {name!r}; known sites: {', '.join(known)}", file=source, place=place)
         sites[name] = _site(name, folder, standin)
         other = sites[name].get("calibrated_on", NO_CALIBRATION)
         if other != NO_CALIBRATION:
