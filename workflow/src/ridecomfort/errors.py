@@ -1,4 +1,4 @@
-"""The one exception that a user's mistake raises, and how a command ends on it."""
+"""The one exception that a user's mistake raises, how a command ends on it, and what may have been meant."""
 
 from __future__ import annotations
 

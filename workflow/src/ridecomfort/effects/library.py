@@ -66,9 +66,8 @@ def choose(effects: str | Iterable[str] | Mapping[str, Mapping[str, float]] | No
     chosen = []
     for name in sorted(sizes):
         if name not in entries:
-            meant = hint(name, sorted(entries))
-            elsewhere = "; effects_folder names no folder with others" if meant.startswith("known") and not folder else ""
-            raise InputError(f"unknown effect {name!r}; {meant}{elsewhere}")
+            otherwise = "known are" if folder else "effects_folder names no folder with others; known are"
+            raise InputError(f"unknown effect {name!r}; {hint(name, sorted(entries), otherwise)}")
         effect = entries[name].effect
         known = [parameter.name for parameter in effect.parameters]
         for parameter in sizes[name] or {}:

@@ -97,8 +97,8 @@ class Progress(logging.Handler):
                     self._failed(record)
                 case "error" if missing := _missing(record):
                     close = difflib.get_close_matches(missing, self.rules(), n=1)
-                    meant = f"did you mean {close[0]!r}?" if close else "see README.md"
-                    self._write(f"error: {missing}: no site of the study and no target of this name; {meant}")
+                    hint = f"did you mean {close[0]!r}?" if close else "see README.md"
+                    self._write(f"error: {missing}: no site of the study and no target of this name; {hint}")
         except Exception:  # a study must not end because of a line on the screen
             self.handleError(record)
 
