@@ -81,3 +81,13 @@ def test_a_mass_that_sways_goes_along_with_a_steady_bend_and_stays_behind_when_s
 def test_rear_wheels_that_steer_along_push_the_other_way_below_a_speed():
     push = lambda speed: Moving("body", "steering_along", change=10.0).after(2.0, motion=turning(speed=speed))
     assert push(20.0) == pytest.approx(0.025) and push(10.0) == pytest.approx(0.0) and push(5.0) == pytest.approx(-0.05)
+
+
+def test_what_goes_by_the_speed_has_a_quarter_of_it_at_half_of_the_speed():
+    moment = lambda speed: Moving("body", "pitch_stiffness_of_speed").after(0.0, motion=SimpleNamespace(speed=speed, pitch=0.01))
+    assert moment(20.0) == pytest.approx(4.0) and moment(10.0) == pytest.approx(1.0)
+
+
+def test_a_differential_that_locks_holds_as_hard_in_any_quick_turn_and_half_as_hard_at_its_knee():
+    moment = lambda rate: 1.0 / 0.02 * Moving("body", "yaw_saturating", knee=0.02).after(0.0, motion=turning(yaw_rate=rate))
+    assert moment(0.02) == pytest.approx(0.5) and moment(-2.0) == pytest.approx(-1.0, rel=0.02)
