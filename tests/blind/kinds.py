@@ -43,12 +43,14 @@ MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_trave
            "active_roll_bars", "airless_tyre", "bent_arm", "hydraulic_interconnection",
            "ride_control_by_torque", "sticky_steering", "switched_air_chamber", "tie_rod_length", "worn_track_rod_end",
            "antiroll_bar_friction", "diagonal_dampers", "linked_struts",
-           "differential_lock", "roll_bar_hardening", "underbody_suction")  # fmt: skip
+           "differential_lock", "front_axle_skyhook", "roll_bar_hardening", "stability_control", "torque_vectoring",
+           "underbody_suction")  # fmt: skip
 """Truths of which the library has nothing alike."""
 
 SHAPED = {"friction_tanh": "suspension_friction", "friction_elastic": "suspension_friction", "damper_power": "damper_knee",
           "breakaway_friction": "suspension_friction", "bump_steer_by_load": "bump_steer", "tyre_flat_spot": "tyre_runout",
-          "one_sided_load": "uneven_load", "bump_stop_creep": "bump_stop", "decoupled_mount": "powertrain_mounts"}  # fmt: skip
+          "one_sided_load": "uneven_load", "bump_stop_creep": "bump_stop", "decoupled_mount": "powertrain_mounts",
+          "friction_in_mount": "suspension_friction"}  # fmt: skip
 """Truths of another shape, and what the library has of their kind."""
 
 OF_MEASUREMENT = {"gyroscope_delay": "gyroscope_delay", "imu_lever_arm": "imu_lever_arm", "road_bank": "road_bank",

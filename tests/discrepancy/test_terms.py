@@ -91,3 +91,9 @@ def test_what_goes_by_the_speed_has_a_quarter_of_it_at_half_of_the_speed():
 def test_a_differential_that_locks_holds_as_hard_in_any_quick_turn_and_half_as_hard_at_its_knee():
     moment = lambda rate: 1.0 / 0.02 * Moving("body", "yaw_saturating", knee=0.02).after(0.0, motion=turning(yaw_rate=rate))
     assert moment(0.02) == pytest.approx(0.5) and moment(-2.0) == pytest.approx(-1.0, rel=0.02)
+
+
+def test_a_nose_that_is_damped_against_the_ground_stays_free_where_bounce_and_pitch_cancel_there():
+    motion = lambda pitch_rate: SimpleNamespace(vertical_speed=0.12, pitch_rate=pitch_rate, front=1.2, rear=-1.5)
+    assert Moving("body", "heave_damping_front").after(1.0, motion=motion(0.1)) == pytest.approx(0.0, abs=1e-9)
+    assert Moving("body", "heave_damping_rear").after(1.0, motion=motion(0.1)) == pytest.approx(0.27)

@@ -282,6 +282,12 @@ PLACES: Mapping[str, Place] = {
                 )
                 for axle in AXLES
             },
+            **{
+                f"heave_damping_{axle}": following(
+                    f"motion.vertical_speed - motion.{axle} * motion.pitch_rate", 0.05, 0.02, "N s/m", "force_z", ahead=f"motion.{axle}"
+                )
+                for axle in AXLES
+            },
             "sway_rear": on_spring("motion.speed * motion.yaw_rate", 1.0, "kg", "force_y", "motion.rear", (1.2, 0.4, 6.0)),
             "swaying": swaying(),
             "steering_along": steering_along(),
