@@ -137,7 +137,7 @@ MEANINGS: Mapping[str, Mapping[str, str]] = {
         "pitch_inertia": "another pitch inertia",
         "pitch_of_speed": "lift of the air at one axle",
         "yaw_damping": "axles that steer along; another yaw stability",
-        "yaw_saturating": "a differential that locks",
+        "yaw_rate_direction": "a differential that locks",
         "yaw_of_side_slip": "yaw moment of the air",
         "yaw_of_roll": "axles that steer as the body leans",
         "side_force_of_roll": "camber of wheels that lean with the body",
@@ -301,7 +301,7 @@ SENSES: Mapping[str, Mapping[str, tuple[str, str]]] = {
         "pitch_stiffness_of_speed": _more("softer", "stiffer", "at speed"),
         "pitch_inertia": ("less inertia", "more inertia"),
         "yaw_damping": ("less damping", "more damping"),
-        "yaw_saturating": _more("less damping", "more damping", "in slow turning"),
+        "yaw_rate_direction": FRICTION[::-1],
     },
 }
 """By place and term, what a factor above nil does against the model's own linear part, and what one below; none where that is no word's matter."""

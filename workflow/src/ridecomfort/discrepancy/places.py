@@ -259,10 +259,9 @@ PLACES: Mapping[str, Place] = {
             "pitch_inertia": Term("motion.pitch_acceleration", "kg m2", "moment_y", WHOLE),
             "pitch_of_speed": Term("motion.speed**2", "kg", "moment_y", WHOLE),
             "yaw_damping": Term("motion.yaw_rate", "N m s", "moment_z", WHOLE),
-            "yaw_saturating": Term(
-                "motion.yaw_rate / (1.0 + abs(motion.yaw_rate) / knee)", "N m s", "moment_z", WHOLE,
-                settings=(shape_setting("knee", "rad/s", 0.02, 0.002, 0.2, "yaw rate at which it is half of what it would be without"),),
-                beside="motion.yaw_rate",
+            "yaw_rate_direction": Term(
+                "tanh(motion.yaw_rate / knee)", "N m", "moment_z", WHOLE,
+                settings=(shape_setting("knee", "rad/s", 0.02, 0.002, 0.2, "yaw rate above which it slips"),), beside="motion.yaw_rate",
             ),
             "yaw_of_side_slip": Term("motion.speed * motion.side_speed", "kg", "moment_z", WHOLE),
             "yaw_of_roll": Term("motion.roll", "N m", "moment_z", WHOLE),
