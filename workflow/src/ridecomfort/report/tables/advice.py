@@ -194,9 +194,17 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     if (min if may_end else max)(fitted_of_form, held_out_of_form) < LITTLE:
         return may_end + go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
     file = Path(found.files.get("verdict", "")).parent / f"{proposal['name']}.py"
-    try_form = TRY_FORM.format(file=file, keys=", ".join([*own, *(proposal.get("beside") or ()), proposal["name"]]))
+    try_form = TRY_FORM.format(file=file, keys=", ".join([*own, *_by_share(proposal)]))
     if not library_helps(said) or said.get("is_beside_form"):
         return may_end + try_form
     library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form - AS_GOOD
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)
     return f"{may_end}{first} The second choice: {second[:1].lower()}{second[1:]}"
+
+
+def _by_share(proposal: Mapping) -> list[str]:
+    """A proposed form and what stands beside it, in the order in which they are to be switched on: the form first where most goes with it, since
+    beside a large error a small effect may seem to make things worse."""
+    name, beside = proposal["name"], list(proposal.get("beside") or ())
+    is_most = (proposal.get("own_share") or 0.0) > 0.5 * (proposal.get("share") or 0.0)
+    return [name, *beside] if is_most else [*beside, name]
