@@ -112,6 +112,15 @@ def test_shares_on_drives_held_out_are_open_marks_in_the_colour_of_those_on_fitt
     assert held_out.get_markerfacecolor() == "none"
 
 
+def test_where_no_drive_held_out_has_anything_to_explain_no_mark_of_one_is_promised():
+    ranking = made_up.ranking()
+    ranking["trial_held_out_share"] = ranking["trial_held_out_share"] * np.nan
+    drawn = evidence.evidence(replace(made_up.diagnosis(), ranking=ranking))
+    said = [text.get_text() for text in drawn.findobj(Text)]
+    assert "on drives held out" not in said and "refits: on fitted drives" in said
+    assert "on drives held out" in [text.get_text() for text in evidence.evidence(made_up.diagnosis()).findobj(Text)]
+
+
 @pytest.mark.parametrize(
     ("why", "said"),
     [

@@ -87,7 +87,8 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         for axes, count in ((left, 3 if is_crowded else 4), (right, 3 if is_narrow else 5)):
             axes.locator_params(axis="x", nbins=count)
             axes.tick_params(axis="y", length=0)
-    panels[0][1].set_title("refits: fitted / held out")
+    is_checked = bool(np.isfinite(ranking["trial_held_out_share"].values).any())
+    panels[0][1].set_title("refits: fitted / held out" if is_checked else "refits: on fitted drives")
     panels[-1][0].set_xlabel("gain of 2 ln L, square-root scale [-]")
     panels[-1][1].set_xlabel("error removed [%]")
     handles = [
@@ -95,7 +96,7 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         Patch(color=SIGNIFICANT, label=f"significant over all (p ≤ {LEVEL:g})"),
         Patch(color=OTHER, label="not significant"),
         Line2D([], [], **DOT, label="on fitted drives"),
-        Line2D([], [], **DIAMOND, label="on drives held out"),
+        *([Line2D([], [], **DIAMOND, label="on drives held out")] if is_checked else ()),
     ]
     drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
