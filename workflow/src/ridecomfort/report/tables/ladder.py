@@ -77,7 +77,8 @@ def error_ladder(study: Difference) -> Table:
         f"much as there was to explain of its own error. Fall: from the row above, and in how many of the stretches of {STRETCH:g} m that "
         f"these drives have. A model helps where chance makes it fall so in at most one of {1 / rungs.LEVEL:.0f} cases (Wilcoxon's signed ranks of "
         f"the stretches), little where it falls by less than {100 * rungs.WORTHWHILE:g} %. What helps drives held out on no site is to be taken out "
-        f"again, if it does not help after the others either: the order of effects in config/study.yaml is that of the rows. Drives of less than {rungs.FEWEST} stretches do not tell. Every comparison has a floor of its own; all "
+        f"again, if it does not help after the others either: the order of effects in config/study.yaml is that of the rows. "
+        f"Drives of less than {rungs.FEWEST} stretches do not tell. Every comparison has a floor of its own; all "
         "models are measured against the lowest floor, the least of the models shown. With fewer models it may lie higher, so that the same model "
         "leaves less above it, a signal perhaps nothing, which does not count among all then. The diagnosis tells other shares: it takes all sites together, aligns their drives more often and fits what is uncertain of the vehicle.",
         *_of_reference(study),
