@@ -112,6 +112,17 @@ def test_shares_on_drives_held_out_are_open_marks_in_the_colour_of_those_on_fitt
     assert held_out.get_markerfacecolor() == "none"
 
 
+def test_a_share_of_next_to_nothing_does_not_press_all_others_together():
+    ranking = made_up.ranking()
+    ranking["trial_held_out_share"][0] = -3.71
+    drawn = evidence.evidence(replace(made_up.diagnosis(), ranking=ranking))
+    right = drawn.axes[1]
+    assert right.get_xlim()[0] > -1.2 * evidence.MOST
+    beyond = [line for line in right.lines if line.get_marker() == "<"]
+    assert [line.get_xdata()[0] for line in beyond] == [-evidence.MOST]
+    assert any("−371 %" in text.get_text() for text in right.texts)
+
+
 def test_where_no_drive_held_out_has_anything_to_explain_no_mark_of_one_is_promised():
     ranking = made_up.ranking()
     ranking["trial_held_out_share"] = ranking["trial_held_out_share"] * np.nan

@@ -21,6 +21,10 @@ from ..tables.diagnosis import NO_FORMS, STRONGEST, outcomes, refits
 LEAST = 1.0
 """Percent to both sides of zero that shares are drawn over at least: what removes nothing must look like nothing."""
 
+MOST = 110.0
+"""Percent to both sides of zero that shares are drawn over at most: of drives that have little to explain a share may be anything, and one such
+would press all others together."""
+
 PAGE, HEAD, AROUND, EACH = 9.0, 0.9, 0.5, 0.155
 """Inches: the height that a page has room for, and what the figure, a round and a bar take of it."""
 
@@ -122,9 +126,10 @@ def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str]) -> None:
         shares = [100 * float(trial[key]) for key in ("trial_share", "trial_held_out_share")]
         if name in names:
             place = names.index(name)
-            axes.plot(shares, [place, place], color=style.FAINT, linewidth=0.8, zorder=1)
-            axes.plot(shares[0], place, **DOT, clip_on=False)
-            axes.plot(shares[1], place, **DIAMOND, clip_on=False)
+            axes.plot(np.clip(shares, -MOST, MOST), [place, place], color=style.FAINT, linewidth=0.8, zorder=1)
+            for share, mark in zip(shares, (DOT, DIAMOND)):
+                beyond = {} if not abs(share) > MOST else {"marker": ">" if share > 0 else "<"}
+                axes.plot(np.clip(share, -MOST, MOST), place, **{**mark, **beyond}, clip_on=False)
         said = " / ".join(f"{share:.0f}" for share in np.round(shares) + 0.0 if np.isfinite(share)).replace("-", "−")
         came[name] = f"{said} %  {came[name]}"
     for place, name in enumerate(names):

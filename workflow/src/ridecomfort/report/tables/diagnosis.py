@@ -38,6 +38,9 @@ HELD = {True: "typical: the drives ask for no other", False: "held, the best of 
 OF_SIDE = "side is +1 on the left, −1 on the right"
 """What is said of that in a form."""
 
+OF_LITTLE = "A share far below −100 % or above 100 % is one of drives that have next to nothing to explain."
+"""What is said of such shares."""
+
 RIGHTED = "These are the rounds of the search that began with the vehicle put right, as the verdict's row says."
 """What is said of the evidence where parameters of the vehicle beyond their bounds came before any effect."""
 
@@ -244,6 +247,7 @@ def evidence(found: Diagnosis) -> Table:
         "wild bootstrap: a screen of what is worth a refit; docs/diagnosis.md says how often it is small where nothing is missing. Every effect is tested that does what alignment does not do, too; the "
         "best are refitted together with the calibrated parameters, and what that removes "
         "is told above the floor as known in the round: for what an accepted effect removes, and its size, in the end see the missing effects. "
+        f"{OF_LITTLE} "
         "Accepted is what the next round searches beside; the verdict says whether it is named in the end.",
         *([RIGHTED] if advice.is_vehicle_first(found.verdict) else []),
     )
@@ -276,6 +280,7 @@ def forms(found: Diagnosis) -> Table:
         "Forms are terms that a force may be made of at each place where it could act. The first of "
         f"a place is its best, so that places are ranked by it. In their expressions {OF_SIDE}. Gain, p-value (over all terms of all places) and shares as in the evidence "
         "for the library, whose effects are looked for together with them where it explains too little alone: they may be missing, too. "
+        f"{OF_LITTLE} "
         f"Told are the {STRONGEST} strongest of each round and the best of every place; all are in the file. Accepted is the best "
         "of a round. The verdict says whether it is proposed, and with which factors, all fitted together at the end; where the library does as well, the verdict takes the library.",
     )
