@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import argparse
 import csv
+import hashlib
+import json
 import time
 from collections.abc import Collection, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from functools import partial
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
 import numpy as np
@@ -79,6 +80,42 @@ def jobs(rounds: int, seed: int, chosen: Collection[str] = tuple(SHARES)) -> lis
     return found
 
 
+Done = dict[tuple[str, int, int], dict | None]
+"""Rows of trials.csv by job, None where there was no trial."""
+
+
+def version() -> str:
+    """Hexadecimal digits that change with anything that a trial rests on."""
+    sources = [*(REPOSITORY / "workflow").rglob("*.py"), *Path(__file__).parent.rglob("*.py"), *(REPOSITORY / "config" / "vehicles").glob("*.yaml")]
+    digest = hashlib.sha256()
+    for path in sorted(sources):
+        digest.update(str(path.relative_to(REPOSITORY)).encode() + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def done_before(path: Path, how: str) -> Done:
+    """What a run that was cut short has done, if it was one of the same version and settings (``how``)."""
+    if not path.exists():
+        return {}
+    kept = json.loads(path.read_text(encoding="utf-8"))
+    return {tuple(job): row for job, row in kept["done"]} if kept["how"] == how else {}
+
+
+def write(folder: Path, done: Done, how: str) -> None:
+    """Tables of what is done, and done.json to go on from."""
+    kept = json.dumps({"how": how, "done": list(done.items())}, default=lambda value: value.item())
+    (folder / "done.json.new").write_text(kept, encoding="utf-8")
+    (folder / "done.json.new").replace(folder / "done.json")
+    rows = [row for row in done.values() if row is not None]
+    if not rows:
+        return
+    with open(folder / "trials.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
+    (folder / "summary.md").write_text("\n".join(score.summary(rows)) + "\n", encoding="utf-8")
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m tests.blind", description=__doc__)
     parser.add_argument("--rounds", type=int, default=8, help=f"rounds of {sum(SHARES.values())} trials of all kinds (default 8)")
@@ -89,18 +126,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--output", type=Path, default=REPOSITORY / "results" / "blind")
     options = parser.parse_args(arguments)
     options.output.mkdir(parents=True, exist_ok=True)
-    rows: list[dict] = []
+    how = f"{version()}{', alone' if options.alone else ''}"
+    asked = jobs(options.rounds, options.seed, options.kinds)
+    before = done_before(options.output / "done.json", how)
+    done: Done = {job: before[job] for job in asked if job in before}
+    if done:
+        print(f"{len(done)} of {len(asked)} trials were done before", flush=True)
     with ProcessPoolExecutor(options.workers) as pool:
-        for row in pool.map(partial(one, alone=options.alone), jobs(options.rounds, options.seed, options.kinds)):
-            if row is None:
-                continue
-            rows.append(row)
-            print(*(f"{row[key]}" for key in ("kind", "hidden", "kappa", "verdict", "found", "cpu_seconds")), sep=" | ", flush=True)
-            with open(options.output / "trials.csv", "w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, rows[0].keys())
-                writer.writeheader()
-                writer.writerows(rows)
-            (options.output / "summary.md").write_text("\n".join(score.summary(rows)) + "\n", encoding="utf-8")
+        begun = {pool.submit(one, job, options.alone): job for job in asked if job not in done}
+        for trial in as_completed(begun):
+            done[begun[trial]] = row = trial.result()
+            write(options.output, {job: done[job] for job in asked if job in done}, how)
+            if row is not None:
+                print(*(f"{row[key]}" for key in ("kind", "hidden", "kappa", "verdict", "found", "cpu_seconds")), sep=" | ", flush=True)
 
 
 if __name__ == "__main__":
