@@ -101,8 +101,8 @@ def done_before(path: Path, how: str) -> Done:
     return {tuple(job): row for job, row in kept["done"]} if kept["how"] == how else {}
 
 
-def write(folder: Path, done: Done, how: str) -> None:
-    """Tables of what is done, and done.json to go on from."""
+def write(folder: Path, done: Done, how: str, command: str) -> None:
+    """Tables of what the ``command`` has done, and done.json to go on from."""
     kept = json.dumps({"how": how, "done": list(done.items())}, default=lambda value: value.item())
     (folder / "done.json.new").write_text(kept, encoding="utf-8")
     (folder / "done.json.new").replace(folder / "done.json")
@@ -113,7 +113,8 @@ def write(folder: Path, done: Done, how: str) -> None:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
-    (folder / "summary.md").write_text("\n".join(score.summary(rows)) + "\n", encoding="utf-8")
+    head = "# Blind trials", "", f"{len(rows)} trials by `{command}`. What the words mean stands in [diagnosis.md](diagnosis.md#how-it-is-tested).", ""
+    (folder / "summary.md").write_text("\n".join((*head, *score.summary(rows))) + "\n", encoding="utf-8")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -123,9 +124,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--kinds", nargs="+", choices=list(SHARES), default=list(SHARES), metavar="KIND", help="of these kinds alone")
     parser.add_argument("--alone", action="store_true", help="with one fitted drive, not three repeats, the noise of the instruments being known")
     parser.add_argument("--workers", type=int, default=2, help="trials at a time (default 2)")
+    parser.add_argument("--release", action="store_true", help="write the summary into docs/blind.md, too")
     parser.add_argument("--output", type=Path, default=REPOSITORY / "results" / "blind")
     options = parser.parse_args(arguments)
     options.output.mkdir(parents=True, exist_ok=True)
+    command = f"python -m tests.blind --rounds {options.rounds} --seed {options.seed}{' --alone' if options.alone else ''}"
+    if len(options.kinds) < len(SHARES):
+        command += " --kinds " + " ".join(f'"{kind}"' for kind in options.kinds)
     how = f"{version()}{', alone' if options.alone else ''}"
     asked = jobs(options.rounds, options.seed, options.kinds)
     before = done_before(options.output / "done.json", how)
@@ -136,9 +141,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
         begun = {pool.submit(one, job, options.alone): job for job in asked if job not in done}
         for trial in as_completed(begun):
             done[begun[trial]] = row = trial.result()
-            write(options.output, {job: done[job] for job in asked if job in done}, how)
+            write(options.output, {job: done[job] for job in asked if job in done}, how, command)
             if row is not None:
                 print(*(f"{row[key]}" for key in ("kind", "hidden", "kappa", "verdict", "found", "cpu_seconds")), sep=" | ", flush=True)
+    if options.release:
+        (REPOSITORY / "docs" / "blind.md").write_text((options.output / "summary.md").read_text(encoding="utf-8"), encoding="utf-8")
 
 
 if __name__ == "__main__":

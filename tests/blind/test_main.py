@@ -13,8 +13,8 @@ DONE = {("clean", 1, 0): ROW, ("clean", 1, 1): None}
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    monkeypatch.setattr(blind.score, "summary", lambda rows: [f"{len(rows)} trials"])
-    blind.write(tmp_path, DONE, "as now")
+    monkeypatch.setattr(blind.score, "summary", lambda rows: ["a table"])
+    blind.write(tmp_path, DONE, "as now", "python -m tests.blind --seed 1")
     return tmp_path
 
 
@@ -22,7 +22,11 @@ def test_it_goes_on_where_it_ended_with_the_rows_that_it_had(folder):
     before = blind.done_before(folder / "done.json", "as now")
     assert list(before) == list(DONE) and before["clean", 1, 1] is None
     np.testing.assert_equal(before["clean", 1, 0], ROW)
-    assert (folder / "summary.md").read_text() == "1 trials\n"
+
+
+def test_the_summary_says_how_it_was_made(folder):
+    said = (folder / "summary.md").read_text()
+    assert said.startswith("# Blind trials") and "1 trials by `python -m tests.blind --seed 1`" in said and said.endswith("a table\n")
 
 
 def test_nothing_is_kept_of_another_version(folder):
