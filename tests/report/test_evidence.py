@@ -112,6 +112,17 @@ def test_shares_on_drives_held_out_are_open_marks_in_the_colour_of_those_on_fitt
     assert held_out.get_markerfacecolor() == "none"
 
 
+def test_what_was_refitted_is_drawn_though_many_others_gain_more():
+    one = made_up.ranking().sel(round=1)
+    others = [f"effect_{number}" for number in range(20)]
+    wider = one.reindex(effect=[*one["effect"].values, *others])
+    wider["gain"] = ("effect", np.concatenate([one["gain"].values, one["gain"].values.max() + np.arange(1.0, 21.0)]))
+    drawn = evidence._shown(wider, 12)
+    tried = {str(name) for name in one["trial_effect"].values[one["trial_round"].values == 1]}
+    assert len(drawn) == 12 and tried and tried <= set(drawn)
+    assert drawn[0] == "effect_19" and drawn == sorted(drawn, key=lambda name: -float(wider["gain"].sel(effect=name)))
+
+
 def test_a_share_of_next_to_nothing_does_not_press_all_others_together():
     ranking = made_up.ranking()
     ranking["trial_held_out_share"][0] = -3.71

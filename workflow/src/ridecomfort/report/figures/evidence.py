@@ -77,12 +77,11 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
     panels = drawn.subplots(len(rounds), 2, squeeze=False, sharey="row", width_ratios=(1.4, 1.0))
     for (left, right), turn in zip(panels, rounds):
         one = ranking.sel(round=turn)
-        gain = np.nan_to_num(one["gain"].values, nan=-np.inf)
-        names = [str(ranking["effect"].values[k]) for k in np.argsort(-gain)[:shown] if np.isfinite(gain[k])]
+        names = _shown(one, shown)
         winner = str(one["winner"].item())
         _scores(left, one.sel(effect=names), names, winner)
-        tested = np.isfinite(gain).sum()
-        drawn_of = f", best {len(names)} of {tested}" if len(names) < tested else ""
+        tested = int(np.isfinite(one["gain"].values).sum())
+        drawn_of = f", {len(names)} of {tested}" if len(names) < tested else ""
         came = f": none of {tested} accepted" if tested else ": nothing left to test"
         left.set_title(f"round {turn}{drawn_of if winner else came}")
         _refits(right, one, names)
@@ -104,6 +103,14 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
     ]
     drawn.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawn
+
+
+def _shown(one: xr.Dataset, most: int) -> list[str]:
+    """Names of the ``most`` candidates of a round that gain most, the largest gain first; those that were refitted go before others."""
+    gain, tried = one["gain"].values, refits(one)
+    tested = [str(one["effect"].values[k]) for k in np.argsort(-gain) if np.isfinite(gain[k])]
+    kept = sorted(tested, key=lambda name: name not in tried)[:most]
+    return [name for name in tested if name in kept]
 
 
 def _scores(axes: Axes, tested: xr.Dataset, names: Sequence[str], winner: str) -> None:
