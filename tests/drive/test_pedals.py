@@ -123,3 +123,56 @@ def test_it_is_said_in_which_band_drivers_are_listened_to():
     assert pedals.words([None, None]) == ""
     assert "from 0.2 Hz up to 2.4 Hz" in pedals.words([(0.2, 2.4), None])
     assert "from 0.2-0.3 Hz up to 1.9-2.4 Hz" in pedals.words([(0.2, 2.4), (0.3, 1.9)])
+
+
+@pytest.fixture(scope="module")
+def drawn(course, car):
+    """Replays that hear a foot of 0.01 m/s2 below 1.2 Hz amid noise of 0.03 m/s2 at 100 Hz, each with the two."""
+    drive, _ = braked.drive(course, car)
+    again, rng, found = replay(drive, course, simulate.run), np.random.default_rng(5), []
+    for _ in range(10):
+        foot = smooth(rng.standard_normal(again.time.size), 100.0, 1.2, order=4)
+        foot *= 0.01 / foot.std()
+        noise = 0.03 * rng.standard_normal(again.time.size)
+        found.append((replace(again, by_foot=(0.5, 2.0), foot=foot + noise), foot, noise))
+    return found
+
+
+def gained(again, acceleration):
+    """The speed in m/s that an acceleration gains within the band in which a driver is heard, (time,)."""
+    speed = np.cumsum(acceleration) / 100.0
+    return pedals.driven(speed - smooth(speed, 100.0, again.by_foot[0]), 100.0, again.by_foot)
+
+
+def test_what_is_asked_amid_noise_errs_by_nothing_that_goes_with_it(drawn, monkeypatch):
+    """Else a record's own noise, which moves the model, speaks for whatever answers to its driving forces."""
+    alike, errors = [], []
+    for again, foot, noise in drawn:
+        monkeypatch.setattr(pedals, "missing_acceleration", lambda again, simulated: noise)
+        heard, true = gained(again, again.foot), gained(again, foot)
+        asked = heard - pedals.without_noise(again, None).by_chance
+        alike.append([np.corrcoef(heard[again.compared], (speed - true)[again.compared])[0, 1] for speed in (heard, asked)])
+        errors.append([np.std((speed - true)[again.compared]) for speed in (heard, asked)])
+    (of_all, of_likely), (all_of_it, likely) = np.mean(alike, axis=0), np.mean(errors, axis=0)
+    assert of_all > 0.4 and abs(of_likely) < 0.1
+    assert likely < 0.9 * all_of_it
+
+
+def test_of_noise_alone_little_is_asked_and_of_a_foot_far_above_it_all(drawn, course, car, monkeypatch):
+    left = []
+    for again, _, noise in drawn:
+        monkeypatch.setattr(pedals, "missing_acceleration", lambda again, simulated: noise)
+        alone = replace(again, foot=noise)
+        asked = gained(alone, noise) - pedals.without_noise(alone, None).by_chance
+        left.append(np.var(asked[again.compared]) / np.var(gained(alone, noise)[again.compared]))
+    assert np.mean(left) < 0.25
+    monkeypatch.undo()
+    drive, _ = braked.drive(course, car)
+    braking = pedals.listening(replay(drive, course, simulate.run), car).replay
+    assert np.var(braking.by_chance[braking.compared]) < 0.01 * np.var(gained(braking, braking.foot)[braking.compared])
+
+
+def test_who_is_not_heard_is_asked_for_what_he_was(course, car):
+    drive, _ = braked.drive(course, car)
+    slow = replay(drive, course, simulate.run)
+    assert pedals.without_noise(slow, slow(car)) is slow

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import simulate as simulator
 from ..calibrated import with_values
+from ..drive import pedals
 from ..drive.paced import Paced
 from ..drive.replay import ASTRAY, CORRECTED, Following, Replay, Simulated, slowly
 from ..drive.sampling import rate_of
@@ -139,7 +140,10 @@ class Car:
         """
 
         def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float]:
-            following = self._led(replace(self.replays[index], kept_to={}), values)
+            again = replace(self.replays[index], kept_to={})
+            if again.by_foot is not None:
+                again = pedals.without_noise(again, self.simulated(values, index))
+            following = self._led(again, values)
             again, residual = following.replay, self._on_path(index, following)
             missing = self._missing(values, index, again, residual) if exactly else self.exactness.get(index, 0.0)
             return again.keeping(following.run, following.astray.get("speed")), following.simulated, residual, missing

@@ -12,6 +12,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
+from scipy import fft
+from scipy.ndimage import uniform_filter1d
 from scipy.signal import welch
 
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
@@ -30,6 +32,9 @@ NOISE, WINDOW, DROWNED = (3.0, 8.0), 10.0, 2.0
 """Hz between which an acceleration along the road is noise, not a driver's; s of the spectra of that; and times the density of this noise that a
 foot must reach, somewhere below DRIVER_BANDWIDTH, to be heard."""
 
+ALIKE = 5
+"""Neighbouring frequencies of such a spectrum that are taken together to tell how much of what is heard is noise."""
+
 FADING = 2.0
 """s over which what is missing fades in behind the run-in of the model."""
 
@@ -47,9 +52,32 @@ def listening(again, vehicle, effects=()):
     by_foot = band(slow.replay, slow.simulated)
     if by_foot is None:
         return slow
-    before = replace(slow, replay=replace(slow.replay, by_foot=by_foot))
+    heard = replace(slow.replay, by_foot=by_foot, foot=missing_acceleration(slow.replay, slow.simulated))
+    before = replace(slow, replay=without_noise(heard, slow.simulated))
     after = before.brought(vehicle, effects)
     return after if after.missed("speed") <= HELPED * before.missed("speed") else slow
+
+
+def without_noise(again, simulated):
+    """A drive, ``again``, whose driver is asked for as much of what was heard of his foot as is likely to be his, and not the accelerometer's noise
+    by what it leaves of a simulation (Wiener's filter); the same where he is not heard.
+
+    All of it would move the model by noise, which its own record then takes for links that hold the body up against driving: the p-value of
+    these was below 5 percent in four of 14 nulls. What the filter leaves out of a foot goes with nothing that the model is driven by.
+    """
+    if again.by_foot is None or again.foot is None:
+        return again
+    rate, (lower, upper) = rate_of(again.time), again.by_foot
+    frequency, density = _density(again.foot, again)
+    inside = (frequency >= lower) & (frequency <= upper)
+    if not inside.any():
+        return again
+    of_noise = np.clip(_noise(*_density(missing_acceleration(again, simulated), again)) / uniform_filter1d(density, ALIKE)[inside], 0.0, 1.0)
+    heard = _faster(np.cumsum(again.foot) / rate, rate, lower)
+    length = fft.next_fast_len(heard.size, real=True)
+    share = np.interp(fft.rfftfreq(length, 1.0 / rate), frequency[inside], of_noise)
+    by_chance = fft.irfft(share * fft.rfft(heard, length), length)[: heard.size]
+    return replace(again, by_chance=driven(by_chance, rate, again.by_foot))
 
 
 def words(bands: Iterable[tuple[float, float] | None]) -> str:
@@ -97,15 +125,23 @@ def missing_acceleration(again, simulated) -> np.ndarray:
 def band(again, simulated) -> tuple[float, float] | None:
     """Hz from which and up to which a driver is brought to the accelerometer of a drive; None where that tells nothing that the model has not
     done. The noise of both is taken for white, that of the accelerometer with all that the model lacks at NOISE."""
-    rate, kept = rate_of(again.time), again.compared
-    length = min(int(kept.sum()), int(WINDOW * rate))
-    frequency, density = welch(missing_acceleration(again, simulated)[kept], rate, nperseg=length)
-    noise = np.median(density[(frequency >= NOISE[0]) & (frequency <= NOISE[1])])
-    lower = _lower(noise, speed_noise(again.drive["v_x"].values, rate))
+    frequency, density = _density(missing_acceleration(again, simulated), again)
+    noise = _noise(frequency, density)
+    lower = _lower(noise, speed_noise(again.drive["v_x"].values, rate_of(again.time)))
     if not np.any(density[(frequency >= lower) & (frequency <= DRIVER_BANDWIDTH)] > DROWNED * noise):
         return None
     drowned = frequency[(frequency > DRIVER_BANDWIDTH) & (density < DROWNED * noise)]
     return lower, min(HIGHEST, float(drowned[0])) if drowned.size else HIGHEST
+
+
+def _density(acceleration: np.ndarray, again) -> tuple[np.ndarray, np.ndarray]:
+    """Hz, and the spectral density of an acceleration (time,) where a drive is compared."""
+    rate, kept = rate_of(again.time), again.compared
+    return welch(acceleration[kept], rate, nperseg=min(int(kept.sum()), int(WINDOW * rate)))
+
+
+def _noise(frequency: np.ndarray, density: np.ndarray) -> float:
+    return float(np.median(density[(frequency >= NOISE[0]) & (frequency <= NOISE[1])]))
 
 
 def _lower(of_acceleration: float, of_speed: float) -> float:

@@ -154,6 +154,10 @@ class Replay:
     """Speed ``v_x`` and path ``e`` that the driver is held to at the measured instants, (time,), if not to what was measured."""
     by_foot: tuple[float, float] | None = None
     """Hz from which and up to which the accelerometer tells what he does to the speed (``pedals.band``); else he is slow."""
+    foot: np.ndarray | None = None
+    """How much more (m/s2, (time,)) it told than the model did when it was first listened to..."""
+    by_chance: np.ndarray | float = 0.0
+    """...and the speed (m/s, (time,)) within that band that is likely to be its noise, and is not asked for (``pedals.without_noise``)."""
     is_foot_kept: bool = False
     """Whether that is held, too, where he is held to a speed."""
 
@@ -229,7 +233,8 @@ class Replay:
             elif self.is_foot_kept and name in self.kept_to:
                 found[quantity] = pedals.driven(missing, rate, self.by_foot)
             else:
-                found[quantity] = pedals.missing_speed(self, sampled() if sampled else self.sample(run), missing, self.by_foot)
+                heard = pedals.missing_speed(self, sampled() if sampled else self.sample(run), missing, self.by_foot)
+                found[quantity] = heard - self.by_chance
         return found
 
     def keeping(self, run: xr.Dataset, missed: np.ndarray | None = None) -> Replay:
