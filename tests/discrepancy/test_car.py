@@ -328,6 +328,18 @@ def test_what_a_foot_that_is_heard_makes_up_for_is_no_error(made):
     assert changed(heard) < 0.2 * changed(unheard)
 
 
+@pytest.mark.parametrize("times", [1, 2])
+def test_noise_is_left_out_of_a_foot_where_drives_were_repeated(made, times):
+    """Else what a model lacks along the road would pass for noise of the accelerometer, and a driver who brakes would brake less."""
+    course = braked.course()
+    drive, _ = braked.drive(course, made.vehicle, of_acceleration=0.05)
+    site = opening.Site("braked", course, [drive.assign_attrs(name=f"drive_{k}") for k in range(times)])
+    heard = opening.car([site], made.vehicle, library_names=[])
+    found, _ = heard.retuned(opening.start_values(heard), [0])
+    assert found.replays[0].by_foot is not None
+    assert np.any(found.replays[0].by_chance) == (times > 1)
+
+
 def test_what_a_heard_driver_misses_is_made_good_without_driving_again(made):
     """A lag of 20 ms, by which he misses 6 mm/s, against the driver who is brought to the speed."""
     course, driven = braked.course(), []

@@ -132,16 +132,20 @@ class Car:
     ) -> tuple[Car, dict[int, np.ndarray]]:
         """The same with drivers who bring the model to the measured speed and path at these values, and the residuals then. They are held to
         what they drive then at all other values: each correction follows what is fast in a recorded path a little farther, so that of two
-        models the one that was corrected once more would be on another road.
+        models the one that was corrected once more would be on another road. Where drives were repeated they are asked for no more of their foot
+        than is likely theirs; else the floor is no noise, and what a model lacks would pass for that of the accelerometer.
 
         ``exactly``: with what the step makes wrong at these values made good in the residuals from now on. The error falls with the
         square of the step: half a step takes three quarters of it, and four thirds of that change are all of it. On a quiet record,
         0.05 percent of the power of a_y is enough to pass for tyres that envelop 6 cm.
         """
 
+        conditions = [record.condition for record in self.records]
+        is_repeated = len(set(conditions)) < len(conditions)
+
         def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float]:
             again = replace(self.replays[index], kept_to={})
-            if again.by_foot is not None:
+            if is_repeated and again.by_foot is not None:
                 again = pedals.without_noise(again, self.simulated(values, index))
             following = self._led(again, values)
             again, residual = following.replay, self._on_path(index, following)

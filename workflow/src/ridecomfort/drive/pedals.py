@@ -52,8 +52,7 @@ def listening(again, vehicle, effects=()):
     by_foot = band(slow.replay, slow.simulated)
     if by_foot is None:
         return slow
-    heard = replace(slow.replay, by_foot=by_foot, foot=missing_acceleration(slow.replay, slow.simulated))
-    before = replace(slow, replay=without_noise(heard, slow.simulated))
+    before = replace(slow, replay=replace(slow.replay, by_foot=by_foot, foot=missing_acceleration(slow.replay, slow.simulated)))
     after = before.brought(vehicle, effects)
     return after if after.missed("speed") <= HELPED * before.missed("speed") else slow
 
