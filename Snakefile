@@ -51,6 +51,11 @@ if "diagnose" in asked and not study.diagnosed:
     sites = ", ".join(study.measured)
     sys.exit(f"error: all drives of {sites} are held out, so that there is nothing to diagnose on (expected drives with role: fit)")
 
+beside = [site for site in study.measured if site not in study.diagnosed]
+if "diagnose" in asked and beside:
+    searched = ", ".join(study.diagnosed)
+    print(f"{', '.join(beside)}: not diagnosed, being of another car than {searched} (expected alone: --config sites=[{beside[0]}])", file=sys.stderr)
+
 followed = progress.follow(workflow)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 
 import pytest
@@ -79,6 +80,18 @@ def test_the_study_can_be_left_without_the_loop(plan):
 
 def test_diagnose_shows_its_evidence(plan):
     assert {"diagnosis base", "diagnosed"} <= plan("diagnose")
+
+
+def test_what_is_not_diagnosed_is_said(project, repository):
+    """The sites of the first car alone are searched, and a user who put his own behind the paper's would take their verdict for his."""
+    shutil.copytree(repository / "config", project.folder / "config", dirs_exist_ok=True)
+    second = project.folder / "config" / "sites" / "ts2.yaml"
+    second.write_text(re.sub("(?m)^calibrated_on.*$", "", second.read_text()))
+    said = "ts2: not diagnosed, being of another car than ts1 (expected alone: --config sites=[ts2])"
+    answer = project.snakemake("--dry-run", "diagnose", "--config", "sites=[ts1, ts2]")
+    assert said in answer.text and "measured ts1" in answer.jobs and "measured ts2" not in answer.jobs
+    answer = project.snakemake("--dry-run", "diagnose", "--config", "sites=[ts1, ts3]")
+    assert "not diagnosed" not in answer.text and "measured ts3" in answer.jobs
 
 
 def test_sites_without_drives_have_nothing_to_compare(project):

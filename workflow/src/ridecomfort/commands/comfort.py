@@ -1,7 +1,7 @@
 """Comfort of one recording or profile of your own: ISO 2631-1, thresholds or IRI.
 
 Files are CSV with one row of column names. A recording has a column time and any of a_x, a_y, a_z; a
-profile has a column s, the distance, and one or two of left, right (the wheel tracks) and elevation, the
+profile has a column s, the distance, and one or more of left, right (the wheel tracks) and elevation, the
 heights. Units stand in brackets behind the names, as in a_z [g] or elevation [mm]; without, they are s, m/s2 and m.
 """
 
