@@ -125,11 +125,13 @@ def test_takes_effect(ground, car, without, name):
 
 
 @each
+@pytest.mark.parametrize("step", [0.001, 0.002])
 @pytest.mark.parametrize("end", [0, 1])
-def test_stays_finite_at_the_ends_of_its_range(ground, car, name, end):
+def test_stays_finite_at_the_ends_of_its_range(ground, car, name, end, step):
+    """In the steps of a drive, and in those of a search for what is missing."""
     surface, speed = ground
     sizes = {parameter.name: parameter.plausible[end] for parameter in ENTRIES[name].effect.parameters}
-    extreme = drive(surface, car, effects={name: sizes}, speed=speed, lateral=0.3)
+    extreme = drive(surface, car, effects={name: sizes}, speed=speed, lateral=0.3, step=step)
     for variable in extreme.variables:
         assert np.isfinite(extreme[variable]).all()
     largest_a_z = float(np.abs(extreme.a_z).max())

@@ -12,9 +12,9 @@ import numpy as np
 
 from ..effects.contract import Parameter
 from .terms import (
-    ANGLE, AT_ONCE, AXLES, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below, coming_back,
-    following, hardening, on_spring, pressed_down, remembering, running_out_aside, saturating, shape_setting, shared_slowly, sliding,
-    steering_along, swaying, swinging, turning, turning_as_heard, when_thrown,
+    ANGLE, AT_ONCE, AXLES, CHANGING, FASTEST, LINEAR, OF_STRUCTURE, SIDE, WHIRL, WHOLE, State, Term, acting_beyond, at_first, below,
+    coming_back, following, hardening, on_spring, pressed_down, remembering, running_out_aside, saturating, shape_setting, shared_slowly, sliding,
+    steering_along, strained, swaying, swinging, turning, turning_as_heard, when_thrown,
 )  # fmt: skip
 
 FORCE = 30.0
@@ -179,11 +179,11 @@ PLACES: Mapping[str, Place] = {
             ),
             "side_slip_swinging": swinging("slip_y", 0.01, "way", "1", "slip_y", AXLES, "slip_y"),
             "side_slip_late": Term(
-                "late - slip_y", "1", "slip_y", states=(State("late", "speed * (slip_y - late) / length", 0.005),),
+                "late - slip_y", "1", "slip_y", states=(State("late", f"min(speed / length, {CHANGING}) * (slip_y - late)", 0.005),),
                 settings=(shape_setting("length", "m", 0.5, 0.1, 3.0, "way over which the slip follows"),),
             ),
             "side_slip_of_late_load": Term(
-                "slip_y * (late - load) / max(load, 400.0)", "1", "slip_y", states=(State("late", "speed * (load - late) / length", 3500.0),),
+                "slip_y * (late - load) / max(load, 400.0)", "1", "slip_y", states=(State("late", f"min(speed / length, {CHANGING}) * (load - late)", 3500.0),),
                 settings=(shape_setting("length", "m", 0.5, 0.1, 3.0, "way over which the force follows the load"),),
             ),
             "side_slip_of_push": Term(f"force_x * {SIDE}", "1/N", "slip_y"),
@@ -209,7 +209,7 @@ PLACES: Mapping[str, Place] = {
             "toe_late_on_sides": Term(
                 f"{2 * pi:.4f} * frequency * (deflection - slow) * {SIDE}", "rad s/m", "toe",
                 states=(State("slow", f"{2 * pi:.4f} * frequency * (deflection - slow)", 0.0107),),
-                settings=(shape_setting("frequency", "Hz", 15.0, 3.0, 60.0, "frequency up to which it goes by the speed of travel"),),
+                settings=(shape_setting("frequency", "Hz", 15.0, 3.0, FASTEST, "frequency up to which it goes by the speed of travel"),),
                 beside=f"deflection * {SIDE}",
             ),
             "toe_dragged_on_sides": Term(
@@ -244,7 +244,7 @@ PLACES: Mapping[str, Place] = {
             "roll_rate_direction": Term("tanh(motion.roll_rate / 0.005)", "N m", "moment_x", WHOLE, beside="motion.roll_rate"),
             "roll_sliding": Term(
                 "strain", "N m", "moment_x", WHOLE,
-                (State("strain", "(motion.roll_rate - abs(motion.roll_rate) * strain) / (grip + 0.003 * abs(motion.roll_rate))", 1.0),),
+                (strained("motion.roll_rate", "grip"),),
                 (shape_setting("grip", "rad", 0.002, 0.0003, 0.02, "angle over which the direction turns"),), beside="motion.roll_rate",
             ),
             "roll_inertia": Term("motion.roll_acceleration", "kg m2", "moment_x", WHOLE),

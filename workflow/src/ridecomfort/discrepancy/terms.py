@@ -33,7 +33,7 @@ AT_ONCE = 100.0
 """Per second, at which what a stroke has closed opens after its end."""
 
 CHANGING = 1.0 / SHORTEST
-"""Per second, at which a speed is followed whose change is wanted."""
+"""Per second, at which a speed is followed whose change is wanted: the quickest that is integrated in steps of up to 2 ms."""
 
 SIDE = "(1.0 - 2.0 * (wheel % 2))"
 """1 on the left, -1 on the right: what calibration, whose parameters are those of axles, cannot take up of a single wheel."""
@@ -114,8 +114,11 @@ def hardening() -> Term:
     """What a damper loses as rubber in series with it gives ``way``, which hardens as it is pressed."""
     frequency = shape_setting("frequency", "Hz", 10.0, 3.0, 15.0, "frequency that it follows up to while it is hardly pressed")
     knee = shape_setting("knee", "m", 0.002, 0.0003, 0.01, "way at which it is twice as stiff")
-    force = f"{2 * pi:.4f} * frequency * way * (1.0 + min((way / knee)**2, 4.0))"
-    return Term(f"{force} - velocity", "N s/m", states=(State("way", f"velocity - {force}", 0.001),), settings=(frequency, knee))
+    turns, harder = f"{2 * pi:.4f} * frequency", "min((way / knee)**2, 4.0)"
+    force = f"{turns} * way * (1.0 + {harder})"
+    no_quicker = f"max({SHORTEST} * {turns} * (1.0 + 3.0 * {harder}), 1.0)"
+    slope = f"(velocity - {force}) / {no_quicker}"
+    return Term(f"{force} - velocity", "N s/m", states=(State("way", slope, 0.001),), settings=(frequency, knee))
 
 
 def when_thrown(part: str) -> Term:
@@ -160,11 +163,15 @@ def remembering(what: str, unit: str, *times: float) -> Term:
 
 
 def sliding(expression: str, unit: str, beside: str, velocity: str = "velocity") -> Term:
-    """The direction of motion, which ``strain`` follows over some millimetres; no faster than the step of the kernel bears."""
+    """The direction of motion, which ``strain`` follows over some millimetres."""
     presliding = shape_setting("presliding", "m", 0.001, 0.0002, 0.008, "way over which the direction turns")
+    return Term(expression, unit, states=(strained(velocity, "presliding"),), settings=(presliding,), beside=beside)
+
+
+def strained(velocity: str, way: str) -> State:
+    """The direction of a ``velocity`` as what turns with it over a ``way`` has it (Dahl 1976), no quicker than in SHORTEST."""
     size = _absolute(velocity)
-    strain = State("strain", f"({velocity} - {size} * strain) / (presliding + 0.003 * {size})", 1.0)
-    return Term(expression, unit, states=(strain,), settings=(presliding,), beside=beside)
+    return State("strain", f"({velocity} - {size} * strain) / max({way}, {SHORTEST} * {size})", 1.0)
 
 
 def _absolute(expression: str) -> str:
@@ -217,7 +224,7 @@ def following(
 ) -> Term:  # fmt: skip
     """What follows ``base`` (typically ``typical``) with a lag of ``time`` (s), as what is driven by a controller does: ``late``; ``settings``:
     what else shapes the base."""
-    lag = shape_setting("time", "s", time, 0.2 * time, 5.0 * time, "time that it is late by")
+    lag = shape_setting("time", "s", time, max(0.2 * time, SHORTEST), 5.0 * time, "time that it is late by")
     states, at = (State("late", f"({base} - late) / time", typical),), (AT[above],) if above else ()
     return Term("late", unit, result, WHOLE, states, (lag, *settings, *at), ahead=ahead, above=above, beside=beside)
 
@@ -236,8 +243,8 @@ PERIOD = "period"
 """What the setting is called that says after which way or time a term comes back."""
 
 CLOSE = 2e-4
-"""Share of its value by which such a period may plausibly be another: over a few kilometres that is a phase of its own already, and starts
-farther off end beside it."""
+"""Share of its value by which the period of a form that was found may plausibly be changed: farther off its phase is lost within a few
+kilometres, and a fit finds another minimum."""
 
 
 def turning(often: int, expression: str = "1.0", unit: str = "N") -> Term:
@@ -249,7 +256,7 @@ ORDER = "order"
 """What the setting is called that says how often a term comes in a turn of a wheel."""
 
 FIRM = (PERIOD, ORDER)
-"""Settings that are heard on, not looked for, and known to CLOSE."""
+"""Settings that begin at the line that was heard; in an effect file they may vary by CLOSE."""
 
 
 def turning_as_heard(expression: str = "1.0", unit: str = "N") -> Term:
@@ -290,6 +297,8 @@ def coming_back(
 
 
 KNEE = shape_setting("knee", "m/s", 0.1, 0.02, 0.5, "velocity at which it is half of what it would be without")
+"""What shapes a force that grows less and less with velocity."""
+
 
 def saturating(velocity: str, parts: tuple[str, ...]) -> Term:
     """What grows less and less with a ``velocity``."""
@@ -297,7 +306,7 @@ def saturating(velocity: str, parts: tuple[str, ...]) -> Term:
 
 
 ANGLE = shape_setting("knee", "rad", 0.01, 0.001, 0.05, "angle at which it is half of what it would be without")
-"""What shapes a force that grows less and less with velocity, or a moment with the angle of roll."""
+"""What shapes a moment that grows less and less with the angle of roll."""
 
 OF_STRUCTURE = (18.0, 8.0, 40.0)
 """Frequencies of a body that is not rigid, as for ``on_spring``."""

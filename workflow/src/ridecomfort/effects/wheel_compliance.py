@@ -4,8 +4,8 @@ from math import sqrt
 
 from ridecomfort.effects.contract import Effect, Parameter
 
-STIFFEST = 2e-7
-"""m/N; the least compliance that is integrated, a smaller one is that share of it."""
+FASTEST = 300.0
+"""rad/s; the fastest swing that is integrated, in steps of up to 2 ms. A stiffer wheel does that share of what one does that swings so."""
 
 effect = Effect(
     name="wheel_compliance",
@@ -27,7 +27,7 @@ effect = Effect(
 
 def act(wheel, slip_x, slip_y, load, speed, slope, force_x, place, rate, front, rear, mass, damping_ratio):
     compliance = front if wheel < 2 else rear
-    integrated = max(compliance, STIFFEST)
+    integrated = max(compliance, 1.0 / (mass * FASTEST * FASTEST))
     share = compliance / integrated
     stiffness = 1.0 / integrated
     damping = 2.0 * damping_ratio * sqrt(stiffness * mass)
