@@ -56,6 +56,18 @@ def test_what_a_single_block_knows_is_not_known():
     assert known.half_width[0] < 0.01 and known.half_width[1] > 100
 
 
+@pytest.mark.parametrize("apart", [1e-3, 1e-4, 3e-5])
+def test_nearly_collinear_parameters_have_the_intervals_that_their_sum_and_difference_give_them(apart):
+    """However little is known of a direction: the covariance of other parameters of the same model is that of these, transformed."""
+    rng = np.random.default_rng(3)
+    one, other, third, residual = rng.normal(size=(4, 2000))
+    block = np.arange(2000) // 100
+    alike = identifiability.assess(np.stack([one, one + apart * other, third], axis=1)[None], residual[None], block)
+    plain = identifiability.assess(np.stack([one, other, third], axis=1)[None], residual[None], block)
+    back = np.linalg.inv([[1.0, 1.0, 0.0], [0.0, apart, 0.0], [0.0, 0.0, 1.0]])
+    np.testing.assert_allclose(alike.covariance, back @ plain.covariance @ back.T, rtol=1e-5, atol=1e-6 * alike.covariance.max())
+
+
 def test_a_record_of_one_block_knows_nothing():
     """A stretch of two seconds fits as well as any; no other says by how much it would differ."""
     rng = np.random.default_rng(2)

@@ -13,8 +13,9 @@ from scipy.sparse.csgraph import connected_components
 from scipy.stats import t as student
 
 CONFIDENCE = 0.90
+"""Of all intervals of sizes and parameters."""
 
-AT_BOUND = 2e-3
+AT_BOUND = 1e-3
 """Share of the bounds' width within which a parameter counts as at its bound."""
 
 UNIDENTIFIED = 0.5
@@ -73,7 +74,7 @@ def assess(
     is_known = weights > SEEN * weights.max()
     known = directions[:, is_known]
     seen = seen & ~(np.abs(directions[:, ~is_known]) > LEAST_PART).any(axis=1) & (labels.size > 1)
-    without = known.T @ (normal - squares) @ known + ONLY_HERE * np.eye(known.shape[1])
+    without = known.T @ (normal - squares) @ known + ONLY_HERE * np.diag(weights[is_known])
     shifts = np.linalg.solve(without, (scores @ known)[:, :, None])[:, :, 0] @ known.T / size
     covariance = (labels.size - 1) / labels.size * shifts.T @ shifts
     covariance[~seen, :] = covariance[:, ~seen] = 0.0

@@ -12,7 +12,7 @@ from .. import calibrate
 from ..calibrated import with_values
 from ..descent import descend
 from ..errors import InputError
-from ..identifiability import CONFIDENCE, UNIDENTIFIED
+from ..identifiability import AT_BOUND, CONFIDENCE, UNIDENTIFIED
 from ..vehicle.parameters import PARAMETERS
 from . import refit
 from .car import Car
@@ -282,7 +282,7 @@ def _beyond(
     for size in before.free:
         value = fit.values[size.key]
         off = abs(value - np.clip(value, size.lower, size.upper))
-        if size.key not in PARAMETERS or off <= refit.AT_BOUND * (size.upper - size.lower):
+        if size.key not in PARAMETERS or off <= AT_BOUND * (size.upper - size.lower):
             continue
         power[size.key] = float(np.sum((off / size.probe * fit.columns[fit.keys.index(size.key)]) ** 2))
         lower, upper = intervals[size.key]

@@ -12,6 +12,7 @@ from scipy.stats import t as student
 
 from ..errors import InputError
 from . import event, evidence, spectrum
+from ..identifiability import AT_BOUND, CONFIDENCE
 from . import experiment as exp
 from .experiment import Experiment, Frame, Size
 
@@ -19,10 +20,10 @@ BEYOND = 0.5
 """Share of the plausible range that a fit may go beyond it, to see that it wants to."""
 
 WORTHWHILE = 1.0
-"""Fall of the white loss below which a shortened step is not tried."""
+"""Fall of the white loss, or gain in 2 ln L, below which a further step is not worth a simulation."""
 
 SHORTEST = 0.1
-"""Share of a step that it is shortened to at most."""
+"""Share of its length below which a step is not shortened."""
 
 SAME_GAIN = 0.05
 """Relative difference of the gains in long and in short steps up to which a fit in long steps is taken: its sizes are nearly the best then."""
@@ -33,10 +34,6 @@ RENEWAL = 0.3
 LEAST_BLOCKS = 8.0
 """Blocks that the difference of two fits must be spread over (participation number) for its z to be that over blocks."""
 
-AT_BOUND = 1e-3
-"""Share of the width of its bounds within which a size lies at one of them."""
-
-CONFIDENCE = 0.90
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,6 @@ from ..vocabulary import VARIABLES
 from .notation import unit
 
 
-BAND = 1.645
-"""Standard errors of half a 90 % interval."""
-
-
 def printed(signal: str) -> tuple[float, str]:
     """Factor from the files' unit of a signal to the printed one, and that unit."""
     if VARIABLES[signal].unit == "rad/s":

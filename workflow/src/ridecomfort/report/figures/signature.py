@@ -8,11 +8,15 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from scipy.stats import norm
 
+from ...identifiability import CONFIDENCE
 from .. import style
 from ..notation import words
 from ..study import Diagnosis
-from ..units import BAND
+
+HALF_WIDTH = float(norm.ppf(0.5 + CONFIDENCE / 2))
+"""Standard errors of half a 90 % interval."""
 
 POORLY_KNOWN = 8.0
 """Times the usual standard error beyond which an estimate is not drawn: where the car was hardly ever."""
@@ -62,7 +66,7 @@ def signature(found: Diagnosis) -> Figure:
         strength = 1.0 if explains[place] else PALE
         for axes, axle in zip(panel, axles):
             own = one.sel(axle=axle)
-            missing, error = times * own["missing"].values, times * BAND * own["missing_error"].values
+            missing, error = times * own["missing"].values, times * HALF_WIDTH * own["missing_error"].values
             known = _known(one).sel(axle=axle).values
             at = factor * own["seen_at"].values
             colour, marker = AXLE_LINES[str(axle)]
@@ -96,7 +100,7 @@ def _kind(one) -> tuple[str, str]:
 def _reach(one) -> float:
     """What a row of panels shows: the estimates that are drawn, with their intervals, and what the named effects would show."""
     known = _known(one).values
-    estimated = np.abs(one["missing"]) + BAND * one["missing_error"]
+    estimated = np.abs(one["missing"]) + HALF_WIDTH * one["missing_error"]
     shown = np.abs(one["named_missing"].fillna(0.0))
     reach = np.maximum(estimated, shown).values[known]
     return max(1.1 * float(reach.max(initial=0.0)), LEAST_REACH[str(one["missing_unit"].item())])

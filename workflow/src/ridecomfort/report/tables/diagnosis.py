@@ -12,10 +12,10 @@ from ...discrepancy.balance import LITTLE
 from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
-from ...discrepancy.refit import AT_BOUND
 from ...discrepancy.terms import SIDE
 from ...discrepancy.verdict import first_sentence, percent, sentence
 from ...effects.contract import PORTS
+from ...identifiability import AT_BOUND
 from ...study import BASE, JOIN
 from .. import catalogue
 from ..notation import formula, literal, unit, words
