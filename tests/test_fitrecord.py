@@ -22,4 +22,5 @@ def test_starts_that_end_elsewhere_are_said_with_the_parameter_they_differ_in():
     (words,), in_doubt = fitrecord.of_starts(task, [best, near, far], best, [])
     assert words.startswith("2 of 3 starts end at the best, the worst of 3 ends at a cost 20.0 % above") and words.endswith("most in two, 1 against 5")
     assert not in_doubt
+    assert fitrecord.of_starts(task, [best], best, [])[1] == ["one start only: nothing tells whether another would end lower (calibration: restarts)"]
     assert fitrecord.of_starts(task, [best, near], best, ["spins"])[1] == ["1 of 3 starts led to a vehicle that does not drive (spins)"]

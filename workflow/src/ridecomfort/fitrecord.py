@@ -104,8 +104,10 @@ def of_clocks(result: xr.Dataset) -> list[str]:
 
 
 def of_starts(task: Problem, fits: Sequence[Descent], best: Descent, refused: Sequence[str]) -> tuple[list[str], list[str]]:
-    """What is to be said of starts that led nowhere, or elsewhere, and what of it leaves open whether the best was found: one start alone did."""
+    """What is to be said of starts that failed or ended elsewhere, and which of that leaves open whether the best fit was found."""
     said, in_doubt = [], []
+    if len(fits) + len(refused) == 1:
+        in_doubt.append("one start only: nothing tells whether another would end lower (calibration: restarts)")
     if refused:
         said.append(f"{len(refused)} of {len(refused) + len(fits)} starts led to a vehicle that does not drive ({refused[0]})")
         in_doubt += said
