@@ -33,7 +33,7 @@ SHARED = 0.05
 """Share of the white error in common between repeats below which it may be what alignment left: up to 0.035 in trials where
 nothing is missing, 0.06 to 0.14 where something is at a kappa of 0.3."""
 
-SLOW, SLOW_Z = 7.0, 7.0
+IN_WAVES, IN_WAVES_Z = 7.0, 7.0
 """Hz up to which, in waves of some metres, noise of a road's points does not show beside the road itself, and z of an error that repeats
 share there from which on it is none: up to 5.7 where the road is noisy by 0.1 mm or interpolated otherwise (8.7 with 0.2 mm, at 30 Hz and
 more)."""
@@ -65,9 +65,11 @@ class Balance:
     is_little: bool
     """Whether what was found is too little to be what is missing."""
     is_all_that_matters: bool = False
-    """Whether it would be, were it not most of what was worth explaining: what a driver's foot and hands do may be most of the error."""
+    """Whether it is too little of the explainable error, but more than half of what was worth explaining, of which nothing is left: the rest may be a
+    driver's foot and hands."""
     is_most_of_fast: bool = False
-    """Whether it would be, were it not most of what is faster than a driver, and nothing else worth explaining."""
+    """Whether it is too little of the explainable error, but at least half of what repeats share above ``shared.OF_DRIVER``, and nothing is left that
+    is worth explaining."""
 
 
 def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: float) -> Balance:
@@ -135,7 +137,7 @@ def answered(selection: Selection) -> list[str]:
 def is_slow(selection: Selection) -> bool:
     """Whether what repeats share most surely is too slow to be noise of the road's points or what lies between them."""
     band = selection.remaining.band
-    return band is not None and band.upper <= SLOW and band.z > SLOW_Z
+    return band is not None and band.upper <= IN_WAVES and band.z > IN_WAVES_Z
 
 
 def _explains_what_is_fast(selection: Selection) -> bool:

@@ -182,9 +182,7 @@ class Car:
     def coarser(
         self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]
     ) -> tuple[Car, Mapping[int, np.ndarray]]:
-        """The same with records in steps twice as long, where the simulator is the study's own and they are no longer than LONGEST; with
-        these residuals at these values, what the step makes wrong made good. Beside it these as it rounds them: of what changes nothing
-        the difference is nil."""
+        """``Experiment.coarser``; itself where the simulator is not the study's own, or such steps are longer than LONGEST."""
         stepped = {index: _stepped(self.replays[index], 2.0) for index in residuals}
         if any(one is self.replays[index] or one.options["step"] > LONGEST for index, one in stepped.items()):
             return self, residuals

@@ -66,21 +66,21 @@ class Confirmation:
         """A trial with what it does to the drives held out; None where these cannot be simulated."""
         rung, candidate, fit = self.rung, self.candidates[trial.name], trial.fit
         held_out = roles(rung.experiment)[1]
-        held_gain, held_z, is_weak = float("nan"), float("nan"), False
+        held_out_gain, held_out_z, is_weak = float("nan"), float("nan"), False
         try:
-            held = exp.simulate(rung.experiment, fit.values, held_out)
+            check = exp.simulate(rung.experiment, fit.values, held_out)
             if rung.check_frame is not None:
-                held, _ = realign.closer(rung.experiment, fit.values, held, rung.check_frame)
-                held_gain, held_z, is_weak = self._held_out_gain(candidate.name, held)
-            met = not held_out or candidate.name not in self.rare or held_z > HELD_OUT_Z or self._meets(candidate, fit)
+                check, _ = realign.closer(rung.experiment, fit.values, check, rung.check_frame)
+                held_out_gain, held_out_z, is_weak = self._held_out_gain(candidate.name, check)
+            met = not held_out or candidate.name not in self.rare or held_out_z > HELD_OUT_Z or self._meets(candidate, fit)
         except (InputError, ValueError):
             return None
         if not met:
-            held_gain, held_z = float("nan"), float("nan")
-        now, before, first = State.of(rung, candidate.name, fit, held), State.of(rung, "", rung.fit, rung.check), self.first
-        share, held_share = removed(first, before, now, rung.floor_squares, rung.held_out_floor_squares)
+            held_out_gain, held_out_z = float("nan"), float("nan")
+        now, before, first = State.of(rung, candidate.name, fit, check), State.of(rung, "", rung.fit, rung.check), self.first
+        share, held_out_share = removed(first, before, now, rung.floor_squares, rung.held_out_floor_squares)
         trial = replace(
-            trial, held_out_gain=held_gain, held_out_z=held_z, share=share, held_out_share=held_share, met=met,
+            trial, held_out_gain=held_out_gain, held_out_z=held_out_z, share=share, held_out_share=held_out_share, met=met,
             before=before, after=now,
         )  # fmt: skip
         if met and share < LEAST_SHARE and rung.has_repeats and not self.is_first:

@@ -35,10 +35,10 @@ def diagnose(
     """The evidence, the verdict, and where that is "outside" the search for a form, else None. Wherever such a search was made its evidence
     stands beside that of the library (``ranking.forms``). ``signatures``: with the curves of what is missing (``missing_force``).
 
-    Where parameters of the vehicle beyond their bounds may explain more, a second search begins with them: it is the answer if it leaves nothing
-    out, unless a form within the bounds leaves less than its names, or is the better explanation, else they are told beside the first
-    (``righted``). Arguments as for ``rank``, but ``most``; ``name``: of
-    the effect that is proposed.
+    Where parameters of the vehicle beyond their bounds may explain more, a second search begins with them: it decides if it leaves nothing out,
+    unless a form found within the bounds leaves less than the effects that it names, and if it leaves something out but explains more than the
+    first; else the first decides, and the parameters are told beside it (``righted``). Arguments as for ``rank``, but ``most``; ``name``: of the
+    effect that is proposed.
     """
     experiment = opening.opened(measured, vehicle, effects_folder=effects_folder, workers=workers, **settings)
     each = pool.mapped(pool.workers() if workers is None else workers)

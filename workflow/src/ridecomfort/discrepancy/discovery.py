@@ -263,7 +263,7 @@ def heard_as(line: Line | None, radius: float) -> dict[str, float]:
 
 
 def _heard(setting: Parameter, line: Line | None, radius: float) -> Parameter:
-    """What shapes a term, from the period that was heard on if it is one, or what that is in turns of wheels of this ``radius`` in m."""
+    """A setting of a term; a period, or an order (turns of wheels of this ``radius`` in m), begins at the line that was heard and stays within its width."""
     if setting.name not in FIRM or line is None:
         return setting
     value = line.period if setting.name == PERIOD else line.turns(radius)

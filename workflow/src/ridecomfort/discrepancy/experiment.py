@@ -64,9 +64,9 @@ class Size:
         return bool(self.lower - room <= value <= self.upper + room)
 
     @property
-    def sign(self) -> int:
-        """1 where only amounts above (or, with a negative probe, below) the neutral one are plausible."""
-        return int(self.neutral in (self.lower, self.upper))
+    def is_one_sided(self) -> bool:
+        """Whether only amounts above (or, with a negative probe, below) the neutral one are plausible."""
+        return self.neutral in (self.lower, self.upper)
 
 
 @dataclass(frozen=True)
@@ -126,8 +126,9 @@ class Experiment(Protocol):
     def coarser(
         self, values: Mapping[str, float], residuals: Mapping[int, np.ndarray]
     ) -> tuple[Experiment, Mapping[int, np.ndarray]]:
-        """The same with records in steps twice as long, whose residuals at these values are these ones, change with its values nearly
-        alike, and are simulated sooner; and its own at these values, which differ from these by rounding."""
+        """The same with records in steps twice as long, which are simulated sooner, corrected so that at these values it gives these residuals; and
+        those that it gives there, equal to these but for rounding (what is subtracted from a probe, so that a size without effect has a column of
+        zeros)."""
 
 
 def by_record(experiment: Experiment, function: Callable, indices: Iterable[int]) -> dict:

@@ -27,7 +27,7 @@ FROM_ELSEWHERE = "from repeats on {site}, on whose drives the vehicle is calibra
 """What a floor is known from, as in the attribute ``floor``."""
 
 STRETCH = 100.0
-"""m of road over which errors are taken together: longer than an axle or a body swings on after what it met."""
+"""m of road over which errors are taken together, and told apart in words: longer than an axle or a body swings on after what it met."""
 
 REACHED = 1.0
 """m from the end of a stretch at which a drive has come through it: its last sample lies a little before."""

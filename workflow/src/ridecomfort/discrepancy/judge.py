@@ -14,7 +14,7 @@ from .experiment import Candidate
 from .found import found_effects, turn_of
 from .propose import SURE
 from .selection import Selection
-from .shared import SLOW
+from .shared import OF_DRIVER
 from .verdict import Named, Verdict, are_open, kind_of, percent
 
 MOST = 0.8
@@ -66,7 +66,7 @@ def judge(
         if found and balance.is_all_that_matters:
             reasons.append(f"that is {percent(1.0 - material_left)} of what repeats share and is worth explaining: {reasoning.OF_DRIVER}")
         if found and balance.is_most_of_fast:
-            reasons.append(f"that is {percent(selection.faster_gone)} of what repeats share above {SLOW:g} Hz: {reasoning.OF_DRIVER}")
+            reasons.append(f"that is {percent(selection.faster_gone)} of what repeats share above {OF_DRIVER:g} Hz: {reasoning.OF_DRIVER}")
     if is_little or balance.is_left and not effects:
         kind = "outside"
         reasons.append(reasoning.unexplained(selection, balance, is_little))

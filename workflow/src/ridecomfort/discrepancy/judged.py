@@ -43,7 +43,8 @@ ANOTHER, OWN = 0.8, 0.3
 """Correlation with the model's motion in another direction from which on, and with that in its own up to which, a signal is taken for the other."""
 
 TIMES, ALIKE = 5.0, 0.5
-"""Times by which the rms of a signal may differ from that of a model which it goes with (correlation above ALIKE): degrees are 57 radians."""
+"""Times by which the rms of a signal may differ from that of a model which it goes with (correlation above ALIKE): a rate in deg/s is 57 times one in
+rad/s."""
 
 
 def correlation(one: np.ndarray, other: np.ndarray) -> np.ndarray:

@@ -16,9 +16,6 @@ from .response import responses
 BANDS = ((judged.LOWEST, 2.5), (2.5, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 25.0), (25.0, 40.0))
 """Hz; body modes lie in the first, seat and hands feel the next two, wheels hop in the fourth."""
 
-STRETCH = 100.0
-"""m of road that are told apart in words."""
-
 STEP = 20.0
 """m between the places of the map of the error."""
 
@@ -141,9 +138,9 @@ def _drive(row: xr.Dataset, own: explain.OwnNoise | None) -> Drive:
 
 def _stretches(drives: Sequence[Drive]) -> np.ndarray:
     """Edges in m of the stretches that the drives cover."""
-    start = np.floor(min(drive.place.min() for drive in drives) / STRETCH) * STRETCH
+    start = np.floor(min(drive.place.min() for drive in drives) / explain.STRETCH) * explain.STRETCH
     end = max(drive.place.max() for drive in drives)
-    return start + STRETCH * np.arange(max(1, int(np.ceil((end - start) / STRETCH))) + 1)
+    return start + explain.STRETCH * np.arange(max(1, int(np.ceil((end - start) / explain.STRETCH))) + 1)
 
 
 def _by_stretch(parts, edges: np.ndarray, bands, rate: float) -> tuple[np.ndarray, np.ndarray]:

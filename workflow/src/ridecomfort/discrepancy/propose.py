@@ -80,7 +80,7 @@ def propose(
     white = iter(frame.flats([column for own in columns.values() for column in own.values()]))
     for number, (job, own) in enumerate(columns.items()):
         parts, keys = [next(white) for _ in own], list(own)
-        signs = [size.sign for size in candidates[job[0]].sizes if size.key in own]
+        signs = [int(size.is_one_sided) for size in candidates[job[0]].sizes if size.key in own]
         if len(parts) > 1:
             if len(parts) == 2 and not any(signs):  # such as front and rear, which may well be of opposite signs
                 parts, signs, keys = [*parts, parts[0] - parts[1]], [*signs, 0], [*keys, "apart"]

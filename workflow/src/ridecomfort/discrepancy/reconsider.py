@@ -63,8 +63,8 @@ def reconsidered(
     """A verdict in the light of a force of any form.
 
     "Nothing" becomes "outside" where such a force is sure on fitted drives, and confirmed by those held out: what repeats do not share
-    (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. It must explain BETTER than effects that
-    removed ``too_little`` to be named, or it is these. ``is_road_open``: whether the road may be
+    (a wheel out of round, whose turns do not keep step) counts as noise until its form is known. It must explain BETTER times
+    ``too_little``, the share of effects that were too weak to be named, or it may be these. ``is_road_open``: whether the road may be
     another than that of its file, by noise of its points or by what lies between them. ``is_error_alone``: whether an error of the
     measurement was found and nothing else speaks against the data. ``fits_better``: whether the force fits drives better beyond chance than
     what was found.
@@ -97,7 +97,7 @@ def _noise_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict
 
 
 def _error_or_force(verdict: Verdict, proposal: Discovery, said: str, fits_better: bool) -> Verdict:
-    """An error of the measurement gives way to a force like a name, and to one that explains as much by fewer sizes."""
+    """An error of the measurement gives way to a force as a named effect does, and to one that explains as much by fewer sizes."""
     if is_sure(proposal) and (_is_better(verdict, proposal, fits_better) or _leaves_less(verdict, proposal)):
         return with_reason(_of_vehicle(verdict), "outside", f"{said} explains more: {_explained(proposal)}")
     if is_sure(proposal) and _is_simpler(verdict, proposal):

@@ -22,8 +22,10 @@ MUCH = 0.5
 """Share of what another explanation removes from which on parameters alone are told beside it."""
 
 TRIED = "parameters of the vehicle beyond their bounds were tried, too: they are no better explanation"
+"""What is said where a second search, or wider bounds, explained no more."""
 
 WITHIN = "the vehicle's parameters were free beyond their bounds, and lie within them beside the form: shares are of what they leave"
+"""What is said where no parameter lies beyond its bounds any longer beside the form."""
 
 Shares = tuple[float, float]
 """Of the explainable error, on fitted drives and on those held out (nan without)."""

@@ -171,7 +171,7 @@ def awake(rung: Rung, sizes: Sequence[Size], newest: Sequence[Size], each: Calla
 def _asleep(fit: Fit, sizes: Iterable[Size]) -> list[Size]:
     """The sizes that can be larger only and ended where they start."""
     way = lambda size: abs(fit.values.get(size.key, size.neutral) - size.neutral)
-    return [size for size in sizes if size.sign and not size.shaping and way(size) < ASLEEP * (size.upper - size.lower)]
+    return [size for size in sizes if size.is_one_sided and not size.shaping and way(size) < ASLEEP * (size.upper - size.lower)]
 
 
 def _near(start: _Aligned, sizes: Sequence[Size], raw: Raw, each: Callable) -> Raw:

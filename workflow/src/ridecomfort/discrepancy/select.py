@@ -29,15 +29,15 @@ from .shared import Shared, shared_error
 from .tries import LEAST_MOVED, own_sizes
 
 EFFECTS = 6
-"""Effects that are looked for, one after another. Cars of other programs differ from the model in up to five things at once, beside which one
-more may be missing; a search that ends before them leaves more than half of the error, and what it found has no name."""
+"""Effects that are looked for, one after another. Cars of other programs differ from the model in up to six things at once; a search that
+ends before them leaves more than half of the error, and what it found has no name."""
 
 VAIN = "makes the error larger once drives are aligned and all is fitted anew with it"
 """What is said of an effect that is taken back."""
 
 ALIAS, LEAST_OWN = 0.05, 0.01
-"""Share of the power that nuisances must leave of what alignment takes out of every drive, below which it is one of them under another name,
-and of any other effect, which may be much like one and yet be there: where an instrument is slow, its errors are what counts least."""
+"""Least share of the white power of a candidate that nuisances must leave for it to be tested: of what alignment takes out of every drive, which
+below it is a nuisance under another name, and of any other effect, which may be much like one (the delay of a slow instrument) and yet be there."""
 
 
 def select(

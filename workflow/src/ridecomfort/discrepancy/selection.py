@@ -107,7 +107,7 @@ class Selection:
     shared_z: float
     """How surely repeats shared any error before the first effect, as a z; nan without repeats."""
     faster_gone: float
-    """Share of what the repeats had in common above ``shared.SLOW`` before the first effect that is gone..."""
+    """Share of what the repeats had in common above ``shared.OF_DRIVER`` before the first effect that is gone..."""
     faster_z: float
     """...and how surely they had anything in common there, as a z; nan without repeats."""
     check: Mapping[int, np.ndarray] = field(default_factory=dict)

@@ -18,7 +18,7 @@ FINER = 10.0
 WIDTH = 2.0
 """Hz; a shaft or a mode shakes within such a band, and is lost among all others where only the whole is asked."""
 
-SLOW = 3.0
+OF_DRIVER = 3.0
 """Hz below which a band begins in which foot and hands of a driver show, which a driver model moves otherwise: on roads and drives
 without any other error that is up to 2.5 % of the power of a_x in the band, 3 % of pitch rate, 0.7 % of yaw rate, 0.4 % of a_y, 0.1 % of
 roll rate, and less than 0.1 % of any signal above."""
@@ -27,10 +27,10 @@ OF_DRIVEN, OF_BAND = {"a_x": 0.06, "pitch_rate": 0.06, "yaw_rate": 0.02, "a_y": 
 """Shares of the measured power within a band below that, by signal, and in all other bands, up to which an error is not worth explaining."""
 
 OF_SLOW = 0.005
-"""The same of other signals below SLOW."""
+"""The same of other signals below OF_DRIVER."""
 
 FOOT = 0.01
-"""m/s2 (rms) of a_x below SLOW up to which an error is a foot's, however little else the signal holds there: on two cars and roads whose models
+"""m/s2 (rms) of a_x below OF_DRIVER up to which an error is a foot's, however little else the signal holds there: on two cars and roads whose models
 were right 0.006 were left, 2 % of the power of one, whose instrument stood on the roof, and 29 % of the other."""
 
 LIKELY = 4.0
@@ -68,7 +68,7 @@ class Band:
 @dataclass(frozen=True)
 class Shared:
     """White power that repeats share: its ``share`` of all, ``z`` (0 where they share nothing), the ``power``, and the band where
-    that is surest; ``faster``, ``faster_z``: the power above SLOW, and its z. nan and None where no drive was repeated."""
+    that is surest; ``faster``, ``faster_z``: the power above OF_DRIVER, and its z. nan and None where no drive was repeated."""
 
     share: float
     z: float
@@ -89,7 +89,7 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
         return Shared(float("nan"), float("nan"), float("nan"), None)
     total, z = _in_common(pairs)
     power = sum(np.sqrt(np.sum(one**2) * np.sum(other**2)) for _, one, other in pairs)
-    faster = [(record, *(band(part, record.rate, (SLOW, np.inf)) for part in both)) for record, *both in pairs]
+    faster = [(record, *(band(part, record.rate, (OF_DRIVER, np.inf)) for part in both)) for record, *both in pairs]
     # Equally loud all along the road: were rough places the same ones in all repeats, neighbouring frequencies would not be independent.
     even = {index: part / frame.whitening[index].scale for index, part in cleaned.items()}
     pairs = list(_pairs(frame, even))
@@ -162,7 +162,7 @@ def worth(frame: Frame, residuals: Mapping[int, np.ndarray], measured: Mapping[i
     edges, agreement, variance = _bands(frame.experiment.channels, pairs)
     power = _bands(frame.experiment.channels, list(_pairs(frame, measured)))[1]
     slow = np.array([OF_DRIVEN.get(channel, OF_SLOW) for channel in frame.experiment.channels])
-    is_slow = edges[:-1] < SLOW
+    is_slow = edges[:-1] < OF_DRIVER
     least = np.where(is_slow, slow[:, None], OF_BAND) * power
     foot = np.array([FOOT if channel == "a_x" else 0.0 for channel in frame.experiment.channels])
     least = np.maximum(least, np.where(is_slow, foot[:, None] ** 2 * _of_one(pairs), 0.0))

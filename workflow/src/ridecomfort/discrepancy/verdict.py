@@ -32,10 +32,10 @@ SMALL = 0.02
 """Share of a signal's power; an error below it changes its rms by a hundredth at most."""
 
 IS_MISSING = ("named", "cluster", "outside")
-"""Verdicts that something is..."""
+"""Verdicts which say that something is missing."""
 
 LITTLE_TO_EXPLAIN = " It is little: no signal has more than {most} of its power above the floor."
-"""...and what they say where that is SMALL."""
+"""What such a verdict adds where all that could be explained is SMALL."""
 
 LEAST_TOLD = 0.001
 """Share of a signal's power below which what is left of it is not told, and the least that a limit is said to be: "no more than 0.0 %" would say

@@ -30,7 +30,8 @@ LOWEST = 0.3
 0.75 to 0.98, one at a wrong place or path up to 0.3."""
 
 TIMES = 8.0
-"""Times by which the rms of a signal may differ from the model's before another unit is likely: degrees are 57 radians, g 9.8 m/s2."""
+"""Times by which the rms of a signal may differ from the model's before another unit is likely: a rate in deg/s is 57 times one in rad/s, an
+acceleration in g a tenth of one in m/s2."""
 
 CLOSE = 0.02
 """s by which two ways to find the clock may differ."""

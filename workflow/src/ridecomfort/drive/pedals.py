@@ -62,7 +62,7 @@ def without_noise(again, simulated):
     by what it leaves of a simulation (Wiener's filter); the same where he is not heard.
 
     All of it would move the model by noise, which its own record then takes for links that hold the body up against driving: the p-value of
-    these was below 5 percent in four of 14 nulls. What the filter leaves out of a foot goes with nothing that the model is driven by.
+    these was below 5 percent in four of 14 nulls. What the filter leaves out of a foot stays in the error; nothing in the model is driven by it.
     """
     if again.by_foot is None or again.foot is None:
         return again

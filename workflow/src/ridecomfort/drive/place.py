@@ -98,7 +98,7 @@ def _slope(road: xr.Dataset, aside: np.ndarray) -> np.ndarray:
 
 
 def moved(drive: xr.Dataset, *, clock: float = 0.0, scale: float = 1.0) -> xr.Dataset:
-    """The drive with place and speed moved back by ``clock`` (s), onto the clock of its inertial signals, and its speed scaled."""
+    """The drive with place and speed later by ``clock`` (s), which puts them on the clock of its inertial signals, and its speed scaled."""
     time = drive["time"].values
 
     def earlier(name: str) -> np.ndarray:

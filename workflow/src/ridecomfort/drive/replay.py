@@ -155,9 +155,9 @@ class Replay:
     by_foot: tuple[float, float] | None = None
     """Hz from which and up to which the accelerometer tells what he does to the speed (``pedals.band``); else he is slow."""
     foot: np.ndarray | None = None
-    """How much more (m/s2, (time,)) it told than the model did when it was first listened to..."""
+    """Acceleration (m/s2, (time,)) by which it told more than the model did before his foot was followed (``pedals.missing_acceleration``)."""
     by_chance: np.ndarray | float = 0.0
-    """...and the speed (m/s, (time,)) within that band that is likely to be its noise, and is not asked for (``pedals.without_noise``)."""
+    """What of the missing speed (m/s, (time,)) within that band is likely to be its noise, and is not asked for (``pedals.without_noise``)."""
     is_foot_kept: bool = False
     """Whether that is held, too, where he is held to a speed."""
 

@@ -66,7 +66,7 @@ PORTS: Mapping[str, Port] = MappingProxyType(
             ("wheel", "deflection", "velocity", "stiffness", "rest", "rotation", "spin"),
             ("force",),
             True,
-            "extra radial force in N, positive pushing the wheel up; deflection and its rate; radial stiffness (N/m), "
+            "extra radial force in N, positive pushing the wheel up; deflection and velocity (m, m/s), positive pressed; radial stiffness (N/m), "
             "deflection at rest (m); turn (rad) and spin (rad/s) of the wheel",
         ),
         "tyre_planar": Port(
@@ -94,13 +94,14 @@ PORTS: Mapping[str, Port] = MappingProxyType(
             ("force", "speed"),
             ("force",),
             False,
-            "driving force in N that reaches the wheels for the force asked for",
+            "driving force in N that reaches the wheels for the force asked for, negative when braking; speed in m/s",
         ),
         "steer": Port(
             ("angle", "speed", "force_y"),
             ("angle",),
             False,
-            "angle in rad of the front wheels for the angle asked for; force_y: of the front tyres in N",
+            "angle in rad of the front wheels, positive to the left, for the angle asked for; speed in m/s; force_y: of both front tyres in N, "
+            "positive to the left",
         ),
         "vehicle": Port(
             ("vehicle",),

@@ -11,6 +11,7 @@ BEGUN = 0.02
 """Gears from which on a shift up has begun: the car, slowed by it, does not take it back."""
 
 GEARS = 6.0
+"""Gears of the box: beyond the last shift nothing is shifted."""
 
 effect = Effect(
     name="gear_shift",

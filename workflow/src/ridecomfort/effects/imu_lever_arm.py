@@ -1,7 +1,6 @@
 """An instrument that sits elsewhere than its file says."""
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from ridecomfort.effects.contract import Effect, Parameter
 
@@ -23,6 +22,8 @@ effect = Effect(
 
 
 def act(drive, x, y, z):
+    from scipy.interpolate import CubicSpline  # here: it takes half a second, and the library is read at every start
+
     rates = np.stack([drive[name].values for name in ("roll_rate", "pitch_rate", "yaw_rate")], axis=1)
     turning = CubicSpline(drive.time.values, rates)(drive.time.values, 1)
     arm = np.broadcast_to([x, y, z], rates.shape)

@@ -10,7 +10,7 @@ from ..vocabulary import STANDARD_GRAVITY
 from .parameters import Vehicle
 
 (X, Y, MASS, SPRING, DAMPING, ANTI_ROLL, ROLL_CENTRE, ROLL_ARM, SCRUB, STATIC_FORCE, STATIC_DEFLECTION) = range(11)
-"""Columns of the table of wheels. ANTI_ROLL: N per metre of difference between the sides. ROLL_ARM: height
+"""Rows of the table of wheels (`wheel_table`). ANTI_ROLL: N per metre of difference between the sides. ROLL_ARM: height
 of the centre of gravity above the roll centre. SCRUB: how far the contact moves sideways per travel."""
 
 
