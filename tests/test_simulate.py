@@ -8,10 +8,13 @@ import xarray as xr
 from scipy.signal import butter, sosfiltfilt, welch
 
 from ridecomfort import simulate
+from ridecomfort.drive import record
 from ridecomfort.effects import library
 from ridecomfort.errors import InputError
+from ridecomfort.road import edges
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import DRIVE, SIGNALS
+from tests import quarter_cars
 from tests.vehicle.roads import road, rough
 
 
@@ -54,6 +57,17 @@ def test_a_sensor_off_the_centre_feels_the_rigid_body(course, car):
     found = (ahead.a_z - centre.a_z).values
     assert (found + 1.2 * pitching).std() < 0.05 * found.std()
     np.testing.assert_array_equal(ahead.pitch_rate, centre.pitch_rate)
+
+
+def test_a_sensor_above_the_centre_feels_what_accelerometer_and_gyroscope_tell_of_it_in_a_bend(car):
+    """Moved by the measured rates, as an instrument elsewhere, in a narrow bend."""
+    bent = simulate.prepare(quarter_cars.road(length=160.0, bend=1 / 30.0))
+    below, above = (simulate.run(bent, car, speed=9.0, sensor=(0.0, 0.0, z), rate=1000.0) for z in (0.0, 1.0))
+    moved = record.transfer(below.assign_attrs(sensor_x=0.0, sensor_y=0.0, sensor_z=0.0), (0.0, 0.0, 1.0))
+    inside = slice(2000, -1000)
+    for name in ("a_x", "a_y"):
+        off = (above[name] - moved[name]).values[inside]
+        assert off.std() < {"a_x": 0.0015, "a_y": 0.0025}[name]
 
 
 def test_a_sensor_stays_on_the_body_where_the_centre_of_gravity_moves(course, car):
@@ -126,6 +140,18 @@ def test_wheels_stay_on_the_road(course, car, lateral, u, beyond, said):
     with pytest.raises(InputError) as problem:
         simulate.check_on_road(course.road, car, lateral, u, beyond=beyond, file="road.nc", place="run 7")
     assert str(problem.value).startswith(f"road.nc: run 7: lateral position: {said}")
+
+
+def test_a_road_ends_where_it_narrows():
+    """Not half of a notch's length later, and a single wider cross section widens nothing beside it."""
+    u, v = np.arange(0.0, 30.0, 0.1), np.arange(-2.0, 2.01, 0.1)
+    elevation = np.zeros((u.size, v.size))
+    elevation[150:, v < -1.05] = np.nan
+    elevation[:, v > 1.55] = np.nan
+    elevation[80] = 0.0
+    right, left = edges.sides(elevation, u, v)
+    assert right == pytest.approx(np.where(np.arange(u.size) < 150, -2.0, -1.0))
+    assert left == pytest.approx(np.where(np.arange(u.size) == 80, 2.0, 1.5))
 
 
 @pytest.mark.parametrize(("length", "is_refused"), [(0.9, False), (5.0, True)])

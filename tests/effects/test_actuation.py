@@ -46,6 +46,11 @@ def shifting(speeds, step=0.001, depth=0.8, duration=0.4):
     return np.array(forces), np.array(gears)
 
 
+def test_a_box_of_six_gears_shifts_up_five_times():
+    forces, gears = shifting(np.linspace(20.0, 60.0, 20000))
+    assert gears.max() == pytest.approx(5.0, abs=1e-2)
+
+
 def test_gears_come_at_speeds_in_geometric_steps_and_interrupt_the_drive_once_each():
     forces, gears = shifting(np.linspace(12.0, 24.0, 20000))
     interrupted = forces < 1000.0 * (1 - 0.8 * 0.5)

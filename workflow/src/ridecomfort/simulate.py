@@ -275,7 +275,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     is_lost = is_short and (record[-1, 2] > driver.SLOWEST or np.abs(sensed[:3, :steps]).max() > FASTEST_CHANGE)
     if is_lost or not (np.abs(record[:, :3]) < FARTHEST).all() or not np.isfinite(sensed[:, :steps]).all():
         raise InputError(
-            "the simulated drive did not stay finite; is a parameter or an effect out of reason?",
+            "the simulated drive did not stay finite; is a parameter or an effect out of reason, or the friction too low for the grade or the bend?",
             place=f"vehicle {vehicle.name}",
         )
     if is_short:

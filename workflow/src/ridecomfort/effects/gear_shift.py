@@ -11,7 +11,7 @@ BEGUN = 0.02
 """Gears from which on a shift up has begun: the car, slowed by it, does not take it back."""
 
 GEARS = 6.0
-"""Gears of the box: beyond the last shift nothing is shifted."""
+"""Gears of the box; the state ``gear`` counts shifts up, from the first gear on."""
 
 effect = Effect(
     name="gear_shift",
@@ -32,7 +32,7 @@ effect = Effect(
 
 
 def act(force, speed, gear, depth, duration, first, ratio):
-    place = min(log(max(speed, 1.0) / first) / log(ratio) + 1.0, GEARS)
+    place = min(log(max(speed, 1.0) / first) / log(ratio) + 1.0, GEARS - 1.0)
     wanted = ceil(gear - BEGUN)
     if place >= wanted + 1.0 or place < wanted - HYSTERESIS:
         wanted = max(floor(place), 0.0)

@@ -7,7 +7,7 @@ SLIDING_SPEED = 0.002
 """m/s over which the force turns with the direction of motion; below the noise of a moving wheel."""
 
 STICKING = 20000.0
-"""N s/m; what does not slide is no stiffer damper than this, which a wheel can follow at a step of 1 ms, and at 2 ms."""
+"""N s/m; what does not slide is no stiffer damper than this, which a wheel can follow at a step of 1 ms, and one of 40 kg or more at 2 ms."""
 
 effect = Effect(
     name="suspension_friction",

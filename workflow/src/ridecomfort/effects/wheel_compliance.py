@@ -7,6 +7,10 @@ from ridecomfort.effects.contract import Effect, Parameter
 FASTEST = 300.0
 """rad/s; the fastest swing that is integrated, in steps of up to 2 ms. A stiffer wheel does that share of what one does that swings so."""
 
+SLIPPING = 0.13
+"""kg m/s per N; a wheel lighter than this times its load over its speed answers to the slip of its tyre faster than steps of 2 ms can follow, and
+is taken for as heavy."""
+
 effect = Effect(
     name="wheel_compliance",
     sentence=(
@@ -31,6 +35,7 @@ def act(wheel, slip_x, slip_y, load, speed, slope, force_x, place, rate, front, 
     share = compliance / integrated
     stiffness = 1.0 / integrated
     damping = 2.0 * damping_ratio * sqrt(stiffness * mass)
-    acceleration = (force_x - stiffness * place - damping * rate) / mass
-    slip_x -= share * rate / max(abs(speed), 1.0)
+    pace = max(abs(speed), 1.0)
+    acceleration = (force_x - stiffness * place - damping * rate) / max(mass, SLIPPING * load / pace)
+    slip_x -= share * rate / pace
     return slip_x, slip_y, -share * mass * acceleration, rate, acceleration

@@ -33,9 +33,10 @@ def sides(elevation: np.ndarray, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarr
     some = inside.any(axis=1)
     right = np.where(some, v[inside.argmax(axis=1)], v[-1])
     left = np.where(some, v[len(v) - 1 - inside[:, ::-1].argmax(axis=1)], v[0])
-    # The middle of a notch of n cross sections sees a whole one at (n + 1) / 2 to either side.
+    # The middle of a notch of n cross sections sees a whole one at (n + 1) / 2 to either side; what has widened by that is taken back.
     size = 2 * int(0.5 * NOTCH / (u[1] - u[0]) + 0.5 + 1e-6) + 1
-    return ndimage.minimum_filter1d(right, size, mode="nearest"), ndimage.maximum_filter1d(left, size, mode="nearest")
+    bridged = lambda ends: ndimage.minimum_filter1d(ndimage.maximum_filter1d(ends, size, mode="nearest"), size, mode="nearest")
+    return -bridged(-right), bridged(left)
 
 
 def extend(elevation: np.ndarray, v: np.ndarray, bank: np.ndarray, offset: float = 0.0) -> np.ndarray:

@@ -63,7 +63,8 @@ def sensor_acceleration(row, sensor, pose, speeds, change):
     """
     roll, pitch = pose[ROLL], pose[PITCH]
     p, q, r = speeds[ROLL_RATE], speeds[PITCH_RATE], speeds[YAW_RATE]
-    p_dot, q_dot, r_dot = change[ROLL_RATE], change[PITCH_RATE], change[YAW_RATE]
+    # The axes turn with the heading, and so does what they tell of the turning.
+    p_dot, q_dot, r_dot = change[ROLL_RATE] - r * q, change[PITCH_RATE] + r * p, change[YAW_RATE]
     x = sensor[0] + pitch * sensor[2]
     y = sensor[1] - roll * sensor[2]
     z = sensor[2] - pitch * sensor[0] + roll * sensor[1]

@@ -271,7 +271,7 @@ def _felt(sensor, now, acceleration, roll, pitch):
     x, y, z = sensor
     place = np.array([x + pitch * z, y - roll * z, z - pitch * x + roll * y])
     turning = np.array([p, w, r])
-    turning_faster = acceleration[[4, 5, 2]]
+    turning_faster = acceleration[[4, 5, 2]] + _cross(np.array([0.0, 0.0, r]), turning)
     centre = np.array([acceleration[0] - r * v_y, acceleration[1] + r * v_x, acceleration[3]])
     felt = centre + _cross(turning_faster, place) + _cross(turning, _cross(turning, place))
     return _in_body_axes(felt, roll, pitch)
