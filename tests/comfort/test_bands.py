@@ -37,5 +37,8 @@ def test_configured_bands():
         bands.edges({"NU": [0, 0.3], "LU": [0.4, None]})
     with pytest.raises(InputError, match="follow upon each other"):
         bands.edges({"NU": [0, 0.9], "LU": [0.4, 0.8]})
+    for gap in ({"NU": [0.1, 0.3], "LU": [0.3, None]}, {"NU": [0, 0.3], "LU": [0.3, 2.0]}):
+        with pytest.raises(InputError, match="expected 0 and null: every value lies in a band"):
+            bands.edges(gap)
     with pytest.raises(InputError, match="rule"):
         bands.label(0.5, "worst")

@@ -89,6 +89,12 @@ def test_a_plane_has_no_roughness_and_roughness_is_linear():
     assert iri.iri(tilted, 0.1) == pytest.approx(3.0 * iri.iri(height(s), 0.1), rel=1e-6)
 
 
+def test_what_is_kept_of_a_transition_cannot_be_changed():
+    for kept in quartercar.transition(0.25):
+        with pytest.raises(ValueError, match="read-only"):
+            kept[:] = 0.0
+
+
 def test_tracks():
     s, left = rough(seed=1)
     _, right = rough(seed=2)

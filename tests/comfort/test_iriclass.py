@@ -33,6 +33,12 @@ def study(runs: int = 40):
     return road, shard
 
 
+@pytest.mark.parametrize("offset", [-0.75, 0.75])
+def test_a_track_on_the_first_or_last_line_of_a_road_needs_none_beside_it(offset):
+    road = xr.Dataset({"elevation": (("u", "v"), np.tile([1.0, np.nan, 2.0], (5, 1)))}, {"u": np.arange(5.0), "v": [-0.75, 0.0, 0.75]})
+    assert (iriclass.tracks(road, [offset]) == (1.0 if offset < 0 else 2.0)).all()
+
+
 def test_evaluate_counts_whole_windows_by_plain_loops():
     road, shard = study()
     found = iriclass.evaluate([shard], road)

@@ -143,6 +143,20 @@ def test_seat_value_of_a_sine_is_the_transmissibility():
     assert seat.seat_value(floor, floor, RATE, dose=True) == pytest.approx(100.0)
 
 
+@pytest.mark.parametrize("dose", [False, True])
+def test_a_seat_value_is_that_of_the_vibration_whatever_gravity_the_recordings_hold(dose):
+    rng = np.random.default_rng(2)
+    floor = rng.standard_normal(3000)
+    on_seat = seat.on_seat(floor, 100.0)
+    plain, held = (seat.seat_value(on_seat + offset, floor + offset, 100.0, dose=dose) for offset in (0.0, 9.81))
+    assert held == pytest.approx(plain, rel=1e-3) and plain < 95.0
+
+
+def test_the_dose_of_a_run_without_data_is_not_told():
+    found = quantities.metrics(np.array([[1.0, -1.0] * 200, [np.nan] * 400]), 100.0)
+    assert np.isfinite(found["vdv"].values[0]) and np.isnan(found["vdv"].values[1])
+
+
 def test_a_seat_passes_gravity_unchanged_and_vibration_on_it_as_without_it():
     runs = np.full((2, len(TIME)), 9.81)
     runs[1, -100:] = np.nan

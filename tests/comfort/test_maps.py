@@ -81,6 +81,16 @@ def test_a_section_in_two_bands_is_one_feature_with_the_label_of_a_named_rule(ro
     assert all(each["properties"]["bands"] == ["FU", "U"] for each in found)
 
 
+def test_the_class_of_a_section_is_one_of_its_bands_though_these_have_a_gap(road):
+    """Of 20 runs 13 lie in LU or U and one in FU: what lies between the bands shown is none of them."""
+    level = np.repeat([0.4, 0.9, 0.7, 0.1], [6, 7, 1, 6])
+    shard = xr.Dataset({"a_v": (("run", "s"), np.repeat(level[:, None], S.size, axis=1))}, {"run": np.arange(20), "s": S})
+    comfort = iso2631.evaluate([shard])
+    comfort["a_v"] = comfort["a_v"] * 0 + 0.75
+    for each in maps.geojson(comfort, road, probability=0.2)["features"]:
+        assert each["properties"]["class"] in each["properties"]["bands"] and each["properties"]["probability"] > 0.2
+
+
 def test_sliding_sections_that_overlap_are_one_feature(road):
     """0.7 m/s2 from 40 to 60 m: of sections of 5 m that begin every 0.25 m those from 40 to 55 m."""
     a_v = np.full((10, S.size), 0.1)

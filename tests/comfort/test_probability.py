@@ -99,6 +99,13 @@ def test_a_plain_sample_has_no_latin_slices():
     assert enough.slice_sizes(sliced(400, 1)) == [25, 50]
 
 
+def test_an_input_that_is_held_at_a_value_is_in_no_slices_way():
+    drawn = sliced(400, 1)
+    held = drawn.assign({FACTORS[0]: ("run", np.full(400, 0.3))})
+    assert enough.slice_sizes(held) == [25, 50]
+    assert enough.slice_sizes(held[[FACTORS[0]]]) == []
+
+
 def test_nothing_to_estimate_is_said():
     samples = sliced(400, 1)
     with pytest.raises(InputError, match="nothing to estimate"):

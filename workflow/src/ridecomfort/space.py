@@ -108,6 +108,6 @@ def _indices(distance, lengths, s):
                 right += 1
             before = float(distance[run, right - 1])
             step = float(distance[run, right]) - before
-            share = (s[place] - before) / step if step > 0.0 else 1.0
+            share = (s[place] - before) / step if step > 0.0 else (1.0 if s[place] > before else 0.0)
             result[run, place] = right - 1 + share
     return result

@@ -137,9 +137,12 @@ def lag(
             raise InputError(f"{len(first) * spacing:g} m are too short to look {reach:g} m back and forth")
         scores = [_scores(each) for each in (first, second)]
         middle = np.arange(edge, len(first) - edge)
-        unlike.append(np.array([(scores[0][middle] - scores[1][middle - shift]) ** 2 for shift in shifts]))
+        tells = all(each.any() for each in scores)  # where one does not vary, every shift is as good
+        unlike.append(np.array([(scores[0][middle] - scores[1][middle - shift]) ** 2 if tells else np.zeros(len(middle)) for shift in shifts]))
         counts.append(len(middle))
     joined = np.concatenate(unlike, axis=1)
+    if not joined.any():
+        return _estimate(float("nan"), [])
     # One block of all shifts at once: what a resample adds up are sums over blocks, of which those that begin near the end go on at the start.
     rng, length = np.random.default_rng(seed), max(1, round(block / spacing))
     sums = [_sums(each, min(length, each.shape[1])) for each in unlike]

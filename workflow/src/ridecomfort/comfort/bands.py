@@ -33,7 +33,7 @@ of the middle of their overlap."""
 def edges(configured: Mapping | None = None) -> dict[str, tuple[float, float]]:
     """Bands from plain settings {name: [lower, upper or None]}, mildest first; the standard's where none are given.
 
-    Raises InputError where bands do not follow upon each other.
+    Raises InputError where bands do not follow upon each other, from 0 to no end.
     """
     if configured is None:
         return dict(BANDS)
@@ -48,6 +48,11 @@ def edges(configured: Mapping | None = None) -> dict[str, tuple[float, float]]:
     if np.any(lower[1:] > upper[:-1]):
         gap = int(np.argmax(lower[1:] > upper[:-1]))
         raise InputError(f"nothing between {order[gap]} and {order[gap + 1]}", place="iso2631.bands")
+    if lower[0] > 0.0 or np.isfinite(upper[-1]):
+        raise InputError(
+            f"{order[0]} begins at {lower[0]:g} and {order[-1]} ends at {upper[-1]:g}, expected 0 and null: every value lies in a band",
+            place="iso2631.bands",
+        )
     return answer
 
 

@@ -79,10 +79,13 @@ def slice_sizes(samples: xr.Dataset) -> list[int]:
     """Sizes, ascending, of which every block of consecutive runs is a Latin hypercube by itself, as far as they help.
 
     Told from the samples (dim run) alone: in each block every input lies in each of ``size`` equally probable
-    parts of all its values once. For a plain Monte Carlo sample there are none.
+    parts of all its values once, but for one that is held at a value. For a plain Monte Carlo sample there are none.
     """
     runs = samples.sizes["run"]
-    ranks = np.array([stats.rankdata(values, method="ordinal") - 1 for values in samples.data_vars.values()])
+    varied = [values for values in samples.data_vars.values() if np.ptp(values.values) > 0.0]
+    if not varied:
+        return []
+    ranks = np.array([stats.rankdata(values, method="ordinal") - 1 for values in varied])
     answer = []
     for size in range(LEAST_SIZE, runs // LEAST_DESIGNS + 1):
         if runs % size == 0:

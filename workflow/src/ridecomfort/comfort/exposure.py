@@ -84,9 +84,9 @@ def repeated(vdv: float, msdv: float, duration: float, exposure: float) -> Dose:
 def of_runs(runs: xr.Dataset, exposure: float) -> xr.Dataset:
     """Health and sickness of a trip of ``exposure`` s that repeats a stretch, for each run over it (dim run).
 
-    ``runs``: ``doses.Doses.dataset``. Returns over run ``rms`` of the worst axis in m/s2 and ``a8``, ``vdv`` of the
-    worst axis in m/s1.75 (both with the k factors of health, 1.4 on x and y), ``msdv_z`` in m/s1.5,
-    ``vomiting_share`` in percent and ``illness_rating`` of 3; and ``worst_axis``, that of most runs.
+    ``runs``: ``doses.Doses.dataset``. Returns over run ``rms`` in m/s2, its ``a8`` and ``vdv`` in m/s1.75, each of the axis in
+    which it is largest (with the k factors of health, 1.4 on x and y), ``msdv_z`` in m/s1.5, ``vomiting_share`` in percent and
+    ``illness_rating`` of 3; and ``worst_axis``, that of the rms in most runs.
     """
     factors = [total.HEALTH["seat", str(axis)[-1]][1] for axis in runs["axis"].values]
     times = _positive(exposure, "exposure") / runs["duration"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray as xr
 from scipy import stats
@@ -39,7 +41,8 @@ def first_order(factors, measure, bins: int = BINS) -> np.ndarray:
     factor alone does not matter. NaN for a constant measure.
     """
     factors, measure = np.atleast_2d(np.asarray(factors, float)), np.asarray(measure, float)
-    return _shares(_labels(factors, bins), measure)
+    labels = _labels(factors, bins)
+    return _shares(labels, measure, _degrees(labels))
 
 
 def _labels(factors: np.ndarray, bins: int) -> np.ndarray:
@@ -51,8 +54,22 @@ def _labels(factors: np.ndarray, bins: int) -> np.ndarray:
     return np.argsort(np.argsort(factors, axis=1, kind="stable"), axis=1) * bins // runs
 
 
-def _shares(labels: np.ndarray, measure: np.ndarray) -> np.ndarray:
-    """``first_order`` from the shares that the runs are in."""
+def _degrees(labels: np.ndarray) -> list[float]:
+    """What noise of variance one adds to the squares of the means of each factor in the joint fit, whose factors are not quite orthogonal."""
+    counts = [np.bincount(label) for label in labels]
+    member = np.concatenate([np.eye(len(count))[label] for label, count in zip(labels, counts)], axis=1)
+    inverse = np.linalg.pinv(member.T @ member, hermitian=True)
+    found, first = [], 0
+    for count in counts:
+        own = slice(first, first + len(count))
+        centre = np.eye(len(count)) - count / labels.shape[1]
+        found.append(float(np.trace(count[:, None] * (centre @ inverse[own, own] @ centre.T))))
+        first += len(count)
+    return found
+
+
+def _shares(labels: np.ndarray, measure: np.ndarray, degrees: Sequence[float]) -> np.ndarray:
+    """``first_order`` from the shares that the runs are in, whose ``_degrees`` are these."""
     rest = measure - measure.mean()
     total = rest.var(ddof=1)
     if total == 0.0:
@@ -66,7 +83,7 @@ def _shares(labels: np.ndarray, measure: np.ndarray) -> np.ndarray:
             rest = rest - step[label]
     free = [np.count_nonzero(count) - 1 for count in counts]
     scatter = rest @ rest / (len(rest) - sum(free) - 1)
-    between = [count @ means**2 - degrees * scatter for count, means, degrees in zip(counts, alone, free)]
+    between = [count @ means**2 - own * scatter for count, means, own in zip(counts, alone, degrees)]
     return np.array(between) / len(rest) / total
 
 
@@ -86,9 +103,10 @@ def influence(measure, samples: xr.Dataset, *, groups: int = 50, bins: int = BIN
     if any(len(each) != len(measure) for each in values):
         raise InputError(f"{len(measure)} values of the measure for {len(values[0])} samples", place="influence")
     labels = _labels(np.array(values), bins)
+    degrees = _degrees(labels)
     figures = {
         "spearman": np.array([_jackknife(lambda runs: spearman(x[runs], measure[runs]), len(x), groups) for x in values]),
-        "first_order": _jackknife(lambda runs: _shares(labels[:, runs], measure[runs]), len(measure), groups),
+        "first_order": _jackknife(lambda runs: _shares(labels[:, runs], measure[runs], degrees), len(measure), groups),
     }
     answer = xr.Dataset(
         {key: (("factor", "bound"), table) for key, table in figures.items()},
@@ -105,7 +123,8 @@ def measures(thresholds: xr.Dataset, iso2631: xr.Dataset, iri: xr.Dataset) -> di
     """What each run (run,) was like by each method, from the comfort datasets of a site.
 
     ``a_v``: mean of the total value over the site in m/s2; ``a_x``, ``a_y``, ``a_z``: percent of
-    the sections outside the band of public transport; ``iri``: percent fair or worse at the run's speed.
+    the sections outside the band of public transport; ``iri``: percent that are fair, mediocre or poor in their whole length at the
+    run's speed.
     """
     levels = iso2631["window_mean"]
     answer = {"a_v": levels.mean([dim for dim in levels.dims if dim != "run"]).values}

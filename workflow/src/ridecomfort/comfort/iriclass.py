@@ -28,7 +28,8 @@ def tracks(road: xr.Dataset, offsets: Sequence[float] = WHEEL_TRACKS) -> np.ndar
             raise InputError(f"wheel track at {offset:g} m lies outside the road, {v[0]:g} to {v[-1]:g} m")
         left = min(max(int(np.searchsorted(v, offset, side="right")) - 1, 0), len(v) - 2)
         share = (offset - v[left]) / (v[left + 1] - v[left])
-        profile = heights[:, left] if share == 0 else (1 - share) * heights[:, left] + share * heights[:, left + 1]
+        on_line = share in (0.0, 1.0)  # what lies beside it may be a hole
+        profile = heights[:, left + int(share)] if on_line else (1 - share) * heights[:, left] + share * heights[:, left + 1]
         if not np.isfinite(profile).all():
             where = float(road["u"][int(np.argmin(np.isfinite(profile)))])
             raise InputError(f"wheel track at {offset:g} m leaves the road at u = {where:g} m")

@@ -122,9 +122,8 @@ def _found(comfort: xr.Dataset, probability: float, bound: str, rule: str) -> It
 def _label(comfort: xr.Dataset, shown: np.ndarray, rule: str) -> np.ndarray:
     """Index of the one band (window,) of each section among those that it is ``shown`` (band, window) for."""
     order = np.arange(len(shown))[:, None]
-    mildest, worst = np.where(shown, order, len(shown)).min(axis=0), np.where(shown, order, -1).max(axis=0)
     if rule != "middle":
-        return {"severe": worst, "mild": mildest}[rule]
+        return np.where(shown, order, -1).max(axis=0) if rule == "severe" else np.where(shown, order, len(shown)).min(axis=0)
     s, start = comfort["s"].values, comfort["window_start"].values
     limits = {
         str(name): (float(low), float(high))
@@ -133,7 +132,8 @@ def _label(comfort: xr.Dataset, shown: np.ndarray, rule: str) -> np.ndarray:
     end = start + float(comfort.attrs["critical_length"])
     total = np.concatenate([[0.0], np.cumsum(comfort["a_v"].values)])
     first, behind = (np.searchsorted(s, edge - 1e-6) for edge in (start, end))
-    return np.clip(bands.label((total[behind] - total[first]) / (behind - first), rule, limits), mildest, worst)
+    label = bands.label((total[behind] - total[first]) / (behind - first), rule, limits)
+    return np.where(shown, np.abs(order - label), len(shown)).argmin(axis=0)
 
 
 def _line(road: xr.Dataset, begin: float, end: float, project) -> list[list[float]]:

@@ -110,7 +110,7 @@ def metrics(weighted, rate: float, *, time_constant: float = 1.0, method: str = 
     found = {
         "rms": rms,
         "mtvv": mtvv,
-        "vdv": (fourth / rate) ** 0.25,
+        "vdv": np.where(lengths > 0, (fourth / rate) ** 0.25, np.nan),
         "evdv": 1.4 * rms * duration**0.25,
         "msdv": rms * duration**0.5,
         "duration": duration,

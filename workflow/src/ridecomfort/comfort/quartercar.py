@@ -64,8 +64,10 @@ def transition(spacing: float, speed: float = SPEED, car: GoldenCar = GOLDEN_CAR
     ST = exp(A dt), PR = A^-1 (ST - I) B with dt = spacing / speed (World Bank
     Technical Paper 46, appendix A). The state is made of slopes and their rates.
     """
-    st, pr = transitions(np.array([spacing]), speed, car)
-    return st[0], pr[0]
+    found = transitions(np.array([spacing]), speed, car)
+    for each in found:
+        each.flags.writeable = False  # they are kept
+    return found[0][0], found[1][0]
 
 
 def transitions(

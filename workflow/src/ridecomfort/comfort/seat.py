@@ -73,7 +73,7 @@ def seat_value(seat, floor, rate: float, name: str = "Wk", *, dose: bool = False
     """
     quantity = "vdv" if dose else "rms"
     above, below = (
-        quantities.metrics(weighting.weight(signal, rate, name), rate)[quantity] for signal in (seat, floor)
+        quantities.metrics(weighting.weight(signal, rate, name, before="mirror"), rate)[quantity] for signal in (seat, floor)
     )
     answer = 100.0 * above.values / below.values
     return float(answer) if np.ndim(answer) == 0 else answer
