@@ -34,6 +34,13 @@ def test_a_file_that_is_no_effect_is_missed_before_anything_runs(project, own_ef
         config.load(own_effects, project)
 
 
+def test_a_key_that_stands_twice_in_a_line_is_refused(project):
+    vehicle = project / config.VEHICLES / "midsize.yaml"
+    vehicle.write_text(vehicle.read_text().replace("sprung_mass: {value:", "sprung_mass: {value: 900, value:", 1))
+    with pytest.raises(InputError, match=r"midsize.yaml: line \d+: is not valid YAML \(key 'value' stands in line \d+ already\)"):
+        config.load({"sites": ["own"]}, project)
+
+
 def test_a_key_that_stands_twice_is_refused(project):
     (project / config.SITES / "own.yaml").write_text("road:\n  file: road.crg\ntitle: one\ntitle: two\n")
     assert_said(project, {"sites": ["own"]}, "line 4: is not valid YAML (key 'title' stands in line 3 already)", project / config.SITES / "own.yaml")
@@ -68,6 +75,7 @@ STUDY_MISTAKES = [
     ({"simulation": {"step": "1e-3"}}, "write 0.001"),
     ({"simulation": {"rate": 333}}, "expected a rate that a step of 0.001 s divides"),
     ({"space": {"spacing": -0.25}}, "space: spacing: -0.25, expected at least 0.1"),
+    ({"calibration": {"tolerance": 1e-17}}, "calibration: tolerance: 1e-17, expected at least 1e-12"),
     ({"space": {"run_in": float("nan")}}, "space: run_in: nan, expected a finite number"),
     ({"comfort": {"critical_length": -5}}, "comfort: critical_length: -5, expected at least 1"),
     ({"calibration": {"parameters": ["dampers"]}}, "calibration: parameters: 'dampers' is no parameter of a vehicle"),

@@ -308,6 +308,29 @@ def test_the_residual_compares_specific_force_with_specific_force(road, nominal)
     assert np.sqrt(np.mean(residual[:3] ** 2, axis=1)).max() < 0.02
 
 
+def test_what_lies_where_no_place_was_recorded_is_not_kept(truth, nominal):
+    """Inertial signals that come 6 s late: before that, place and speed would be the continuation of a drive that speeds up."""
+    road, late = quarter_cars.road(length=900.0), 6.0
+    u = road["u"].values
+    speed = xr.DataArray(np.sqrt(np.clip(8.0**2 + 1.6 * np.clip(u - 50, 0, None), 0, 24.0**2)), {"u": u}, "u")
+    run = quarter_cars.run(road, truth, speed=speed, start=60.0, end=820.0)
+    time, behind = run["time"].values - float(run["time"][0]), round(late * 100)
+    given = {name: (time[behind:] - late, run[name].values[behind:]) for name in ("s", "v_x")}
+    given |= {name: (time[behind:] - late, run[name].values[:-behind]) for name in SIGNALS}
+    recorded = record.from_arrays(given, gravity=False, lateral_position=0.0)
+    found = align.align(recorded, road, nominal, simulate=quarter_cars.run, search=10.0)
+    assert found.attrs["clock_offset"] == pytest.approx(late, abs=2e-3)
+    assert found.attrs["start_time"] == pytest.approx(late - place.END, abs=0.02) and float(found["time"][0]) == 0.0
+    true = np.interp(found.attrs["start_time"] + found["time"].values, time, run["s"].values)
+    assert np.abs(found["s"].values - true).max() < 0.3
+
+
+def test_a_search_of_less_than_half_a_sample_finds_a_clock_that_is_right(drive, road, nominal):
+    recorded = quarter_cars.recorded(drive, lateral_position=LATERAL)
+    found = align.align(recorded, road, nominal, simulate=quarter_cars.run, search=0.004)
+    assert found.attrs["clock_offset"] == pytest.approx(0.0, abs=1e-3)
+
+
 def test_moving_the_clock_moves_place_and_not_the_inertial_signals(drive):
     recorded = quarter_cars.recorded(drive)
     moved = place.moved(recorded, clock=0.25)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from ridecomfort import simulate
-from ridecomfort.drive import pedals
+from ridecomfort.drive import pedals, sampling
 from ridecomfort.drive.replay import replay
 from ridecomfort.drive.slow import smooth
 from ridecomfort.vehicle import parameters
@@ -91,6 +93,22 @@ def test_a_speed_that_is_constant_has_no_noise_to_be_weighed_against(course, car
 def test_nobody_listens_where_the_accelerometer_is_noisy(course, car):
     drive, _ = braked.drive(course, car, of_acceleration=0.5)
     assert pedals.listening(replay(drive, course, simulate.run), car).replay.by_foot is None
+
+
+@pytest.mark.parametrize("own", [100.0, 20.0, 12.0, 8.0])
+def test_noise_is_no_foot_however_slow_the_instrument(own):
+    """What a filter leaves at 0.2 to 2.5 Hz of a slow one's noise stands out of what it leaves above its cut-off."""
+    rng = np.random.default_rng(3)
+    time, clock = np.arange(12000) / 100.0, np.arange(round(121 * own)) / own
+    noise, _, cut_off = sampling.resample_inertial(clock, 0.05 * rng.standard_normal(clock.size), time, 100.0)
+    told = SimpleNamespace(signals=np.zeros((6, time.size)), roll=0.0 * time, pitch=0.0 * time)
+    speed = 20.0 + 0.5 * np.sin(2 * np.pi * time / 20.0) + 0.014 * rng.standard_normal(time.size)
+    drive = xr.Dataset({"v_x": ("time", speed)}, attrs={"gravity": 0, "cut_off": cut_off})
+    again = SimpleNamespace(
+        time=time, compared=np.ones(time.size, bool), drive=drive, demand={"sensor": (0.0, 0.0, 0.0)},
+        measured=lambda: np.stack([noise, *np.zeros((5, time.size))]),
+    )  # fmt: skip
+    assert pedals.band(again, told) is None
 
 
 def test_a_driver_who_does_not_answer_is_not_asked(course, car):

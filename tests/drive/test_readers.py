@@ -107,6 +107,14 @@ def test_a_netcdf_file_of_the_drive_schema_comes_back_as_it_was(tmp_path):
     assert (back.attrs["sensor_x"], back.attrs["sensor_z"], back.attrs["lateral_position"]) == (0.1, 0.3, 0.4)
 
 
+@pytest.mark.parametrize("said, holds", [("false", 0), ("0", 0), ("True", 1), ("yes", 1)])
+def test_whether_a_netcdf_file_holds_gravity_may_be_told_in_words(tmp_path, said, holds):
+    drive = readers.read(write(tmp_path, table()), COLUMNS, sensor=(0.1, 0.2, 0.3)).assign_attrs(gravity=said)
+    drive["a_z"] = drive["a_z"] + STANDARD_GRAVITY * (holds - 1)
+    drive.to_netcdf(tmp_path / "drive.nc")
+    assert readers.read(tmp_path / "drive.nc").attrs["gravity"] == holds
+
+
 def test_a_netcdf_file_in_other_units_and_names_is_converted(tmp_path):
     time = np.arange(0, 10, 0.01)
     other = xr.Dataset({name: ("time", np.sin(time), {"units": "deg/s"}) for name in SIGNALS[3:]}, {"time": time})

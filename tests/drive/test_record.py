@@ -182,6 +182,15 @@ def test_a_distance_that_is_held_jumps_by_a_metre_or_is_told_beside_a_speed_in_a
     record.from_arrays(quantities(s=(TIME[::10], 20 * TIME[::10]), v_x=(TIME, 72 + 0 * TIME)))
 
 
+def test_a_distance_that_goes_on_where_no_speed_was_recorded_is_no_jump():
+    middle = (TIME >= 5) & (TIME <= 15)
+    seldom = TIME[::20]
+    drive = record.from_arrays(quantities(s=(seldom, 25 * seldom), v_x=(TIME[middle], 25 + 0 * TIME[middle])))
+    assert float(drive["time"][-1]) == pytest.approx(10.0, abs=0.02)
+    with pytest.raises(InputError, match=r"sample 52 \(10.2 s\) lies \+45 m"):
+        record.from_arrays(quantities(s=(seldom, 25 * seldom + 40 * (seldom > 10.1)), v_x=(TIME[middle], 25 + 0 * TIME[middle])))
+
+
 def spoilt(name, row, value):
     time, values = quantities()[name]
     values = values.copy()

@@ -64,6 +64,23 @@ def test_a_centre_of_gravity_that_lies_elsewhere_than_the_drive_is_told_of_moves
     assert max(share[name] for name in ("a_x", "a_z", "roll_rate", "pitch_rate")) < 0.02
 
 
+def test_a_drive_is_compared_as_far_as_its_front_axle_may_come(driven):
+    """2 m of road stay free beyond it, 4 m beyond the centre of gravity at least."""
+    course, record = driven
+    longer = record.assign(s=record["s"] + float(course.u[-1] - record["s"][-1]))
+    ends = [replay(longer.assign_attrs(cg_to_front_axle=front), course, simulate.run) for front in (1.4, 3.5)]
+    assert [course.u[-1] - again.place[again.compared][-1] for again in ends] == pytest.approx([4.0, 5.5], abs=0.3)
+
+
+def test_a_drive_that_begins_as_slowly_as_may_be_is_not_asked_to_be_slower_before(driven):
+    course, record = driven
+    time = record["time"].values
+    speed = 1.05 + 0.6 * np.maximum(time - 1.0, 0.0)
+    place = float(course.u[0]) + 60.0 + np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time))])
+    slow = record.assign(v_x=record["v_x"].copy(data=speed), s=record["s"].copy(data=place)).isel(time=slice(0, 2000))
+    assert float(replay(slow, course, simulate.run).demand["speed"].min()) >= 1.0
+
+
 def test_it_drives_the_recorded_path_at_the_recorded_speed(driven, car):
     course, record = driven
     again = replay(record, course, simulate.run).tuned(car)

@@ -31,6 +31,14 @@ def test_what_is_asked_for_beyond_it_would_be_noise():
     assert found < 0.5 * full
 
 
+def test_the_noise_of_a_short_record_of_20_hz_is_known():
+    """Between 2 Hz and a tenth of the rate there is nothing."""
+    rng = np.random.default_rng(7)
+    time = np.arange(0, 9, 1 / 20.0)
+    noisy = 20 + 0.5 * np.sin(2 * np.pi * 0.05 * time) + 0.014 * rng.standard_normal(time.size)
+    assert 0.5 < speed_noise(noisy, 20.0) / (0.014**2 / 10.0) < 2.0 and speed_bandwidth(noisy, 20.0) < 0.9
+
+
 def test_the_noise_of_a_speed_is_told_whatever_its_driver_does():
     """White, of 14 mm/s, beside a driver at 0.2 Hz."""
     time = np.arange(0, 120, 1 / RATE)

@@ -178,11 +178,12 @@ class Problem:
         return low_pass(rows, again.time[1] - again.time[0], PASSED * float(again.drive.attrs["cut_off"]))
 
     def left_over(self, point: np.ndarray) -> np.ndarray:
-        """Clock offset (s) and mean distance from the path (m, to the left) left of each drive at a point, (drive, 2)."""
+        """Clock offset (s) of each drive at a point, and mean distance (m) of its path to the left of the aligned one, (drive, 2)."""
         rows = []
         for (residual, _), projection in zip(self._evaluated(point), self._left_over):
             errors = projection.errors(residual)
-            path = errors[projection.parts["lateral"]] if "lateral" in projection.parts else np.zeros(1)
+            aside = errors + projection.driven  # what is driven counts from the aligned path, too
+            path = aside[projection.parts["lateral"]] if "lateral" in projection.parts else np.zeros(1)
             rows.append((errors[0], path.mean()))
         return np.array(rows)
 

@@ -37,9 +37,9 @@ class _Loader(yaml.SafeLoader):
         for key, _ in node.value:
             if not isinstance(key, yaml.ScalarNode):
                 raise yaml.MarkedYAMLError(problem="a key is a list or mapping, expected a name", problem_mark=key.start_mark)
-            first = lines.setdefault(key.value, key.start_mark.line)
-            if first != key.start_mark.line:
-                raise yaml.MarkedYAMLError(problem=f"key {key.value!r} stands in line {first + 1} already", problem_mark=key.start_mark)
+            if key.value in lines:
+                raise yaml.MarkedYAMLError(problem=f"key {key.value!r} stands in line {lines[key.value] + 1} already", problem_mark=key.start_mark)
+            lines[key.value] = key.start_mark.line
         return super().construct_mapping(node, deep)
 
     def construct_object(self, node, deep=False):

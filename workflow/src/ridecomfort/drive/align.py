@@ -75,6 +75,7 @@ def align(
         work = place.driven(work, drive, way, scale, offset)
     error, fitted = np.nan, mounting.Mounting()
     work, clock, lateral = _found(work, road, vehicle, simulate, search, options)
+    work = _where_recorded(work, clock) if measured else work
     work = _on_path(work, lateral)
     expected = path.EXPECTED_ASIDE_MEASURED if path.has_offset(drive) else path.EXPECTED_ASIDE
     if not measured:  # along another path the way is another
@@ -120,6 +121,18 @@ def align(
     return aligned
 
 
+def _where_recorded(work: xr.Dataset, clock: float) -> xr.Dataset:
+    """The drive where its place and speed were recorded, whose ``clock`` (s) was off: farther than ``place.END`` beyond, they would only be
+    continued. Its time counts from nought again."""
+    time = work["time"].values
+    kept = (time - clock >= time[0] - place.END) & (time - clock <= time[-1] + place.END)
+    if kept.all():
+        return work
+    first = float(time[np.argmax(kept)] - time[0])
+    short = work.isel(time=kept).assign_coords(time=work["time"][: kept.sum()])
+    return short.assign_attrs(start_time=float(work.attrs["start_time"]) + first)
+
+
 def _with(simulate: Callable[..., xr.Dataset], own: Mapping) -> Callable[..., xr.Dataset]:
     """The simulator with effects of its own, whichever it is called with."""
 
@@ -140,7 +153,7 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
         again = replay(work, road, simulate, options=options)
         clock = place.coarse_clock(again, again(vehicle), search)
         work = place.moved(work, clock=clock)
-    reach = search - 0.5 * float(work["time"][1] - work["time"][0])  # a clock at the last lag of the search may lie beyond it
+    reach = max(search - 0.5 * float(work["time"][1] - work["time"][0]), 0.0)  # a clock at the last lag of the search may lie beyond it
     look = dict(clock=clock, reach=reach)
     if known:
         lateral = path.find_offset(work, road, vehicle, simulate, options)

@@ -35,6 +35,9 @@ foot must reach, somewhere below DRIVER_BANDWIDTH, to be heard."""
 ALIKE = 5
 """Neighbouring frequencies of such a spectrum that are taken together to tell how much of what is heard is noise."""
 
+FLAT = 0.7
+"""Share of the cut-off of a record up to which its filter is flat (``sampling.HALF_WIDTH``)."""
+
 FADING = 2.0
 """s over which what is missing fades in behind the run-in of the model."""
 
@@ -71,7 +74,7 @@ def without_noise(again, simulated):
     inside = (frequency >= lower) & (frequency <= upper)
     if not inside.any():
         return again
-    of_noise = np.clip(_noise(*_density(missing_acceleration(again, simulated), again)) / uniform_filter1d(density, ALIKE)[inside], 0.0, 1.0)
+    of_noise = np.clip(_noise(*_density(missing_acceleration(again, simulated), again), again) / uniform_filter1d(density, ALIKE)[inside], 0.0, 1.0)
     heard = _faster(np.cumsum(again.foot) / rate, rate, lower)
     length = fft.next_fast_len(heard.size, real=True)
     share = np.interp(fft.rfftfreq(length, 1.0 / rate), frequency[inside], of_noise)
@@ -125,7 +128,7 @@ def band(again, simulated) -> tuple[float, float] | None:
     """Hz from which and up to which a driver is brought to the accelerometer of a drive; None where that tells nothing that the model has not
     done. The noise of both is taken for white, that of the accelerometer with all that the model lacks at NOISE."""
     frequency, density = _density(missing_acceleration(again, simulated), again)
-    noise = _noise(frequency, density)
+    noise = _noise(frequency, density, again)
     lower = _lower(noise, speed_noise(again.drive["v_x"].values, rate_of(again.time)))
     if not np.any(density[(frequency >= lower) & (frequency <= DRIVER_BANDWIDTH)] > DROWNED * noise):
         return None
@@ -139,8 +142,11 @@ def _density(acceleration: np.ndarray, again) -> tuple[np.ndarray, np.ndarray]:
     return welch(acceleration[kept], rate, nperseg=min(int(kept.sum()), int(WINDOW * rate)))
 
 
-def _noise(frequency: np.ndarray, density: np.ndarray) -> float:
-    return float(np.median(density[(frequency >= NOISE[0]) & (frequency <= NOISE[1])]))
+def _noise(frequency: np.ndarray, density: np.ndarray, again) -> float:
+    """Density of the noise of what is missing in a drive; nan, by which nothing is heard, where its record was filtered below NOISE."""
+    upper = min(NOISE[1], FLAT * float(again.drive.attrs["cut_off"]))
+    inside = (frequency >= NOISE[0]) & (frequency <= upper)
+    return float(np.median(density[inside])) if inside.any() else np.nan
 
 
 def _lower(of_acceleration: float, of_speed: float) -> float:

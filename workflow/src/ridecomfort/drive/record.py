@@ -210,6 +210,10 @@ def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np
 
     One that is held until the next is known, as that of a receiver in a faster table, changes at some samples only.
     """
+    inside = (time >= clock[0]) & (time <= clock[-1])  # beyond, no speed is known
+    if np.count_nonzero(inside) < 2:
+        return
+    before, time, place = int(np.argmax(inside)), time[inside], place[inside]
     driven = np.interp(time, clock, sampling.integral(speed, clock))
     scale = np.polyfit(driven, place, 1)[0] if np.ptp(driven) > JUMP else 1.0  # v_x may be in another unit: alignment says so
     known = np.flatnonzero(np.concatenate([[True], np.diff(place) != 0.0]))
@@ -218,7 +222,7 @@ def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np
     if bad.size:
         i = known[bad[0] + 1]
         raise InputError(
-            f"sample {i + 1} ({time[i]:.6g} s) lies {step[bad[0]]:+.4g} m from the value before it, while v_x drives {expected[bad[0]]:.4g} m "
+            f"sample {before + i + 1} ({time[i]:.6g} s) lies {step[bad[0]]:+.4g} m from the value before it, while v_x drives {expected[bad[0]]:.4g} m "
             f"(expected within {JUMP:g} m of that; cut the record there, or leave s out, which is then integrated from v_x)",
             file=file,
             place="s",

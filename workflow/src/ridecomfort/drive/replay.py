@@ -57,8 +57,8 @@ OF_FOOT = 0.2
 HELPED = 0.5
 """Share of what was missing that the right correction leaves at most."""
 
-OVERHANG = 4.0
-"""m at the ends of the road where one of the axles, or its contact, would leave it."""
+OVERHANG, BEYOND_AXLE = 4.0, 2.0
+"""m at the ends of the road where one of the axles, or its contact, would leave it: beyond the front axle, where that is told, so many."""
 
 SPACING = 0.5
 """m between the points of the path that the simulator is given."""
@@ -362,7 +362,8 @@ def replay(
         "end": end,
         "sensor": tuple(float(drive.attrs[f"sensor_{axis}"]) for axis in "xyz"),
     }
-    compared = (place >= max(start, first + OVERHANG) + RUN_IN) & (place <= last - OVERHANG)
+    ahead = max(OVERHANG, float(drive.attrs.get("cg_to_front_axle", 0.0)) + BEYOND_AXLE)
+    compared = (place >= max(start, first + OVERHANG) + RUN_IN) & (place <= last - ahead)
     if not compared.any():
         raise InputError(
             f"nothing is left of s = {place[0]:.1f} to {place[-1]:.1f} m after a run-in of {RUN_IN:g} m", place=label
@@ -382,7 +383,7 @@ def _continued(u: np.ndarray, place: np.ndarray, speed: np.ndarray, rate: float)
     behind = (speed[-1] - speed[-1 - second]) / (place[-1] - place[-1 - second])
     target = np.interp(u, place, speed)
     target += np.minimum(u - place[0], 0.0) * before + np.maximum(u - place[-1], 0.0) * behind
-    return np.clip(target, 0.8 * speed.min(), 1.2 * speed.max())
+    return np.clip(target, max(0.8 * speed.min(), SLOWEST), 1.2 * speed.max())
 
 
 def slowly(values: np.ndarray, rate: float, quantity: str = "lateral") -> np.ndarray:

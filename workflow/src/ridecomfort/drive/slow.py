@@ -14,7 +14,7 @@ LEAST = 0.4
 """Hz up to which a driver is taken to change speed whatever its noise."""
 
 SPEED_WINDOW, SPEED_NOISE = 10.0, (2.0, 0.1)
-"""s of the spectra of a recorded speed, and from which Hz to which share of its rate it holds nothing of the driver."""
+"""s of the spectra of a recorded speed, and from which Hz to which share of its rate, or to 1 Hz more, it holds nothing of the driver."""
 
 
 def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH, order: int = 2) -> np.ndarray:
@@ -45,7 +45,8 @@ def speed_noise(speed: np.ndarray, rate: float) -> float:
 
 
 def _noise(frequency: np.ndarray, density: np.ndarray, rate: float) -> float:
-    return float(np.median(density[(frequency >= SPEED_NOISE[0]) & (frequency <= SPEED_NOISE[1] * rate)]))
+    highest = max(SPEED_NOISE[1] * rate, SPEED_NOISE[0] + 1.0)
+    return float(np.median(density[(frequency >= SPEED_NOISE[0]) & (frequency <= highest)]))
 
 
 def _spectrum(speed: np.ndarray, rate: float) -> tuple[np.ndarray, np.ndarray]:

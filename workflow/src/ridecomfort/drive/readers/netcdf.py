@@ -51,7 +51,8 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
         if series.dtype.kind not in "fiu":
             raise InputError(f"holds {series.values.ravel()[:1]} for {quantity} (expected numbers)", file=path, place=str(series.name))
         quantities[quantity] = time, entry.get("factor", 1.0) * _scale(quantity, series, entry, path) * series.values
-    attributes = {"gravity": bool(dataset.attrs.get("gravity", 0))}
+    gravity = str(dataset.attrs.get("gravity", 0)).strip().lower()  # NetCDF has no booleans
+    attributes = {"gravity": gravity not in ("0", "0.0", "false", "no", "")}
     for name in ("name", "role", "lateral_position"):
         if name in dataset.attrs:
             attributes[name] = dataset.attrs[name]
