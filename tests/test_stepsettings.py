@@ -55,6 +55,20 @@ def test_the_page_tells_how_its_roads_drives_and_diagnosis_were_made(project):
     assert not {"alignment", "diagnosis"} & set(stepsettings.of_step(study, "tables", model="base"))
 
 
+def test_what_is_told_of_verdicts_on_smaller_models_is_told_anew_when_these_are_others(project, monkeypatch):
+    monkeypatch.chdir(project)
+    study = config.load({"sites": ["ts1"], "effects": ["damper_knee"]}, project)
+    told = lambda: stepsettings.of_step(study, "diagnosed", model=study.model)["told_before"]
+    assert told() == {}
+    seen = []
+    for text in ("{}", '{"verdict": "named"}'):
+        for model in ("base", "damper_knee", "payload"):
+            (project / "results" / "diagnosis" / model).mkdir(parents=True, exist_ok=True)
+            (project / "results" / "diagnosis" / model / "verdict.json").write_text(text)
+        seen.append(told())
+    assert [list(one) for one in seen] == [["base"], ["base"]] and seen[0] != seen[1]
+
+
 def test_another_speed_in_the_study_leaves_the_measured_drives_as_they_are(project):
     before = config.load({"sites": ["ts1"]}, project)
     content = schema.read_yaml(project / config.SITES / "ts1.yaml")

@@ -1,11 +1,13 @@
 """Claims: each rule holds on the paper's own tables, and each verdict can be reached."""
 
 import copy
+from dataclasses import replace
 
 import pytest
 
 from ridecomfort.report import claims, published, tables
 from ridecomfort.report.claims import FAILS, HOLDS, UNKNOWN, Answer, Evidence
+from ridecomfort.report.tables.agreement import pair_title
 
 
 @pytest.fixture
@@ -145,6 +147,20 @@ def test_what_is_closer_to_the_iri_is_decided_by_kappas_where_there_are_some(pap
     found = Evidence(paper.sections, paper.improvement, paper.lowest, paper.calibrated_on, closer)
     answer = claims.combine(claims.agreement(found))
     assert answer.verdict == said and "weighted kappa with the IRI 0.60" in answer.reason
+
+
+def test_kappas_without_an_interval_decide_nothing(paper):
+    nan = float("nan")
+    closer = {"ISO 2631": (0.6, nan, nan), "thresholding": (0.4, nan, nan), "difference": (0.2, nan, nan)}
+    answer = claims.combine(claims.agreement(Evidence(paper.sections, paper.improvement, paper.lowest, paper.calibrated_on, closer)))
+    assert answer.verdict == UNKNOWN and answer.reason.endswith("difference 0.20 (no interval).")
+
+
+def test_a_method_of_one_grade_has_no_kappa_and_classes_are_compared(made):
+    table = made["agreement"]
+    title = pair_title("thresholds - iri")
+    rows = tuple((*row[:2], *[float("nan")] * 3, *row[5:]) if row[0] == title else row for row in table.rows)
+    assert claims.from_tables(made, {}).closer and claims.from_tables({**made, "agreement": replace(table, rows=rows)}, {}).closer == {}
 
 
 def test_kappas_are_those_of_the_table_of_agreement(made, paper_like):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from ridecomfort.discrepancy import findings
@@ -334,6 +335,28 @@ def test_a_site_that_nothing_is_calibrated_on_has_its_first_rung_only():
     assert found.attrs["reference"] == "uncalibrated"
     left = found["left_overall"].sel(site="home", group="held out").values
     assert left[0] == pytest.approx(1.0) and np.isnan(left[1])
+
+
+def test_what_the_100_percent_of_a_site_are_is_said_where_sites_differ_in_it(study):
+    rmse = study.ladder["rmse"].copy()
+    rmse.loc[{"rung": "calibrated", "site": "ts2"}] = np.nan
+    mixed = differing.tables(replace(study, ladder=study.ladder.assign(rmse=rmse)))
+    of_none = differing.tables(replace(study, ladder=study.ladder.assign_attrs(reference="uncalibrated")))
+    for name, start in (("error_ladder", "as a share of what "), ("error_ladder_sections", "in all: than with ")):
+        assert any(f"{start}the calibrated base model (on Ts2 the uncalibrated one)" in note for note in mixed[name].notes)
+        assert any(f"{start}the uncalibrated base model" in note for note in of_none[name].notes)
+
+
+def test_repeats_of_all_drives_count_by_their_sections(study):
+    """1800 sections of which 5 % differ and 60 of which half do are 6.5 % of all, not 27.5 %."""
+    found = study.ladder.sel(site="ts1").copy(deep=True)
+    for group, sections, alike in (("fitted", 1800.0, 0.95), ("held out", 60.0, 0.5)):
+        found["compared"].loc[{"group": group}] = sections
+        found["repeats_agreeing"].loc[{"group": group}] = alike
+    axes = Figure().subplots()
+    ladder._sections(axes, found, ["fitted", "held out"], np.arange(found.sizes["rung"]))
+    level = [line.get_ydata()[0] for line in axes.lines if line.get_linestyle() != "-" and len(line.get_ydata()) == 2]
+    assert level == pytest.approx([100 * (1 - (1800 * 0.95 + 60 * 0.5) / 1860)] * 2)
 
 
 @pytest.mark.parametrize("sites, effects", [(2, 8), (3, 4), (3, 8)])

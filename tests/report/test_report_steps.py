@@ -41,7 +41,7 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     folder, config = written
     tables.main(folder, config, folder / "tables")
     figures.main(folder, config, folder / "figures", "2")
-    looped = {**config, "diagnosed": ["ts1"], "scored": False, "switched_on": [], "held": {}}
+    looped = {**config, "diagnosed": {"ts1": True}, "scored": False, "switched_on": [], "held": {}}
     measured = {**config, "sites": {"ts1": config["sites"]["ts1"]}}
     located.main(folder, measured, folder / "figures")
     compared.main(folder, measured, folder)
@@ -72,6 +72,21 @@ def test_tables_of_sites_that_are_not_in_the_study_go(tmp_path, drives, kept):
         (tmp_path / name).touch()
     results.drop_others(tmp_path, {"home": {"has_drives": drives}})
     assert {file.name for file in tmp_path.iterdir()} == kept
+
+
+def test_a_diagnosis_elsewhere_stays_where_the_vehicle_of_a_site_is_calibrated_there(tmp_path):
+    for name in ("verdict.csv", "standin_score.csv", "evidence.png", "error_ladder.csv"):
+        (tmp_path / name).touch()
+    results.drop_others(tmp_path, {"home": {"has_drives": False, "calibrated_on": "ts1"}})
+    assert {file.name for file in tmp_path.iterdir()} == {"verdict.csv", "standin_score.csv", "evidence.png"}
+
+
+def test_a_diagnosis_may_be_of_a_site_that_is_not_in_the_call(written):
+    """As of the one that the vehicle is calibrated on, when the study is that of another site alone."""
+    folder, config = written
+    alone = {**config, "sites": {"home": config["sites"]["home"]}, "scored": False, "switched_on": [], "held": {}}
+    found = results.diagnosis(folder, {**alone, "diagnosed": {"ts1": True, "home": False}})
+    assert found.sites == ("ts1", "home") and found.standin == ("Ts1",)
 
 
 def test_traces_name_files_that_exist(written):

@@ -26,7 +26,7 @@ STANDIN = Path("config/standin.yaml")
 TAKEN = frozenset(
     "all compare diagnose report blind survey road inspect measured realigned calibrate sample simulate handed_in space thresholds "
     "iso2631 iri comparison agreement maps comfort tables figures diagnosis critical ladder compared diagnosed score logs "
-    "benchmarks bench none located standin_score paper pooled".split()
+    "benchmarks bench recovery none located standin_score paper pooled".split()
 )
 """Names of targets, of rules, of folders in results/ and of what stands beside sites in tables, which no site may have."""
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 
-from .study import Study
+from .study import Study, digest, effects_of
 from .vocabulary import STANDARD_GRAVITY
 
 
@@ -72,8 +73,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
         case "compared":
             return {"model": model, "sites": _shown(study, study.measured)}
         case "diagnosed":
-            loop = {"diagnosed": study.diagnosed, "scored": False, **_switched_on(study)}
-            return {"model": model, "sites": _shown(study, study.diagnosed), **loop}
+            return {"model": model, "diagnosed": _diagnosed(study), "scored": False, **_switched_on(study)}
         case "standin_score":
             known = {"effects": list(study.effects(model)), "effects_folder": chosen["effects_folder"]}
             return {"model": model, "sites": study.diagnosed, **known}
@@ -150,13 +150,21 @@ def _summary(study: Study, site: str) -> dict:
 def _of_page(study: Study) -> dict:
     """What the page says beside what tables and figures do: the loop, and what else its results were made with."""
     sites = {site: {**summary, "road": study.sites[site]["road"]["options"]} for site, summary in summaries(study).items()}
-    loop = {"diagnosed": study.diagnosed if study.forward else [], "scored": study.scored, **_switched_on(study)}
+    loop = {"diagnosed": _diagnosed(study) if study.forward else {}, "scored": study.scored, **_switched_on(study)}
     return {"sites": sites, **{key: study.settings[key] for key in ("alignment", "diagnosis")}, **loop}
 
 
+def _diagnosed(study: Study) -> dict[str, bool]:
+    """The sites that are diagnosed, which may be others than those of the call, and whether each is a stand-in."""
+    return {site: study.sites[site]["standin"] for site in study.diagnosed}
+
+
 def _switched_on(study: Study) -> dict:
-    """The effects of the model in their order, and the sizes that are held of them."""
-    return {"switched_on": study.switched_on, "held": {name: sizes for name, sizes in study.effects().items() if sizes}}
+    """The effects of the model in their order, the sizes that are held of them, and digests of what verdicts on models with fewer of them said."""
+    files = sorted(Path("results/diagnosis").glob("*/verdict.json"))
+    before = {file.parent.name: digest(file) for file in files if set(effects_of(file.parent.name)) < set(study.switched_on)}
+    held = {name: sizes for name, sizes in study.effects().items() if sizes}
+    return {"switched_on": study.switched_on, "held": held, "told_before": before}
 
 
 def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:

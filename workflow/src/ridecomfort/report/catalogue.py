@@ -236,7 +236,9 @@ def of_another_study(name: str, sites: Mapping[str, Mapping]) -> bool:
     measured = with_drives(sites)
     if name.startswith(OF_A_MEASURED_SITE):
         return name.split("_", 1)[1] not in measured
-    if any(name in names for names in (DIFFERENCE_TABLES, DIAGNOSIS_TABLES, SCORE_TABLES, DIFFERENCE_FIGURES, DIAGNOSIS_FIGURES)):
+    if any(name in names for names in (DIAGNOSIS_TABLES, SCORE_TABLES, DIAGNOSIS_FIGURES)):
+        return not (measured or calibrated_on(sites))  # where the vehicle is calibrated elsewhere, that site is diagnosed
+    if any(name in names for names in (DIFFERENCE_TABLES, DIFFERENCE_FIGURES)):
         return not measured
     conditional = (COMPARISON_TABLES, CALIBRATION_TABLES, CLAIMS_TABLES, CALIBRATION_FIGURES, COMPARISON_FIGURES)
     return name.startswith(OF_A_SITE) or any(name in names for names in conditional)

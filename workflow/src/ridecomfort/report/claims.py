@@ -6,6 +6,7 @@ stands beside the one that the paper's own figures give.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
@@ -93,7 +94,8 @@ def _closer(table: Table | None) -> dict[str, tuple[float, float, float]]:
     keys["difference"] = DIFFERENCE
     if sites != {catalogue.label(site) for site in SITES}:
         return {}
-    return {name: rows[title, place_title(POOLED)] for name, title in keys.items()}
+    found = {name: rows[title, place_title(POOLED)] for name, title in keys.items()}
+    return found if all(math.isfinite(kappa) for kappa, *_ in found.values()) else {}  # of one grade alone there is none
 
 
 def from_paper() -> Evidence:
@@ -232,7 +234,7 @@ def _closer_by_kappa(kappas: Mapping[str, tuple[float, float, float]], reason: s
     difference, lower, upper = kappas["difference"]
     verdict = HOLDS if lower > 0 else FAILS if upper < 0 else UNKNOWN
     figures = f"{kappas['ISO 2631'][0]:.2f} of ISO 2631, {kappas['thresholding'][0]:.2f} of thresholding"
-    interval = f"{difference:.2f} ({lower:.2f} to {upper:.2f})"
+    interval = f"{difference:.2f} ({lower:.2f} to {upper:.2f})" if math.isfinite(upper - lower) else f"{difference:.2f} (no interval)"
     return Answer(verdict, f"{reason}; section by section weighted kappa with the IRI {figures}, difference {interval}")
 
 

@@ -73,7 +73,6 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
     files = {"verdict": folder / "verdict.json", "ranking": folder / "ranking.nc", "score": folder / "score.json"}
     if not config["scored"]:
         del files["score"]
-    sites = tuple(config["diagnosed"])
     verdict = json.loads(files["verdict"].read_text(encoding="utf-8"))
     return Diagnosis(
         verdict,
@@ -82,8 +81,8 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
         model=config["model"],
         switched_on=tuple(config["switched_on"]),
         held=config["held"],
-        sites=sites,
-        standin=tuple(label(site) for site in sites if config["sites"][site]["standin"]),
+        sites=tuple(config["diagnosed"]),
+        standin=tuple(label(site) for site, is_standin in config["diagnosed"].items() if is_standin),
         score=json.loads(files["score"].read_text(encoding="utf-8")) if "score" in files else None,
         told_before=_told_before(results, config["switched_on"], verdict),
     )

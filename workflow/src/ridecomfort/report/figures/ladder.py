@@ -148,8 +148,10 @@ def _sections(axes, chosen: xr.Dataset, groups, places: np.ndarray) -> None:
         unlike = 100 * (compared - own["agreeing"].sum("group").values) / np.where(compared > 0, compared, np.nan)
         axes.plot(*_known(places, unlike), **look)
         repeats = own["repeats_agreeing"].values
-        if np.isfinite(repeats).any():
-            axes.axhline(100 * (1 - np.nanmean(repeats)), **_repeats(method))
+        known = np.isfinite(repeats)
+        if known.any():
+            sections = np.nan_to_num(own["compared"].max("rung").values)[known]
+            axes.axhline(100 * (1 - np.average(repeats[known], weights=sections)), **_repeats(method))
     axes.yaxis.grid(True)
 
 

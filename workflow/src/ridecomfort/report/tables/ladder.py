@@ -58,7 +58,7 @@ def error_ladder(study: Difference) -> Table:
     file = study.ladder_file
     sources = (
         Source("RMSE", file, "rmse, floor_rmse", "root of the mean square over the drives"),
-        Source("left", file, "left, left_overall", f"mean square above the floor over that of {study.ladder.attrs['reference']}"),
+        Source("left", file, "left, left_overall", f"mean square above the floor over that of {_reference(study)}"),
         Source("fall", file, "left_overall", "of the row above less this"),
         Source("stretches falling", file, "falling", "in percent"),
         Source("helps", file, "left_overall, fall_p_value", f"p up to {rungs.LEVEL:g}, fall from {100 * rungs.WORTHWHILE:g} % on"),
@@ -125,7 +125,7 @@ def error_ladder_sections(study: Difference) -> Table:
         "Sections of the measured drives and of the model on the same path at the same speed, at the place of the sensor. Critical: "
         "by thresholds, some acceleration leaves the band of at least the mildest driving style in the whole section; by ISO 2631, "
         "the total value lies above the lower edge of the second band in the whole section. Alike: same style or band as measured. "
-        "Changed: other style or band than on the rung before; in all: than with the calibrated base model. Repeats differ among themselves in speed and path, which a replay follows: "
+        f"Changed: other style or band than on the rung before; in all: than with {_reference(study)}. Repeats differ among themselves in speed and path, which a replay follows: "
         "a good model may agree better with a drive than its repeats do.",
         *foot_notes(study.sites),
     )
@@ -133,8 +133,12 @@ def error_ladder_sections(study: Difference) -> Table:
 
 
 def _reference(study: Difference) -> str:
-    reference = study.ladder.attrs["reference"]
-    return {rungs.CALIBRATED: "the calibrated base model", rungs.UNCALIBRATED: "the uncalibrated base model"}[reference]
+    """The model whose error is the 100 %; a site on which nothing is calibrated has another than those beside it."""
+    if study.ladder.attrs["reference"] == rungs.UNCALIBRATED:
+        return "the uncalibrated base model"
+    has_none = ~np.isfinite(study.ladder["rmse"].sel(rung=rungs.CALIBRATED)).any(["group", "signal"])
+    others = ", ".join(catalogue.label(site) for site in study.ladder["site"].values[has_none].tolist())
+    return "the calibrated base model" + (f" (on {others} the uncalibrated one)" if others else "")
 
 
 def _of_reference(study: Difference) -> list[str]:
