@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import judge, refit, select
+from ridecomfort.discrepancy.consistency import birge_ratio
 from ridecomfort.discrepancy.experiment import Size
+from ridecomfort.discrepancy.rung import begin, final_fit
 
 from .linear import Linear
 
@@ -39,6 +42,23 @@ def test_intervals_are_widened_by_what_held_out_drives_disagree_and_the_verdict_
     assert selection.birge_ratio > 2.0 and told > 1.5 * own
     found = judge.judge(selection, model.candidates)
     assert any(f"ask for other sizes by {selection.birge_ratio:.1f} times" in reason for reason in found.reasons)
+
+
+@pytest.mark.parametrize(("own", "off", "least", "most"), [(0.1, 0.0, 0.0, 0.3), (0.0, 0.2, 1.0, 1.0)])
+def test_what_every_drive_has_of_its_own_is_in_the_intervals_already_and_no_disagreement(own, off, least, most):
+    """Of each of four drives' sizes a tenth; and, of the drive held out alone, a fifth in one direction."""
+    ratios, held = [], 0
+    for seed in range(20):
+        model, rng = Linear(seed, {"stiffness": 1.0}, library=0), np.random.default_rng([seed, 1])
+        for index in range(4):
+            astray = own * rng.standard_normal() + (off if index == 3 else 0.0)
+            model.noise[index] = model.noise[index] + astray * model.columns[index]["stiffness"]
+        rung = begin(model, {"stiffness": 0.0})
+        fit, frame = final_fit(rung, model.free)
+        ratios.append(birge_ratio(rung, fit, frame, model.free))
+        lower, upper = refit.intervals(fit, frame, model.free, wider=ratios[-1])["stiffness"]
+        held += lower <= 1.0 <= upper
+    assert least <= np.mean(np.array(ratios) > 1.0) <= most and held >= 17
 
 
 @pytest.mark.parametrize(("wider", "is_said"), [(1.0, False), (60.0, True)])

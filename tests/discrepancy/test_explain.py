@@ -35,6 +35,19 @@ def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_com
     assert found.attrs["floor"] == "from repeats"
 
 
+@pytest.mark.parametrize("loud", [(1.0, 1.0), (0.5, 1.5), (0.5, 1.0, 1.5)])
+def test_noise_is_not_explainable_though_one_repeat_has_more_of_it_than_another(loud):
+    shares = []
+    for seed in range(4):
+        rng, (_, found) = np.random.default_rng(seed), comparison(len(loud))
+        noise = np.stack([size * coloured(rng, 6000) for size in loud])
+        found = explain(found.isel(state=[0]).assign(residual=(("state", "drive", "signal", "time"), noise[None])))
+        floor, above = ((found[name].values ** 2).reshape(-1, found.sizes["drive"], found.sizes["signal"]).mean(axis=(0, 1))
+                        for name in ("floor_rmse", "explainable_rmse"))  # fmt: skip
+        shares.append(np.mean(above / (above + floor)))
+    assert np.mean(shares) < 0.03
+
+
 def test_what_one_of_two_repeats_does_not_record_is_not_the_others_noise():
     """An error of 0.3 that both share, noise of 0.05, both white up to 50 Hz, and an instrument that records up to 20 Hz alone."""
     random = np.random.default_rng(2)

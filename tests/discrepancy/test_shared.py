@@ -60,6 +60,16 @@ def test_of_a_shorter_repeat_that_counts_which_both_have_driven_in_whatever_orde
     assert first == pytest.approx(second, abs=0.02) and bool(first > 0.99) is is_shared
 
 
+def test_an_error_at_the_upper_end_of_what_is_judged_is_seen():
+    """From 0.8 to 33.6 Hz are no whole number of the bands of 2 Hz that are told apart."""
+    rng = np.random.default_rng(0)
+    record = Record("d", "fit", "s", "c", 100.0, (0.8, 33.575), np.arange(6000) * 0.2, 20.0)
+    tone = band(rng.standard_normal((1, 6000)), 100.0, (32.9, 33.5))
+    one, other = (tone + 0.05 * rng.standard_normal((1, 6000)) for _ in range(2))
+    surest = shared._surest(["a_z"], [(record, one, other)])
+    assert surest.lower < 33.0 and surest.upper > 33.5 and surest.z > 5.0
+
+
 @pytest.mark.parametrize("seed", range(20, 26))
 def test_noise_of_every_drive_agrees_in_no_band(seed):
     selection, found = judged(Linear(seed, {}))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import experiment as exp
+from ridecomfort.discrepancy import spectrum
 from ridecomfort.discrepancy.spectrum import cross_spectrum
 
 from .linear import Linear
@@ -48,3 +49,13 @@ def test_an_error_that_grew_weighs_as_in_the_frame_of_before_and_one_that_fell_m
     assert size(alone, 0) == pytest.approx(0.2 * size(first, 0), rel=0.1)
     assert size(limited, 0) == pytest.approx(size(first, 0), rel=0.1)
     assert size(limited, 1) == pytest.approx(5.0 * size(first, 1), rel=0.1)
+
+
+@pytest.mark.parametrize("seconds", [12, 30])
+def test_a_drift_is_slow_whatever_its_ends(seconds):
+    """Noise of 0.1 beside a drift of 6, of which nothing is left from 1.5 Hz on: taken to come round again it made half of the noise as well."""
+    rng = np.random.default_rng(5)
+    noise = 0.1 * rng.standard_normal((1, 100 * seconds))
+    drifting = noise + 6.0 * np.linspace(-0.5, 0.5, noise.size)
+    found, expected = (spectrum._faster(series, 100.0, (1.5,)) for series in (drifting, noise))
+    assert np.mean(found**2) == pytest.approx(np.mean(expected**2), rel=0.02)

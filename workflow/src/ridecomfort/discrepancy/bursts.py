@@ -20,10 +20,12 @@ shifts of gear in one or two hundredths."""
 
 def time_share(series: Sequence[np.ndarray], rate: float) -> np.ndarray:
     """Least share of the time, in MOMENTs, that holds half of the power of series (channel, sample) at ``rate`` Hz, (channel,); nan of one
-    without power."""
+    without power, and of all where none lasts a MOMENT."""
     length = max(int(round(MOMENT * rate)), 1)
     whole = lambda part: part[:, : part.shape[1] // length * length]
     squares = [np.square(whole(part)).reshape(len(part), -1, length).sum(axis=2) for part in series]
+    if not any(part.shape[1] for part in squares):
+        return np.full(len(series[0]), np.nan)
     largest = -np.sort(-np.concatenate(squares, axis=1), axis=1)
     held = np.cumsum(largest, axis=1)
     count = 1 + np.sum(held < 0.5 * held[:, -1:], axis=1)

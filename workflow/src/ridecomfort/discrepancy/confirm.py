@@ -133,7 +133,7 @@ def objection(trial: Trial, candidate: Candidate, is_weak: bool, left: float) ->
         enough = trial.held_out_z > 0 and not trial.held_out_share <= 0 if is_weak else trial.held_out_z > HELD_OUT_Z
         if not (trial.held_out_gain > 0 and enough):
             return "not surely better on drives held out"
-    is_most_of_rest = trial.share > MOST_OF_REST * left or trial.met and trial.rest_gone > OF_SHARED
+    is_most_of_rest = trial.met and (trial.share > MOST_OF_REST * left or trial.rest_gone > OF_SHARED)
     if trial.share < (LEAST_SHARE if trial.met else LEAST_UNMET) and not is_most_of_rest:
         return f"removes {100 * trial.share:.1f} % of the explainable error" + ("" if trial.met else ", and no drive held out meets it")
     return ""

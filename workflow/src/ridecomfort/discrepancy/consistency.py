@@ -38,10 +38,26 @@ def birge_ratio(rung: Rung, fit: Fit, frame: Frame, sizes: Sequence[Size], each:
         return 1.0
     columns = check.flats([raw[size.key] for size in moving])
     normal, score = evidence.product(columns, columns), evidence.product(columns, check.flat(residuals))
-    fitted = refit.covariance(fit, frame, [size.key for size in moving], frame.blocks(), len(moving))[0]
+    fitted, own = _errors(fit, frame, [size.key for size in moving])
+    each_own = np.split(columns, np.flatnonzero(np.diff(check.drives())) + 1, axis=1)
+    alone = sum(one @ own @ one for one in (evidence.product(part, part) for part in each_own))
     unit = np.sqrt(np.maximum(np.diag(normal), np.finfo(float).tiny))
-    variance, vectors = np.linalg.eigh((normal + normal @ fitted @ normal) / np.outer(unit, unit))
+    variance, vectors = np.linalg.eigh((normal + normal @ fitted @ normal + alone) / np.outer(unit, unit))
     kept = variance > NEGLIGIBLE * variance[-1]
     missed = float(np.sum((vectors.T[kept] @ (score / unit)) ** 2 / variance[kept]))
     count = int(kept.sum())
     return float(np.sqrt(missed / count)) if count and chi2.sf(missed, count) < SELDOM else 1.0
+
+
+def _errors(fit: Fit, frame: Frame, keys: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
+    """Covariance of the fitted sizes in probes, and that of what one drive has of its own to say of them (its path, clock and mounting), which
+    ``refit.intervals`` hold as well; nil where one drive was fitted."""
+    place, drive = frame.blocks(), frame.drives()
+    fitted = refit.covariance(fit, frame, keys, place, len(keys))[0]
+    along, drives = refit.covariance(fit, frame, keys, drive, 1)
+    if drives < 2:
+        return fitted, np.zeros_like(fitted)
+    both = refit.covariance(fit, frame, keys, place * (drive.max() + 1) + drive, 1)[0]
+    values, vectors = np.linalg.eigh(along - both)
+    of_drives = (vectors * np.maximum(values, 0.0)) @ vectors.T
+    return fitted + of_drives, drives * of_drives

@@ -69,10 +69,12 @@ class Passage(NamedTuple):
 
 @dataclass(frozen=True)
 class OwnNoise:
-    """What a repeat has of its own, of what is judged: ``noise`` (signal, sample) in the units of the signals, ``place`` in m."""
+    """What a repeat has of its own, of what is judged: ``noise`` (signal, sample) in the units of the signals, ``place`` in m; and ``square``
+    (signal,), the mean square of all of its error there."""
 
     place: np.ndarray
     noise: np.ndarray
+    square: np.ndarray
 
 
 def explain(
@@ -92,8 +94,13 @@ def explain(
     """
     floors = np.full((comparison.sizes["state"], comparison.sizes["drive"], comparison.sizes["signal"]), np.nan)
     for state, name in enumerate(comparison["state"].values):
-        for drive, own in own_noise(comparison, name).items():
-            floors[state, drive] = np.mean(own.noise**2, axis=1)
+        own = own_noise(comparison, name)
+        for group in repeats(comparison):
+            # Noise of a quiet and of a loud repeat is known as their mean; what they share is the same for both, and the rest of either its own.
+            squares = np.stack([own[drive].square for drive in group])
+            noise = np.mean([np.mean(own[drive].noise ** 2, axis=1) for drive in group], axis=0)
+            common = np.maximum(squares.mean(axis=0) - noise, 0.0)
+            floors[state, group] = np.maximum(squares - common, 0.0)
     square, by_stretch, starts = _squares(comparison)
     if np.isfinite(floors).any():
         floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
@@ -132,9 +139,9 @@ def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
             records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
             residuals.append(band(judged(residual[:, kept], rate, signals), rate, (0.0, upper)))
         start, end = max(record.place[0] for record in records), min(record.place[-1] for record in records)
-        for drive, record, part in zip(group, records, deviations(records, residuals)):
+        for drive, record, residual, part in zip(group, records, residuals, deviations(records, residuals)):
             inside = (record.place >= start) & (record.place <= end)
-            found[drive] = OwnNoise(record.place[inside], part)
+            found[drive] = OwnNoise(record.place[inside], part, np.mean(residual[:, inside] ** 2, axis=1))
     return found
 
 

@@ -105,7 +105,8 @@ def _left_by(selection: Selection, measured: Mapping[int, np.ndarray], numbers: 
     """Share of the ``measured`` power of every signal that each of the models of these numbers leaves above the floor, of what is judged."""
     frame = selection.frame
     power = floor.squares(frame.experiment, measured).mean(axis=0)
-    left = (np.maximum(selection.states[number].squares - selection.floor_squares, 0.0).mean(axis=0) for number in numbers)
+    floor_power = selection.floor_squares.mean(axis=0)
+    left = (np.maximum(selection.states[number].squares.mean(axis=0) - floor_power, 0.0) for number in numbers)
     shares_left = (own / np.where(power > 0, power, np.inf) for own in left)
     return [dict(zip(frame.experiment.channels, own.tolist())) for own in shares_left]
 

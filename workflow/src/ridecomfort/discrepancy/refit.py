@@ -224,7 +224,7 @@ def intervals(fit: Fit, frame: Frame, sizes: Sequence[Size], held: bool = False,
     A size of an effect that ended at a bound is held there for the intervals of the others. A parameter of the vehicle at its bound stays
     free: something else may have driven it there, so that its whole range counts as possible. ``held``: it is held, too, which suits
     the question whether a size is there at all. ``wider``: times by which errors are larger than these drives show. A size that changes
-    nothing on them may be anything within its bounds.
+    nothing on them may be anything within its bounds, as any may where there is one block only: nothing tells by how much another would differ.
     """
     free = {size.key for size in frame.experiment.free}
     moving = [size for size in sizes if (size.key in free and not held) or is_within(size, fit.values)]
@@ -255,7 +255,7 @@ def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size], wider: float) -> d
             freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(keys), 1) + parts[1] ** 2 / max(drives - 1, 1))
         half = wider * student.ppf(0.5 + CONFIDENCE / 2, freedom) * np.sqrt(sum(parts)) * abs(size.probe)
         value, is_met = fit.values[size.key], np.any(fit.columns[fit.keys.index(size.key)])
-        found[size.key] = (value - half, value + half) if is_met else (size.lower, size.upper)
+        found[size.key] = (value - half, value + half) if is_met and places > 1 else (size.lower, size.upper)
     return found
 
 

@@ -274,6 +274,10 @@ def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tu
     known = floor.floor(experiment, {**cleaned, **held_out})
     told = [floor.assumed(record) for record in experiment.records if record.noise] or [np.zeros(1)]
     assumed = lambda record: floor.assumed(record) if record.noise else np.mean(told, axis=0)
+    reached: dict[str, list[np.ndarray]] = {}
+    for parts in (cleaned, held_out):
+        for index, row in zip(sorted(parts), floor.squares(experiment, parts) if parts else ()):
+            reached.setdefault(experiment.records[index].condition, []).append(row)
     floors = []
     for indices in roles(experiment):
         rows = np.zeros((len(indices), len(experiment.channels)))
@@ -281,9 +285,8 @@ def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tu
             record = experiment.records[index]
             found = [known[record.condition]] if record.condition in known else list(known.values())
             row[:] = np.mean([one.power(record.band, record.rate) for one in found], axis=0) if found else assumed(record)
+            # No floor lies above what a model has reached, in the mean over a condition: drive by drive, a quiet one would lower it for all.
+            if record.condition in reached:
+                row[:] = np.minimum(row, np.mean(reached[record.condition], axis=0))
         floors.append(rows)
-    # No floor lies above what a model has reached.
-    floor_squares, held_out_floor_squares = np.minimum(floors[0], floor.squares(experiment, cleaned)), floors[1]
-    if check:
-        held_out_floor_squares = np.minimum(held_out_floor_squares, floor.squares(experiment, held_out))
-    return bool(known), floor_squares, held_out_floor_squares
+    return bool(known), *floors

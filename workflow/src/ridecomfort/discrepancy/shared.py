@@ -216,6 +216,7 @@ def _bands(channels, pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Edges of the bands, and over (channel, band) the sum of products of the spectra of repeats and its variance by chance."""
     lower, upper = min(record.band[0] for record, *_ in pairs), max(record.band[1] for record, *_ in pairs)
     edges = np.arange(lower, upper + 0.5 * WIDTH, WIDTH)
+    edges[-1] = max(edges[-1], np.nextafter(upper, np.inf))  # the last one reaches up to the end of what is judged
     agreement, variance = np.zeros((2, len(channels), len(edges) + 1))
     for record, one, other in pairs:
         fading = _fading(one)

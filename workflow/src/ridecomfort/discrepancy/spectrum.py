@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numba import njit
-from scipy.fft import irfft, next_fast_len, rfft
+from scipy.fft import dct, idct, irfft, next_fast_len, rfft
 from scipy.ndimage import uniform_filter1d
 
 SEGMENT = 4.0
@@ -116,12 +116,13 @@ def cross_spectrum(
 
 
 def _faster(series: np.ndarray, rate: float, lowest: tuple[float, ...]) -> np.ndarray:
-    """Series (channel, sample) without what is slower than ``lowest`` (Hz, by channel)."""
+    """Series (channel, sample) without what is slower than ``lowest`` (Hz, by channel). At its ends a series is mirrored: one that ends slower
+    than it begins would jump there, if it were taken to come round again."""
     if not lowest:
         return series
-    frequency = np.fft.rfftfreq(series.shape[1], 1.0 / rate)
+    frequency = 0.5 * rate * np.arange(series.shape[1]) / series.shape[1]
     kept = frequency >= np.array(lowest)[:, None]
-    return np.fft.irfft(np.where(kept, np.fft.rfft(series, axis=1), 0.0), series.shape[1], axis=1)
+    return idct(np.where(kept, dct(series, axis=1), 0.0), axis=1)
 
 
 @dataclass(frozen=True)

@@ -205,9 +205,11 @@ def _strength(records: Sequence[Record], white: Sequence[np.ndarray], unit: str)
     often, bins = _spectra(records, white, unit)
     if not often.size:
         return often, np.empty((len(white[0]), 0)), np.empty((len(white[0]), 0))
-    power = np.mean([np.abs(own) ** 2 for own in bins], axis=0)
-    around = median_filter(power, size=(1, AROUND), mode="nearest") / np.log(2.0)
-    return often, power / np.where(around > 0, around, np.inf), _common(bins, power)
+    power, count = np.mean([np.abs(own) ** 2 for own in bins], axis=0), len(bins)
+    common = _common(bins, power)
+    free = count / (1.0 + (count - 1) * common**2)  # exponentials whose mean varies as much
+    around = median_filter(power, size=(1, AROUND), mode="nearest") * free / gamma.median(free)
+    return often, power / np.where(around > 0, around, np.inf), common
 
 
 def _spectra(records: Sequence[Record], white: Sequence[np.ndarray], unit: str) -> tuple[np.ndarray, list[np.ndarray]]:
