@@ -63,6 +63,14 @@ def test_a_run_in_must_let_the_running_rms_settle(files, averaging, enough, too_
         spaced(files, "both", averaging=averaging, time_constant=too_long)
 
 
+def test_a_drive_that_never_comes_out_of_the_run_in_is_said_to_have_stopped(files):
+    drives = store.read(files / "both.nc").load()
+    drives["s"][0] = np.minimum(drives["s"][0], 40.0)
+    store.write(drives, files / "stopped.nc", title="drives")
+    with pytest.raises(InputError, match="covers 0.0 to 40.0 m, expected 50.0 to"):
+        spaced(files, "stopped")
+
+
 def test_a_run_is_the_same_in_whatever_shard(files):
     both, one = (spaced(files, name).drop_attrs() for name in ("both", "one"))
     assert both.sel(run=[4]).identical(one)

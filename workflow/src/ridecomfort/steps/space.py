@@ -54,7 +54,7 @@ def _check_run_in(runs, start, weighting, file) -> None:
     """Raise InputError where a drive comes to the ``start`` (m) of what is evaluated before its running rms is known."""
     needed = SETTLED[weighting["averaging"]] * weighting["time_constant"]
     time, s = runs["time"].values, runs["s"].transpose("run", "time").values
-    driven = float(min(time[np.argmax(each >= start)] - time[0] for each in s))
+    driven = min((float(time[np.argmax(each >= start)] - time[0]) for each in s if (each >= start).any()), default=needed)
     if driven < needed:
         raise InputError(
             f"a run-in is driven in {driven:.3g} s, expected {needed:g} s or more, after which the running rms is known "
