@@ -133,6 +133,7 @@ STUDY_MISTAKES = [
     ({"effects": [None]}, "effects: entry 1: None, expected a name, or {name: {parameter: number}}"),
     ({"effects": [{3: {"knee": 0.1}}]}, "effects: entry 1: {3: {'knee': 0.1}}, expected a name, or {name: {parameter: number}}"),
     ({"effects": [{"damper_knee": {"knee": "1e-1"}}]}, "effects: entry 1: damper_knee: knee: '1e-1', expected a number; YAML reads this as text, write 0.1"),
+    ({"calibration": {"tolerance": "1e-20"}}, "tolerance: '1e-20', expected a number; YAML reads this as text, write 1.0e-20"),
     ({"effects": [{"damper_knee": {"knee": "0.1"}}]}, "knee: '0.1', expected a number; YAML reads this as text, write 0.1"),
     ({"effects": [{"damper_knee": {"knee": "0.1", "share": "small"}}]}, "'share': 'small'}}, expected a name, or {name: {parameter: number}}"),
     ({"comfort": {"jerk": {5: [-2.9, 2.9]}}}, "comfort: jerk: 5, expected text (a name of letters, digits and underscores)"),
