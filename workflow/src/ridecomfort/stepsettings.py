@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from .study import Study, digest, effects_of
+from .study import Study, digest, verdicts_on_less
 from .vocabulary import STANDARD_GRAVITY
 
 
@@ -161,8 +161,7 @@ def _diagnosed(study: Study) -> dict[str, bool]:
 
 def _switched_on(study: Study) -> dict:
     """The effects of the model in their order, the sizes that are held of them, and digests of what verdicts on models with fewer of them said."""
-    files = sorted(Path("results/diagnosis").glob("*/verdict.json"))
-    before = {file.parent.name: digest(file) for file in files if set(effects_of(file.parent.name)) < set(study.switched_on)}
+    before = {file.parent.name: digest(file) for file in verdicts_on_less(Path("results"), study.switched_on)}
     held = {name: sizes for name, sizes in study.effects().items() if sizes}
     return {"switched_on": study.switched_on, "held": held, "told_before": before}
 

@@ -227,6 +227,12 @@ def effect_files(folder: Path | None = None) -> dict[str, Path]:
     return {path.stem: path for path in sorted(files)}
 
 
+def verdicts_on_less(results: Path, effects: Iterable[str]) -> list[Path]:
+    """Files of the verdicts there are below ``results`` on models with fewer of these effects and no other, those on the fewest first."""
+    files = [file for file in results.glob("diagnosis/*/verdict.json") if set(effects_of(file.parent.name)) < set(effects)]
+    return sorted(files, key=lambda file: (len(effects_of(file.parent.name)), file))
+
+
 def digest(*files) -> str:
     """Twelve hexadecimal digits that change when what any of these files holds does."""
     return hashlib.sha256(b"".join(hashlib.sha256(Path(file).read_bytes()).digest() for file in files)).hexdigest()[:12]

@@ -10,6 +10,10 @@ from ..errors import InputError
 from . import signals
 
 
+SETTLED = {"linear": 1.0, "exponential": 3.0}
+"""Time constants from the beginning of a record until a running rms knows enough of what came before: all of it, or 95 % of its power."""
+
+
 def running_rms(weighted, rate: float, time_constant: float = 1.0, method: str = "linear"):
     """Running rms in m/s2 of a weighted signal, of its shape; NaN padding at the end stays.
 

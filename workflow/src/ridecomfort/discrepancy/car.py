@@ -17,7 +17,7 @@ from ..drive.steered import Steered
 from ..effects import library
 from ..effects.contract import COMPILED
 from ..vocabulary import SIGNALS
-from . import nuisances
+from . import floor, nuisances
 from .experiment import Candidate, Record, Size, by_record
 
 LONGEST = 0.002
@@ -140,8 +140,7 @@ class Car:
         0.05 percent of the power of a_y is enough to pass for tyres that envelop 6 cm.
         """
 
-        conditions = [record.condition for record in self.records]
-        is_repeated = len(set(conditions)) < len(conditions)
+        is_repeated = bool(floor.repeats(self, range(len(self.records))))
 
         def driven(index: int) -> tuple[Replay, Simulated, np.ndarray, np.ndarray | float]:
             again = replace(self.replays[index], kept_to={})

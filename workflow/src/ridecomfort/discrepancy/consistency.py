@@ -52,12 +52,7 @@ def birge_ratio(rung: Rung, fit: Fit, frame: Frame, sizes: Sequence[Size], each:
 def _errors(fit: Fit, frame: Frame, keys: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
     """Covariance of the fitted sizes in probes, and that of what one drive has of its own to say of them (its path, clock and mounting), which
     ``refit.intervals`` hold as well; nil where one drive was fitted."""
-    place, drive = frame.blocks(), frame.drives()
-    fitted = refit.covariance(fit, frame, keys, place, len(keys))[0]
-    along, drives = refit.covariance(fit, frame, keys, drive, 1)
-    if drives < 2:
-        return fitted, np.zeros_like(fitted)
-    both = refit.covariance(fit, frame, keys, place * (drive.max() + 1) + drive, 1)[0]
-    values, vectors = np.linalg.eigh(along - both)
+    (fitted, _), (along, drives) = refit.both_ways(fit, frame, keys)
+    values, vectors = np.linalg.eigh(along)
     of_drives = (vectors * np.maximum(values, 0.0)) @ vectors.T
     return fitted + of_drives, drives * of_drives

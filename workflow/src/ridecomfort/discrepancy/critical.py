@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from ..comfort import bands, iso2631, sections
+from ..comfort import bands, iso2631, quantities, sections
 from ..comfort import limits as acceptable
 from ..comfort.seat import Seat
 from ..drive.sampling import rate_of, resampled
@@ -15,8 +15,6 @@ from . import explain
 
 METHODS = ("thresholds", "iso2631")
 ACCELERATIONS = ("a_x", "a_y", "a_z")
-SETTLED = {"linear": 1.0, "exponential": 3.0}
-"""Time constants from the beginning of a drive until a running rms knows enough of what came before: all of it, or 95 % of its power."""
 
 NOT_DRIVEN = -1
 """Grade of a section that a drive does not cover."""
@@ -80,7 +78,7 @@ def critical(
 def _settled(row: xr.Dataset, settings: Mapping) -> float:
     """Place (m) from which on the running rms of a drive is known."""
     time = row["time"].values
-    seconds = SETTLED[settings.get("averaging", "linear")] * settings.get("time_constant", 1.0)
+    seconds = quantities.SETTLED[settings.get("averaging", "linear")] * settings.get("time_constant", 1.0)
     return float(np.interp(time[0] + seconds, time, row["s"].values))
 
 

@@ -93,9 +93,10 @@ def explain(
     function returned there, if drives were repeated on it; else nil. Attribute ``floor`` says which.
     """
     floors = np.full((comparison.sizes["state"], comparison.sizes["drive"], comparison.sizes["signal"]), np.nan)
+    groups = repeats(comparison)
     for state, name in enumerate(comparison["state"].values):
         own = own_noise(comparison, name)
-        for group in repeats(comparison):
+        for group in groups:
             # Noise of a quiet and of a loud repeat is known as their mean; what they share is the same for both, and the rest of either its own.
             squares = np.stack([own[drive].square for drive in group])
             noise = np.mean([np.mean(own[drive].noise ** 2, axis=1) for drive in group], axis=0)

@@ -200,6 +200,19 @@ def covariance(
     return clustered(bread, columns, frame.flat(fit.residuals), groups, lost, known)
 
 
+def both_ways(
+    fit: Fit, frame: Frame, keys: Sequence[str], known: np.ndarray | float = 0.0
+) -> tuple[tuple[np.ndarray, int], tuple[np.ndarray, int]]:
+    """``covariance`` over places, and what depends along drives adds to it, each with its number of groups; nil where one drive was fitted. Together
+    they are clustered both ways (Cameron, Gelbach and Miller 2011, eq. 2.8)."""
+    place, drive = frame.blocks(), frame.drives()
+    over_places = covariance(fit, frame, keys, place, len(keys), known)
+    along, drives = covariance(fit, frame, keys, drive, 1, known)
+    if drives < 2:
+        return over_places, (np.zeros_like(along), drives)
+    return over_places, (along - covariance(fit, frame, keys, place * (drive.max() + 1) + drive, 1, known)[0], drives)
+
+
 def clustered(
     bread: np.ndarray, rows: np.ndarray, residual: np.ndarray, groups: np.ndarray, lost: int, known: np.ndarray
 ) -> tuple[np.ndarray, int]:
@@ -242,14 +255,11 @@ def is_within(size: Size, values: Mapping[str, float]) -> bool:
 
 
 def _intervals(fit: Fit, frame: Frame, sizes: Sequence[Size], wider: float) -> dict[str, tuple[float, float]]:
-    keys, known = [size.key for size in sizes], precision(frame, sizes)
-    place, drive = frame.blocks(), frame.drives()
-    own, places = covariance(fit, frame, keys, place, len(keys), known)
-    along, drives = covariance(fit, frame, keys, drive, 1, known)
-    both = covariance(fit, frame, keys, place * (drive.max() + 1) + drive, 1, known)[0]
+    keys = [size.key for size in sizes]
+    (own, places), (along, drives) = both_ways(fit, frame, keys, precision(frame, sizes))
     found = {}
     for k, size in enumerate(sizes):
-        parts = own[k, k], max(along[k, k] - both[k, k], 0.0) if drives > 1 else 0.0
+        parts = own[k, k], max(along[k, k], 0.0)
         freedom = 1.0
         if sum(parts) > 0:
             freedom = sum(parts) ** 2 / (parts[0] ** 2 / max(places - len(keys), 1) + parts[1] ** 2 / max(drives - 1, 1))

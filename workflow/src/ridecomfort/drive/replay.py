@@ -58,7 +58,8 @@ HELPED = 0.5
 """Share of what was missing that the right correction leaves at most."""
 
 OVERHANG, BEYOND_AXLE = 4.0, 2.0
-"""m at the ends of the road where one of the axles, or its contact, would leave it: beyond the front axle, where that is told, so many."""
+"""m at the ends of the road where one of the axles, or its contact, would leave it: beyond the front axle, where that is told, as many
+as ``simulate.OVERHANG``."""
 
 SPACING = 0.5
 """m between the points of the path that the simulator is given."""

@@ -10,7 +10,7 @@ from pathlib import Path
 from .. import store
 from ..report.catalogue import calibrated_on, label, of_another_study, with_drives
 from ..report.study import Compared, Diagnosis, Difference, Site, Study
-from ..study import aligned_file, effects_of
+from ..study import aligned_file, verdicts_on_less
 from .models import FOLLOWED
 
 
@@ -93,11 +93,10 @@ def _told_before(results: Path, switched_on: Sequence[str], verdict: Mapping) ->
     each with the ``model``; of several the one on the most effects."""
     found: dict[str, dict] = {}
     fitted = lambda said: said["digests"][said["sites"][0]] if "digests" in said else None
-    for file in sorted(results.glob("diagnosis/*/verdict.json"), key=lambda file: (len(effects_of(file.parent.name)), file)):
-        model = file.parent.name
-        said = json.loads(file.read_text(encoding="utf-8")) if set(effects_of(model)) < set(switched_on) else {}
-        if said.get("verdict") in FOLLOWED and fitted(said) == fitted(verdict):
-            found |= {effect["name"]: {**effect, "model": model} for effect in said["effects"] if effect["name"] in switched_on}
+    for file in verdicts_on_less(results, switched_on):
+        said = json.loads(file.read_text(encoding="utf-8"))
+        if said["verdict"] in FOLLOWED and fitted(said) == fitted(verdict):
+            found |= {effect["name"]: {**effect, "model": file.parent.name} for effect in said["effects"] if effect["name"] in switched_on}
     return found
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ridecomfort import store
-from ridecomfort.comfort import iso2631
+from ridecomfort.comfort import iso2631, quantities
 from ridecomfort.comfort.doses import Doses
 from ridecomfort.comfort.seat import Seat
 from ridecomfort.errors import InputError
@@ -12,9 +12,6 @@ from ridecomfort.steps.command import Command
 
 VARIABLES = ("v_x", "a_x", "a_y", "a_z", "a_v")
 KEPT_BITS = 10
-
-SETTLED = {"linear": 1.0, "exponential": 2.3}
-"""Time constants after which a running rms of steady vibration is known to 5 %."""
 
 
 def main(drives, road, config, output):
@@ -52,7 +49,7 @@ def main(drives, road, config, output):
 
 def _check_run_in(runs, start, weighting, file) -> None:
     """Raise InputError where a drive comes to the ``start`` (m) of what is evaluated before its running rms is known."""
-    needed = SETTLED[weighting["averaging"]] * weighting["time_constant"]
+    needed = quantities.SETTLED[weighting["averaging"]] * weighting["time_constant"]
     time, s = runs["time"].values, runs["s"].transpose("run", "time").values
     driven = min((float(time[np.argmax(each >= start)] - time[0]) for each in s if (each >= start).any()), default=needed)
     if driven < needed:
