@@ -152,10 +152,29 @@ def test_a_plane_is_filled_exactly():
 
 
 def test_long_holes_are_not_made_up(road):
-    torn = road.elevation.values.copy()
-    torn[100:115, 5] = np.nan
-    with pytest.raises(InputError, match="1.5 m long"):
-        clean.fill(torn, (0.1, 0.1))
+    torn = road.copy(deep=True)
+    torn.elevation[100:115, 5] = np.nan
+    with pytest.raises(InputError, match=r"road.holes: holes over 1.5 m to u = 11.4 m, v = -1.5 m; at most 1 m are filled"):
+        clean.clean(torn, holes="fill")
+
+
+def test_long_runs_of_outliers_are_called_so(road, monkeypatch):
+    wild = np.zeros(road.elevation.shape, dtype=bool)
+    wild[100:112, 20] = True
+    monkeypatch.setattr(clean, "find_outliers", lambda *_: wild)
+    with pytest.raises(InputError, match=r"road.outliers: outliers over 1.2 m to u = 11.1 m, v = 0 m"):
+        clean.clean(road, outliers="repair")
+
+
+@pytest.mark.parametrize("choice", ["report", "repair"])
+def test_a_grid_too_coarse_to_be_tested_for_outliers_is_said_to_be(road, choice):
+    wide = road.isel(u=slice(None, None, 10)).copy(deep=True)
+    assert "no holes; cells of 1 m x 0.1 m are too coarse" in clean.clean(wide, outliers=choice)[0].treatment
+    wide.elevation[20, 7] = np.nan
+    assert "1 cells of holes filled" in (said := clean.clean(wide, outliers=choice, holes="fill")[0].treatment)
+    assert "cells of 1 m x 0.1 m are too coarse to be tested for outliers" in said
+    with pytest.raises(InputError, match="road.outliers: cells of 1 m x 0.1 m are too coarse"):
+        clean.clean(wide, outliers="refuse")
 
 
 def test_unknown_choices_are_named(road):

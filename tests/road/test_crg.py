@@ -8,6 +8,7 @@ import numpy as np
 import pycrg
 import pytest
 
+from ridecomfort.comfort import iriclass
 from ridecomfort.errors import InputError
 from ridecomfort.road import crg, surface
 
@@ -253,6 +254,25 @@ def test_edges_without_heights_stay_empty_and_kernels_get_the_nearest_height(sha
     assert np.isfinite(elevation).all() and elevation.flags.c_contiguous
     assert (u0, du, v0, dv) == pytest.approx((730.0, 0.01, -1.7, 0.01))
     assert "outside the edges" in road.treatment
+
+
+def test_any_number_of_equidistant_long_sections_is_an_equidistant_grid(tmp_path):
+    v = np.linspace(-3, 3, 1201)
+    road = crg.read(small(tmp_path / "road.crg", z=np.zeros((30, v.size)), v=v))
+    np.testing.assert_allclose(road.v, v)
+    assert "resampled" not in road.treatment
+
+
+def test_smoothing_zones_are_those_of_asams_library_in_what_a_vehicle_drives_on_and_the_iri_sees(tmp_path):
+    z = 5.0 + np.random.default_rng(3).normal(0, 0.01, (301, 5))
+    path = small(tmp_path / "road.crg", z=z, du=1.0, opts={"border_smooth_ubeg": 100.0, "border_smooth_uend": 50.0})
+    road = crg.read(path)
+    elevation, *_ = surface.grid(road)
+    with pycrg.RoadSurface.open(path) as asam:
+        expected = asam.uv_to_z_many(road.u.values[:, None], road.v.values)
+    assert float(expected[10, 2]) == pytest.approx(0.5, abs=0.01) and float(expected[150, 2]) == pytest.approx(5.0, abs=0.05)
+    np.testing.assert_allclose(elevation, expected, atol=1e-9)
+    np.testing.assert_allclose(iriclass.tracks(road, [-1.0, 0.5]), [expected[:, 1], 0.5 * (expected[:, 2] + expected[:, 3])], atol=1e-9)
 
 
 def test_long_sections_at_uneven_positions_become_an_equidistant_grid(tmp_path):

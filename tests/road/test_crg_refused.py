@@ -113,7 +113,21 @@ REFUSALS = {
         "handmade_banked", lambda text: text.replace("line banking", "line camber"), "decodeDefined: unknown definition",
     ),
     "no OpenCRG at all": ("handmade_straight", lambda text: "nothing of the kind\n", "not an OpenCRG file"),
-    "an unknown format": ("handmade_straight", lambda text: text.replace("#:LRFI", "#:XRFI"), "road.crg"),
+    "an unknown format": ("handmade_straight", lambda text: text.replace("#:LRFI", "#:XRFI"), "$KD_DEFINITION: 'XRFI', expected LRFI"),
+    "a height with the exponent of Fortran": (
+        "handmade_straight", lambda text: "   2.0D-02".join(text.rsplit(" 0.0000000", 1)),
+        "data line 23: '2.0D-02' in columns 61 to 70, expected a number",
+    ),
+    "a height that is infinite": (
+        "handmade_straight", lambda text: "       inf".join(text.rsplit(" 0.0000000", 1)), "data line 23: 'inf' in columns 61 to 70",
+    ),
+    "a parameter with the exponent of Fortran": (
+        "handmade_straight", lambda text: text.replace("END_U     = 22.0", "END_U     = 2.2D+01"),
+        "reference_line_end_u: '2.2D+01', expected a number",
+    ),
+    "a parameter of two numbers": (
+        "handmade_straight", lambda text: text.replace("END_U     = 22.0", "END_U     = 22 0"), "reference_line_end_u: '22 0', expected",
+    ),
 }  # fmt: skip
 
 
@@ -134,7 +148,7 @@ def test_binary_files_that_were_cut_off_or_grew_are_refused(tmp_path):
     whole = path.read_bytes()
     for damaged in (whole[:-160], whole[: len(whole) * 3 // 4], whole + bytes(400)):
         path.write_bytes(damaged)
-        with pytest.raises(InputError, match="road.crg"):
+        with pytest.raises(InputError, match="bytes, expected 600 for 30 cross sections|does not contain enough records"):
             crg.read(path)
 
 
@@ -212,6 +226,48 @@ def test_a_single_wild_height_can_be_blanked_by_name(tmp_path, height):
     assert int(road.elevation.isnull().sum()) == 1
     with pytest.raises(InputError, match="road: no height at u = 1.2 m, v = 0 m, expected a road without holes inside its edges"):
         surface.grid(road)
+
+
+def of_300_m(**changes):
+    """Heights of a road of 300 m that climbs 7 %, and how it is written."""
+    z = np.random.default_rng(2).normal(0, 0.01, (301, 9))
+    return z, {"du": 1.0, "v": np.linspace(-2, 2, 9), "slope": 0.07, "z0": 300.0} | changes
+
+
+@pytest.mark.parametrize("columns", [slice(None), slice(4, None)])
+@pytest.mark.parametrize("rows", [slice(10, 11), slice(10, 60), slice(0, 40), slice(300, None)])
+@pytest.mark.parametrize("height", [-9999.0, 0.0])
+def test_whole_cross_sections_out_of_reason_are_refused_where_they_begin(tmp_path, height, rows, columns):
+    """Most of a cross section, or all of it: its own median is out of reason too."""
+    z, options = of_300_m()
+    wrong = np.zeros(z.shape, dtype=bool)
+    wrong[rows, columns] = True
+    z = np.where(wrong, height - 300.0 - 0.07 * np.arange(301.0)[:, None], z)
+    path = small(tmp_path / "road.crg", z=z, **options)
+    i, j = np.argwhere(wrong)[0]
+    with pytest.raises(InputError, match=rf"u = {i} m, v = {-2 + 0.5 * j:g} m: {wrong.sum()} heights out of reason, the first -?[\d.e+-]+ m, expected within"):
+        crg.read(path)
+    road = crg.read(path, heights="blank", holes="keep")
+    assert float(road.elevation.min()) > 299.0 and int(road.elevation.notnull().sum()) == (~wrong).sum()
+
+
+def test_a_climb_over_a_cliff_of_less_than_10_m_is_a_road(tmp_path):
+    z, options = of_300_m()
+    z[150:] += 9.0
+    assert np.ptp(crg.read(small(tmp_path / "road.crg", z=z, **options)).elevation.values) > 29.0
+
+
+def test_ends_without_any_height_are_refused_or_cut_off(tmp_path):
+    z, options = of_300_m()
+    z[:50], z[280:] = 77.0, 77.0
+    path = small(tmp_path / "road.crg", z=z, **options)
+    path.write_bytes(path.read_bytes().replace(np.array(77.0, ">f4").tobytes(), np.array(np.nan, ">f4").tobytes()))
+    with pytest.raises(InputError, match="u = 0 m, .*71 empty cross sections"):
+        crg.read(path)
+    road = crg.read(path, holes="keep")
+    assert (road.u[0], road.u[-1], road.sizes["u"]) == (50.0, 279.0, 230)
+    assert "heights from u = 50 to 279 m only, of 0 to 300 m: cut there" in road.treatment
+    np.testing.assert_allclose(road.elevation, 300.0 + 0.07 * road.u.values[:, None] + z[50:280], atol=1e-4)
 
 
 @pytest.mark.parametrize("mode", [0, 1, 2])

@@ -117,6 +117,16 @@ def test_a_trajectory_without_time_is_refused(tmp_path):
         recording.trajectory(tmp_path / "t.nc")
 
 
+def test_profiles_whose_clock_cannot_be_read_are_refused_in_one_line(tmp_path):
+    recorded = {"height": (("profile", "point"), np.zeros((3, 4))), "across": ("point", np.arange(4.0))}
+    time = ("profile", np.arange(3.0), {"units": "seconds since start"})
+    xr.Dataset({**recorded, "time": time}).to_netcdf(tmp_path / "p.nc")
+    with pytest.raises(InputError, match="p.nc: not a readable NetCDF file .*seconds since start") as refusal:
+        with recording.profiles(tmp_path / "p.nc"):
+            pass
+    assert "\n" not in str(refusal.value)
+
+
 def test_profiles_with_other_dimensions_are_refused(tmp_path):
     xr.Dataset({"height": (("a", "b"), np.zeros((3, 4))), "time": ("a", np.zeros(3)), "across": ("b", np.zeros(4))}).to_netcdf(
         tmp_path / "p.nc"

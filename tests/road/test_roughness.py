@@ -116,6 +116,16 @@ def test_a_wheel_track_beside_the_road_is_refused_and_not_analysed_as_the_edge_t
     assert roughness.analyse(road, tracks=[0.0, 3.5])["v"].values.tolist() == [0.0, 3.5]
 
 
+def test_a_wheel_track_beside_the_edge_of_the_road_is_refused_with_its_place():
+    u, v = np.arange(4000) * SPACING, np.linspace(-2, 2, 41)
+    elevation = np.repeat(profile(64e-6, 2.0, 400.0, np.random.default_rng(8))[:, None], v.size, axis=1)
+    elevation[1000:2000, v < -0.01] = np.nan
+    road = xr.Dataset({"elevation": (("u", "v"), elevation), "bank": ("u", np.zeros(u.size))}, coords={"u": u, "v": v})
+    with pytest.raises(ValueError, match="wheel track at -0.75 m leaves the road at u = 100 m"):
+        roughness.analyse(road, tracks=[-0.75, 0.75])
+    assert roughness.analyse(road, tracks=[0.0, 0.75])["v"].values.tolist() == [0.0, 0.75]
+
+
 def test_a_profile_too_short_for_a_fit_is_refused():
     with pytest.raises(ValueError, match="too short"):
         roughness.fit(*roughness.smooth(*roughness.spectrum(np.zeros(100), SPACING)))

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..errors import InputError
+from ..road import surface
 from . import iri, runs, sections
 from .iriedges import QUALITIES, Edges
 from .quartercar import MOVING_AVERAGE
@@ -33,7 +34,7 @@ def tracks(road: xr.Dataset, offsets: Sequence[float] = WHEEL_TRACKS) -> np.ndar
         if not np.isfinite(profile).all():
             where = float(road["u"][int(np.argmin(np.isfinite(profile)))])
             raise InputError(f"wheel track at {offset:g} m leaves the road at u = {where:g} m")
-        answer.append(profile)
+        answer.append(surface.smoothed_ends(road, profile))
     return np.array(answer)
 
 

@@ -27,9 +27,6 @@ _UNITS = {"phi": "rad", "slope": "m/m", "banking": "m/m"}
 _TEXT_FIELD = {"LRFI": (10, 8), "LDFI": (20, 4)}
 """Characters a value and values a line (OpenCRG 1.2, data formats)."""
 
-_NO_VALUE = re.compile(rb"\*.*")
-"""What stands in a text field without a value: asterisks, or a word that begins with one."""
-
 _END_TOLERANCE = 1e-4
 """Of the length of a reference line, within which its ends lie where the header says."""
 
@@ -50,6 +47,15 @@ _CHANNEL = re.compile(r"long section|reference line (u|x|y|z|phi|slope|banking)\
 
 _NOT_UNDERSTOOD = "Error parsing"
 """What the library says of a line of the header that it goes on without."""
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+"""What the library reads whole: of 2.0D-02 it takes 2.0, of 1_0 the 1."""
+
+_FIELD = re.compile(rf"{_NUMBER}|[+-]?nan|\*.*".encode(), re.IGNORECASE)
+"""What a text field may hold; without a value asterisks, a word that begins with one, or nan."""
+
+_CUT_SHORT = re.compile(rf"{_NUMBER}([dD_][\d+-].*|\s+[\d.].*)")
+"""A parameter of the header of which the library takes the beginning."""
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d.*")
 
@@ -97,13 +103,15 @@ def _expand(reference: str, path: Path) -> str:
 def numbers(found: list[pycrg.CrgHeader]) -> None:
     """InputError unless every parameter, option and modifier is a number, and one that is a choice is among its values.
 
-    The library takes words for zero, 1,5 for 1, and a choice that it does not know for its default.
+    The library takes words for zero, 1,5 and 1.0D+01 for 1, and a choice that it does not know for its default.
     """
     for head in found:
         values = {**head.road, **(head.options or {}), **(head.modifiers or {})}
         for key, text in _entries(head):
             if key in values and _DECIMAL_COMMA.fullmatch(text):
                 raise InputError(f"{text!r}, expected a number with a decimal point", file=head.path, place=key)
+            if key in values and _CUT_SHORT.fullmatch(text):
+                raise InputError(f"{text!r}, expected a number", file=head.path, place=key)
         for key, value in values.items():
             if isinstance(value, str):
                 raise InputError(f"{value!r}, expected a number", file=head.path, place=key)
@@ -114,7 +122,7 @@ def numbers(found: list[pycrg.CrgHeader]) -> None:
 
 
 def _entries(head: pycrg.CrgHeader) -> Iterator[tuple[str, str]]:
-    """Key, in small letters, and first word of the value of all entries of a header, comments aside."""
+    """Key, in small letters, and value of all entries of a header, comments aside."""
     comment = False
     with open(head.path, encoding="latin-1") as lines:
         for line in lines:
@@ -125,7 +133,7 @@ def _entries(head: pycrg.CrgHeader) -> Iterator[tuple[str, str]]:
                 comment = not comment and line.upper().startswith("$CT")
             elif not comment and "=" in line and not line.startswith("*"):
                 key, _, value = line.partition("!")[0].partition("=")
-                yield key.strip().lower(), (value.split() or [""])[0]
+                yield key.strip().lower(), value.strip()
 
 
 def extent(head: pycrg.CrgHeader) -> None:
@@ -238,21 +246,12 @@ def _text(head: pycrg.CrgHeader, cross_sections: int, channels: int, width: int,
 
 
 def _fields(head: pycrg.CrgHeader, line: bytes, width: int, number: int) -> None:
-    """Every field of a line of data holds a number or says that there is none; the library takes the rest for none."""
+    """Every field of a line of data holds a number or says that there is none; the library takes the rest for none, or for another one."""
     for start in range(0, len(line), width):
         field = line[start : start + width].strip()
-        try:
-            float(field)
-        except ValueError:
-            if not (_NO_VALUE.fullmatch(field) or _fortran(field)):
-                text = field.decode("latin-1")
-                problem = f"{text!r} in columns {start + 1} to {start + width}, expected a number"
-                raise InputError(problem, file=head.path, place=f"data line {number + 1}") from None
-
-
-def _fortran(field: bytes) -> bool:
-    """Whether a field is a number with D for its exponent."""
-    return re.fullmatch(rb"[+-]?(\d+\.?\d*|\.\d+)[dD][+-]?\d+", field) is not None
+        if not _FIELD.fullmatch(field):
+            problem = f"{field.decode('latin-1')!r} in columns {start + 1} to {start + width}, expected a number"
+            raise InputError(problem, file=head.path, place=f"data line {number + 1}")
 
 
 def size(head: pycrg.CrgHeader, u: np.ndarray, v: np.ndarray) -> None:
@@ -383,16 +382,42 @@ def order(head: pycrg.CrgHeader) -> None:
             )
 
 
-def unreasonable(elevation: np.ndarray) -> np.ndarray:
-    """True for heights (u, v) beyond HEIGHT_LIMIT, infinite ones too, or beyond STEP_LIMIT from the median of their cross section."""
+def unreasonable(elevation: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """True for heights (u, v) beyond HEIGHT_LIMIT, infinite ones too, or beyond STEP_LIMIT from their cross section.
+
+    That is its median or, where most of a cross section is out of reason, the median of the nearest sound one.
+    """
     known = np.isfinite(elevation)
     wild = known & (np.abs(np.where(known, elevation, 0.0)) > HEIGHT_LIMIT)
     usable = np.where(known & ~wild, elevation, np.nan)
-    rows = np.isfinite(usable).any(axis=1)
+    rows = np.flatnonzero(np.isfinite(usable).any(axis=1))
     median = np.zeros(len(elevation))
-    median[rows] = np.nanmedian(usable[rows], axis=1)
+    if rows.size:
+        known_median = np.nanmedian(usable[rows], axis=1)
+        sound = _one_road(known_median, u[rows])
+        median[rows] = known_median[sound][np.abs(u[rows, None] - u[rows[sound]]).argmin(axis=1)] if not sound.all() else known_median
     with np.errstate(over="ignore"):
         return wild | np.isinf(elevation) | (known & (np.abs(np.where(known, elevation, 0.0) - median[:, None]) > STEP_LIMIT))
+
+
+def _one_road(level: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """True for cross sections that are one road with its longest stretch without a step, by their levels in m.
+
+    From there on, either way, a stretch belongs to it that goes on at its level: no further from it than STEP_LIMIT,
+    or than they lie apart along ``u``.
+    """
+    cut = np.flatnonzero(np.abs(np.diff(level)) > np.maximum(STEP_LIMIT, np.diff(u))) + 1
+    stretches = np.split(np.arange(len(level)), cut)
+    longest = int(np.argmax([len(stretch) for stretch in stretches]))
+    sound = np.zeros(len(level), dtype=bool)
+    sound[stretches[longest]] = True
+    for onwards, end in ((stretches[longest + 1 :], -1), (stretches[:longest][::-1], 0)):
+        last = stretches[longest][end]
+        for stretch in onwards:
+            first = stretch[-1 - end]
+            if abs(level[first] - level[last]) <= max(STEP_LIMIT, abs(u[first] - u[last])):
+                sound[stretch], last = True, stretch[end]
+    return sound
 
 
 def folds(heading: np.ndarray, du: float, v: np.ndarray, known: np.ndarray) -> np.ndarray:

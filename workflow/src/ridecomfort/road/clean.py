@@ -109,32 +109,17 @@ def find_outliers(elevation: np.ndarray, vouched: np.ndarray | None = None) -> n
     return found
 
 
-def fill(
-    elevation: np.ndarray,
-    spacing: tuple[float, float],
-    *,
-    inside: np.ndarray | None = None,
-    largest: float = LARGEST_HOLE,
-) -> np.ndarray:
+def fill(elevation: np.ndarray, spacing: tuple[float, float], *, inside: np.ndarray | None = None) -> np.ndarray:
     """Heights (u, v) with the holes inside the road closed by a stretched membrane; edges stay NaN.
 
     The membrane solves Laplace's equation over each hole, held by the heights
     around it. ``inside`` (u, v) tells what belongs to the road: by default what
     lies between heights of its cross section, and cross sections lost as a whole
-    as far as their neighbours reach. Raises InputError for a hole longer than
-    ``largest`` m along u.
+    as far as their neighbours reach.
     """
     hole = (_inside(elevation) if inside is None else inside) & ~np.isfinite(elevation)
     if not hole.any():
         return elevation
-    run = _longest_run(hole)
-    if run.max() * spacing[0] > largest + 1e-9:
-        i, j = np.unravel_index(run.argmax(), run.shape)
-        raise InputError(
-            f"a hole {run.max() * spacing[0]:g} m long ends at cross section {i}, column {j};"
-            f" at most {largest:g} m are filled",
-            place="road.holes",
-        )
     filled = elevation.copy()
     filled[hole] = _membrane(elevation, hole, spacing)
     return filled
@@ -160,7 +145,10 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
     elevation = road.elevation.values
     u, v = road.u.values, road.v.values
     spacing = (u[-1] - u[0]) / (len(u) - 1), (v[-1] - v[0]) / (len(v) - 1)
-    coarse = max(spacing) > COARSEST
+    coarse = bool(max(spacing) > COARSEST)
+    too_coarse = f"cells of {spacing[0]:g} m x {spacing[1]:g} m are too coarse to be tested for outliers"
+    if coarse and chosen["outliers"] == "refuse":
+        raise InputError(f"{too_coarse} (or outliers: report)", place="road.outliers")
     vouched = road.support.values >= VOUCHED if "support" in road else None
     outlier = np.zeros(elevation.shape, dtype=bool) if coarse else find_outliers(elevation, vouched)
     kept = np.zeros_like(outlier)
@@ -182,6 +170,7 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
         raise InputError(
             f"{hole.sum()} cells without a height (holes), the first at u = {u[i]:g} m, v = {v[j]:g} m (or holes: fill)", place="road.holes"
         )
+    _refuse_long(outlier, hole, u, v)
     banking = road.bank.values[:, None] * v
     repaired = fill(np.where(outlier, np.nan, elevation) - banking, spacing, inside=inside) + banking
     repaired = np.where(outlier | hole, repaired, elevation)
@@ -199,13 +188,28 @@ def clean(road: xr.Dataset, **options: str) -> tuple[xr.Dataset, Report]:
     )
     report = _report(road, cleaned, outlier, hole)
     if outlier.any() or hole.any():
-        said += report.lines()
+        said += report.lines() + ([too_coarse] if coarse else [])
     elif coarse:
-        said.append(f"no holes; cells of {spacing[0]:g} m x {spacing[1]:g} m are too coarse to be tested for outliers")
+        said.append(f"no holes; {too_coarse}")
     elif len(said) == before:
         said.append("no outliers and no holes found")
     cleaned.attrs["treatment"] = "\n".join(said)
     return cleaned, report
+
+
+def _refuse_long(outlier: np.ndarray, hole: np.ndarray, u: np.ndarray, v: np.ndarray) -> None:
+    """InputError where cells (u, v) to be filled follow one another along u for more than `LARGEST_HOLE`."""
+    run = _longest_run(outlier | hole)
+    spacing = (u[-1] - u[0]) / (len(u) - 1)
+    if run.max() * spacing <= LARGEST_HOLE + 1e-9:
+        return
+    i, j = np.unravel_index(run.argmax(), run.shape)
+    found = slice(i + 1 - run[i, j], i + 1), j
+    kinds = [kind for kind, cells in (("outliers", outlier), ("holes", hole)) if cells[found].any()]
+    raise InputError(
+        f"{' and '.join(kinds)} over {run.max() * spacing:g} m to u = {u[i]:g} m, v = {v[j]:g} m; at most {LARGEST_HOLE:g} m are filled",
+        place=f"road.{kinds[0]}",
+    )
 
 
 def _choose(options: dict) -> dict:

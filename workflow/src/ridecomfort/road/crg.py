@@ -42,7 +42,7 @@ _CURVATURE_LENGTH = 0.5
 """m to either side over which OpenCRG takes the curvature of the reference line."""
 
 _MOST_COLUMNS = 1024
-"""Of an equidistant lateral grid that passes through every long section."""
+"""Of an equidistant lateral grid that passes through every long section, where these are not equidistant themselves."""
 
 
 def read(path, **options: str) -> xr.Dataset:
@@ -67,7 +67,7 @@ def read(path, **options: str) -> xr.Dataset:
         the study uses unless the site says otherwise (`surface.INTERPOLATION`).
     holes
         cells without a height inside the road: ``refuse``, or ``keep`` them for
-        `clean.fill`.
+        `clean.fill` and cut off the ends that have none at all.
     heights
         out of reason (`checks.unreasonable`): ``refuse``, or ``blank`` them.
     lateral_grid
@@ -125,6 +125,7 @@ def read(path, **options: str) -> xr.Dataset:
     elevation = _edges(path, grid, measured, wild, chosen["holes"], attributes, treatment)
     _folds(path, grid, elevation, chosen["folds"], treatment)
     v, elevation = _equidistant(path, grid, elevation, chosen["lateral_grid"], treatment)
+    part = _extent(path, grid, measured, attributes, treatment)
     for line in treatment:
         log.info(line)
     attributes.update(interpolation=chosen["interpolation"], treatment="\n".join(treatment))
@@ -142,7 +143,7 @@ def read(path, **options: str) -> xr.Dataset:
             },
             coords={"u": grid.u, "v": v},
             attrs=attributes,
-        )
+        ).isel(u=part)
     )
 
 
@@ -228,14 +229,14 @@ def _choose(options: dict) -> dict:
 
 def _wild(path, stored: pycrg.CrgGrid, choice: str, treatment: list[str]) -> np.ndarray:
     """True for cells (u, v) whose height in the file is out of reason, where these are to be blanked."""
-    wild = checks.unreasonable(stored.elevation)
+    wild = checks.unreasonable(stored.elevation, stored.u)
     if wild.any():
         i, j = np.argwhere(wild)[0]
         found = f"{wild.sum()} heights out of reason, the first {stored.elevation[i, j]:.4g} m"
         if choice == "refuse":
             raise InputError(
                 f"{found}, expected within {checks.HEIGHT_LIMIT:g} m and {checks.STEP_LIMIT:g} m of the median height of"
-                " its cross section (or heights: blank)",
+                " its cross section, and of those beside it (or heights: blank)",
                 file=path,
                 place=f"u = {stored.u[i]:g} m, v = {stored.v[j]:g} m",
             )
@@ -351,6 +352,20 @@ def _edges(path, grid, measured, wild, choice, attributes, treatment) -> np.ndar
     return elevation
 
 
+def _extent(path, grid, measured, attributes, treatment) -> slice:
+    """The cross sections from the first to the last one with a height; the road ends there."""
+    known = np.flatnonzero(measured.any(axis=1))
+    if not known.size or (known[0] == 0 and known[-1] == len(grid.u) - 1):
+        return slice(None)
+    start, end = grid.u[known[0]], grid.u[known[-1]]
+    found = f"heights from u = {start:g} to {end:g} m only, of {grid.u[0]:g} to {grid.u[-1]:g} m"
+    if "closed_from" in attributes:
+        raise InputError(f"{found}, expected some all along a closed track", file=path, place="data")
+    attributes.update(reference_height_start=float(grid.ref_z[known[0]]), reference_height_end=float(grid.ref_z[known[-1]]))
+    treatment.append(f"{found}: cut there")
+    return slice(known[0], known[-1] + 1)
+
+
 def _folds(path, grid, elevation, choice, treatment) -> None:
     bent = checks.folds(grid.phi, grid.u[1] - grid.u[0], grid.v, np.isfinite(elevation))
     if bent.any():
@@ -369,7 +384,7 @@ def _equidistant(path, grid, elevation, choice, treatment) -> tuple[np.ndarray, 
     """Lateral positions in equal steps, and the heights there by linear interpolation across."""
     v = grid.v
     width, columns = v[-1] - v[0], None
-    for intervals in range(len(v) - 1, _MOST_COLUMNS):
+    for intervals in range(len(v) - 1, max(_MOST_COLUMNS, len(v))):
         place = (v - v[0]) * (intervals / width)
         if np.abs(place - np.round(place)).max() * width / intervals < (1e-6 if intervals == len(v) - 1 else 1e-8):
             columns = intervals + 1

@@ -41,7 +41,11 @@ def profiles(path) -> Iterator[Iterator[Profiles]]:
     """
     path = Path(path)
     try:
-        with xr.open_dataset(path, engine="netcdf4") as recorded:
+        recorded = xr.open_dataset(path, engine="netcdf4")
+    except (OSError, RuntimeError, ValueError) as problem:
+        raise InputError(f"not a readable NetCDF file ({' '.join(str(problem).split())})", file=path) from None
+    try:
+        with recorded:
             for name, dims in (("height", {"profile", "point"}), ("time", {"profile"}), ("across", {"point"})):
                 if name not in recorded:
                     raise InputError(f"has no variable {name!r}, expected {_EXPECTED}", file=path)

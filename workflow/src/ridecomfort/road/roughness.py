@@ -9,7 +9,7 @@ import xarray as xr
 from scipy import signal
 
 from ..vocabulary import describe
-from . import surface
+from . import edges, surface
 
 REFERENCE_WAVENUMBER = 0.1
 """cycles/m at which the class of a road is read (ISO 8608, 5.1.2)."""
@@ -120,13 +120,19 @@ def analyse(road: xr.Dataset, *, tracks: Sequence[float] = TRACKS, segment: floa
     spacing = (u[-1] - u[0]) / (len(u) - 1)
     tracks = np.asarray(tracks, dtype=float)
     right, left = float(road.v[0]), float(road.v[-1])
+    inside = ~edges.outside(road.elevation.transpose("u", "v").values)
+    v = np.where(inside, road.v.values, np.nan)
+    ends = np.fmin.reduce(v, axis=1, initial=np.inf), np.fmax.reduce(v, axis=1, initial=-np.inf)
     for track in tracks:
         # Heights are held there: a spectrum of them would be that of another place.
         if not right <= track <= left:
             raise ValueError(f"wheel track at {track:g} m lies outside the road, {right:g} to {left:g} m")
+        beside = (track < ends[0]) | (track > ends[1])
+        if beside.any():
+            raise ValueError(f"wheel track at {track:g} m leaves the road at u = {u[beside.argmax()]:g} m")
     profiles = surface.height(road, u, tracks[:, None], interpolation="linear")
     if not np.isfinite(profiles).all():
-        raise ValueError("a wheel track crosses a hole or leaves the road")
+        raise ValueError("a wheel track crosses a hole")
     wavenumber, density = spectrum(profiles, spacing, segment=segment)
     centre, smoothed = smooth(wavenumber, density)
     unevenness, waviness = fit(centre, smoothed)

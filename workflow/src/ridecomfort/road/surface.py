@@ -250,12 +250,29 @@ def _line(line, u0, du, at, smooth, u, found):
         found[0, k], found[1, k], found[2, k], found[3, k], found[4, k], found[5, k] = along(line, u0, du, at, smooth, u[k])
 
 
+def smoothed_ends(road: xr.Dataset, heights: np.ndarray) -> np.ndarray:
+    """Heights (u, ...) of the cross sections of a road, with the smoothing zones at its ends that its file asks for.
+
+    There they go over into the height of the reference line at the end, as in OpenCRG 1.2 (crgEvaluv2z).
+    """
+    at, u = borders(road), road.u.values.reshape(-1, *[1] * (heights.ndim - 1))
+    before_end, from_start = at.u_end - u, u - u[0]
+    at_end = (at.smooth_end > 0.0) & (before_end <= at.smooth_end)
+    at_start = (at.smooth_start > 0.0) & (from_start <= at.smooth_start) & ~at_end  # within both, that of the end prevails
+    for zone, length, level, away in (
+        (at_end, at.smooth_end, at.height_end, before_end), (at_start, at.smooth_start, at.height_start, from_start),
+    ):  # fmt: skip
+        if zone.any():
+            heights = np.where(zone, level + (heights - level) * (away / length), heights)
+    return heights
+
+
 def grid(road: xr.Dataset) -> tuple[np.ndarray, float, float, float, float]:
     """What kernels take: elevation (u, v) in m, C-contiguous float64, then u0, du, v0 and dv in m.
 
     Every height is finite: beyond the edges of the road it is that of the nearest
     cell across, carried on with the cross slope (`edges.extend`), so that a wheel
-    that leaves the road meets no step. Raises InputError where the road
+    that leaves the road meets no step. Smoothing zones are put in (`smoothed_ends`). Raises InputError where the road
     has holes; `clean.fill` closes them.
     """
     elevation = edges.extend(road.elevation.transpose("u", "v").values, road.v.values, road.bank.values)
@@ -267,7 +284,7 @@ def grid(road: xr.Dataset) -> tuple[np.ndarray, float, float, float, float]:
             "(road.clean.fill closes them)",
             place="road",
         )
-    return np.ascontiguousarray(elevation, dtype=np.float64), *_axis(road.u.values), *_axis(road.v.values)
+    return np.ascontiguousarray(smoothed_ends(road, elevation), dtype=np.float64), *_axis(road.u.values), *_axis(road.v.values)
 
 
 def height(road: xr.Dataset, u, v, *, interpolation: str | None = None) -> np.ndarray:

@@ -198,7 +198,7 @@ def grid(
         moving = _moving(poses, last, _STEP)
         counts[0] += len(block.time)
         points, guess, reached = _place(
-            poses[moving], block.across, block.height[moving], line.x, line.y, line.heading, line.z, line.bank,
+            poses[moving], block.across, block.height[moving], line.x, line.y, line.heading, line.z, line.slope, line.bank,
             spacing[0], v[0], spacing[1], len(v), guess, counts,
         )  # fmt: skip
         held = np.concatenate([held, points], axis=1)
@@ -308,8 +308,12 @@ def locate(x, y, line_x, line_y, heading, spacing, guess):
 
 
 @njit(cache=True)
-def _place(poses, across, height, line_x, line_y, heading, z, bank, du, v0, dv, nv, guess, counts):
-    """Points as rows: cross section, column, offsets in m from the middle of the cell, height above the plane there."""
+def _place(poses, across, height, line_x, line_y, heading, z, slope, bank, du, v0, dv, nv, guess, counts):
+    """Points as rows: cross section, column, offsets in m from the middle of the cell, height above the plane there.
+
+    The plane rises with the line too: a cell whose points lie on one side of its middle, or too close together to tell
+    their slope, would else be off by the grade times their distance from it.
+    """
     n, m = height.shape
     points = np.empty((5, n * m))
     used = 0
@@ -341,7 +345,7 @@ def _place(poses, across, height, line_x, line_y, heading, z, bank, du, v0, dv, 
                 continue
             points[0, used], points[1, used] = row, column
             points[2, used], points[3, used] = u - row * du, v - (v0 + column * dv)
-            points[4, used] = above - z[row] - bank[row] * v
+            points[4, used] = above - z[row] - slope[row] * points[2, used] - bank[row] * v
             used += 1
         if lowest < rows:
             reached = lowest
