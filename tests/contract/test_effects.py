@@ -56,10 +56,10 @@ def test_says_what_it_is(name):
     assert effect.parameters, f"{name} has no parameters"
     names = [parameter.name for parameter in effect.parameters]
     assert len(set(names)) == len(names)
-    expected = len(port.sees) + len(effect.states) + len(names)
+    expected = len(port.sees) + len(effect.also_sees) + len(effect.states) + len(names)
     taken = len(inspect.signature(ENTRIES[name].act).parameters)
     assert taken == expected, (
-        f"{name}: act takes {taken} arguments, expected {expected}: {', '.join((*port.sees, *effect.states, *names))}"
+        f"{name}: act takes {taken} arguments, expected {expected}: {', '.join((*port.sees, *effect.also_sees, *effect.states, *names))}"
     )
 
 
@@ -192,9 +192,11 @@ def work(entry, rng):
         energy = 0.0
         for x, v in zip(deflections, velocities, strict=True):
             more = (28000.0, 2000.0, 0.0, 0.0) if effect.port == "suspension" else (28e4, 0.014, 0.0, 60.0)
-            force, *slopes = np.atleast_1d(entry.act(0, x, v, *more, *states, *sizes))
-            states = states + step * np.array(slopes)
-            energy += force * v * step
+            handed = [2000.0 * v for _ in effect.also_sees]  # the force of the damper
+            found = np.atleast_1d(entry.act(0, x, v, *more, *handed, *states, *sizes))
+            count = 1 + len(effect.also_returns)
+            states = states + step * np.array(found[count:])
+            energy += (sum(found[:count]) - sum(handed)) * v * step
         if not effect.states:
             break
     return energy

@@ -98,6 +98,15 @@ def test_a_function_that_numba_does_not_compile_is_one_line(tmp_path, car, retur
     assert "mine.py: act cannot be compiled: " in str(raised.value) and said in str(raised.value) and "\n" not in str(raised.value)
 
 
+def test_refuses_what_its_port_does_not_have(tmp_path):
+    text = EFFECT.format(name="mine", port="suspension").replace("vehicle, share", "wheel, share")
+    for what, known in (("also_sees", "surge"), ("also_returns", "shake")):
+        (tmp_path / "mine.py").write_text(text + f"\neffect = effect.__class__('mine', 'A.', 'a', 'suspension', (), {what}=('{known}',))\n")
+        with pytest.raises(InputError, match=rf"mine.py: {what}: \('{known}',\), expected a tuple of names among \('damper',\)"):
+            library.find(tmp_path)
+        (tmp_path / "mine.py").unlink()
+
+
 @pytest.mark.parametrize("text", ["effect = 1\n", "import nothing_of_that_name\n", "def act(:\n"])
 def test_refuses_files_that_hold_no_effect(tmp_path, text):
     (tmp_path / "mine.py").write_text(text)

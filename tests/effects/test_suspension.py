@@ -5,13 +5,29 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.effects.whole import act
+from ridecomfort.effects import library
+
+from tests.effects.whole import ENTRIES, act
 
 STIFFNESS, DAMPING = 30000.0, 2000.0
 
 
 def force(name, deflection, velocity, *sizes, wheel=0, force_x=0.0):
-    return act(name)(wheel, deflection, velocity, STIFFNESS, DAMPING, force_x, 0.0, *sizes)
+    """What the effect adds to the force of the strut, and the slopes of its states where it has any."""
+    seen = wheel, deflection, velocity, STIFFNESS, DAMPING, force_x, 0.0
+    if not ENTRIES[name].effect.also_sees:
+        return act(name)(*seen, *sizes)
+    _, damper, *slopes = act(name)(*seen, DAMPING * velocity, *sizes)
+    return (damper - DAMPING * velocity, *slopes) if slopes else damper - DAMPING * velocity
+
+
+def dampers(velocity, state, chosen):
+    """Force in N of a strut's damper with effects of the library, and the slope of the state of the last, if it has one."""
+    damper, slopes = DAMPING * velocity, []
+    for entry, sizes in chosen:
+        states = [state] * len(entry.effect.states)
+        _, damper, *slopes = entry.act(0, 0.0, velocity, STIFFNESS, DAMPING, 0.0, 0.0, damper, *states, *sizes.values())
+    return damper, *slopes
 
 
 def cycle(amplitude, frequency, count=20000):
@@ -125,6 +141,36 @@ def test_damper_on_a_mount_is_a_maxwell_element(frequency):
     measured = 2 * np.mean(total[last] * np.exp(-1j * turns * time[last]))
     expected = 1j * turns * DAMPING / (1 + 1j * turns * DAMPING * compliance)
     assert abs(measured - expected) < 0.01 * abs(expected)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.7])
+@pytest.mark.parametrize("lost", [0.3, 0.9])
+def test_dampers_that_are_degressive_and_asymmetric_brake_whatever_they_do(share, lost):
+    chosen = library.choose({"damper_asymmetry": {"front": share}, "damper_knee": {"front": lost}})
+    for velocity in (-2.0, -0.3, -0.05, 0.05, 0.3, 2.0):
+        curve = DAMPING * np.sign(velocity) * (min(abs(velocity), 0.1) + (1 - lost) * max(abs(velocity) - 0.1, 0.0))
+        assert dampers(velocity, 0.0, chosen)[0] == pytest.approx(curve * (1 - share * np.sign(velocity)))
+
+
+@pytest.mark.parametrize("compliance", [2e-6, 1e-5])
+@pytest.mark.parametrize("lost", [0.6, 0.9])
+@pytest.mark.parametrize("knee", [0.03, 0.1, 0.5])
+@pytest.mark.parametrize("frequency", [5.0, 12.0, 20.0])
+def test_degressive_dampers_on_mounts_take_the_energy_of_damper_and_spring_in_series(compliance, lost, knee, frequency):
+    """The spring's force F grows by the motion that the damper, whose speed F tells by its curve, leaves: F' = (v - v_damper(F)) / compliance."""
+    chosen = library.choose({"damper_knee": {"front": lost, "knee": knee}, "top_mount": {"front": compliance}})
+    step, turns = 1e-4, 2 * np.pi * frequency
+    time = np.arange(0.0, 4.0 / frequency, step)
+    state, spring, found, expected = 0.0, 0.0, 0.0, 0.0
+    for number, velocity in enumerate(0.6 * np.cos(turns * time)):
+        force, slope = dampers(velocity, state, chosen)
+        state += step * slope
+        beyond = max(abs(spring) / DAMPING - knee, 0.0)
+        spring += step / compliance * (velocity - np.sign(spring) * (abs(spring) / DAMPING + beyond * (1 / (1 - lost) - 1)))
+        if number > time.size / 2:
+            found += force * velocity * step
+            expected += spring * velocity * step
+    assert found == pytest.approx(expected, rel=0.2)
 
 
 def test_links_take_part_of_the_braking_and_driving_force():

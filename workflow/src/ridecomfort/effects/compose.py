@@ -91,7 +91,7 @@ def refusal(entries: Sequence[Entry], problem: Exception) -> InputError:
     own = [entry for entry in entries if entry.path.parent != FOLDER]
     guilty = next((entry for entry in own if entry in named), next(iter(own or entries)))
     said = (line.strip() for line in text.splitlines() if line.strip() and not line.startswith("Failed in nopython mode"))
-    returned = [*PORTS[guilty.effect.port].returns, *(f"d{state}/dt" for state in guilty.effect.states)]
+    returned = [*PORTS[guilty.effect.port].returns, *guilty.effect.also_returns, *(f"d{state}/dt" for state in guilty.effect.states)]
     return InputError(f"act cannot be compiled: {next(said, text)} (expected to return {', '.join(returned)})", file=guilty.path)
 
 
@@ -158,25 +158,26 @@ def ports_source(effects: Sequence[Effect]) -> tuple[str, int]:
 
 def _port_source(name: str, any_switch: int, places) -> list[str]:
     port = PORTS[name]
-    signature = ", ".join((*port.sees, "parameters", "states", "slopes"))
-    lines = ['@njit(forceinline=True, **PHYSICS)', f"def {name}_port({signature}):"]
-    lines += [f"    {result} = 0.0" for result in port.returns if result not in port.sees]
+    given = [*port.sees, *(seen for seen in port.may_see if seen not in port.returns)]
+    returned = (*port.returns, *port.may_return)
+    lines = ['@njit(forceinline=True, **PHYSICS)', f"def {name}_port({', '.join((*given, 'parameters', 'states', 'slopes'))}):"]
+    lines += [f"    {result} = 0.0" for result in returned if result not in given]
     if places:
         lines.append(f"    if parameters[{any_switch}] == 0.0:")
-        lines.append(f"        return {', '.join(port.returns)}")
+        lines.append(f"        return {', '.join(returned)}")
     for effect, parameter, state, switch in places:
         count = len(effect.states)
         offset = f"{state} + {count} * wheel" if port.per_wheel else f"{state}"
-        arguments = list(port.sees)
+        arguments = [*port.sees, *effect.also_sees]
         arguments += [f"states[{offset} + {k}]" for k in range(count)]
         arguments += [f"parameters[{parameter + k}]" for k in range(len(effect.parameters))]
-        results = [f"new_{result}" for result in port.returns]
+        results = [f"new_{result}" for result in (*port.returns, *effect.also_returns)]
         targets = ", ".join(results + [f"slopes[{offset} + {k}]" for k in range(count)])
         lines.append(f"    if parameters[{switch}] != 0.0:")
         lines.append(f"        {targets} = act_{effect.name}({', '.join(arguments)})")
-        for result in port.returns:
-            lines.append(f"        {result} {'=' if result in port.sees else '+='} new_{result}")
-    lines.append(f"    return {', '.join(port.returns)}")
+        for result in (*port.returns, *effect.also_returns):
+            lines.append(f"        {result} {'=' if result in given else '+='} new_{result}")
+    lines.append(f"    return {', '.join(returned)}")
     return lines
 
 

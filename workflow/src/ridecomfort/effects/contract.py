@@ -7,6 +7,10 @@ derivatives of its states. It must be a function that numba can compile, except 
 ports of ``IN_PYTHON``, which work on whole vehicles, paths and drives. What a port returns
 under a name that it also sees is handed from effect to effect, each changing what the one
 before returned, in their ``order`` and within that by name; what it does not see is added up over the effects.
+
+Some ports have more to see and to return than most effects ask for (``may_see``, ``may_return``). An effect that does names it in
+``also_sees`` and ``also_returns``; ``act`` takes it behind what its port sees and returns it behind what its port returns. What is added
+up over the effects is seen as the sum so far.
 """
 
 from __future__ import annotations
@@ -24,6 +28,8 @@ class Port:
     returns: tuple[str, ...]
     per_wheel: bool
     meaning: str
+    may_see: tuple[str, ...] = ()
+    may_return: tuple[str, ...] = ()
 
 
 PORTS: Mapping[str, Port] = MappingProxyType(
@@ -49,7 +55,10 @@ PORTS: Mapping[str, Port] = MappingProxyType(
             True,
             "extra force in N between body and wheel, positive pushing apart; deflection from rest and velocity "
             "(m, m/s) positive in compression; stiffness and damping of this corner's spring and damper (N/m, N s/m); "
-            "force_x, force_y of the tyre (N)",
+            "force_x, force_y of the tyre (N). Handed on where asked for: `damper`, the force in N of the damper, damping times velocity to "
+            "begin with",
+            ("damper",),
+            ("damper",),
         ),
         "interconnection": Port(
             (
@@ -163,6 +172,10 @@ class Effect:
     """Whether left and right are alike to it, so that a mirrored road gives a mirrored drive."""
     order: int = 0
     """Place among the effects of its port where values are handed on: a greater one comes later, as a lag behind what it delays."""
+    also_sees: tuple[str, ...] = ()
+    """What it takes of what its port may see."""
+    also_returns: tuple[str, ...] = ()
+    """What it returns of what its port may return."""
 
     @property
     def rank(self) -> tuple[int, str]:

@@ -14,9 +14,12 @@ effect = Effect(
         Parameter("front", "1", 0.0, 0.4, (0.0, 0.7), "share of the damping that moves from bump to rebound, front"),
         Parameter("rear", "1", 0.0, 0.4, (0.0, 0.7), "share of the damping that moves from bump to rebound, rear"),
     ),
+    order=1,
+    also_sees=("damper",),
+    also_returns=("damper",),
 )
 
 
-def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, front, rear):
+def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, damper, front, rear):
     share = front if wheel < 2 else rear
-    return -share * damping * abs(velocity)
+    return 0.0, damper - share * abs(damper)

@@ -17,9 +17,11 @@ effect = Effect(
         Parameter("rear", "1", 0.0, 0.6, (0.0, 0.9), "share of the damping that is lost beyond the knee, rear"),
         Parameter("knee", "m/s", 0.1, 0.1, (0.03, 0.5), "speed of the knee, at the wheel"),
     ),
+    also_sees=("damper",),
+    also_returns=("damper",),
 )
 
 
-def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, front, rear, knee):
+def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, damper, front, rear, knee):
     share = front if wheel < 2 else rear
-    return -share * damping * copysign(max(abs(velocity) - knee, 0.0), velocity)
+    return 0.0, damper - share * damping * copysign(max(abs(velocity) - knee, 0.0), velocity)

@@ -143,6 +143,10 @@ def _load(path: Path, changed: int) -> Entry:
         raise InputError(f"holds effect {effect.name!r}, expected the name of the file", file=path)
     if effect.port not in PORTS:
         raise InputError(f"unknown port {effect.port!r}; known are {', '.join(PORTS)}", file=path)
+    for what, known in (("also_sees", PORTS[effect.port].may_see), ("also_returns", PORTS[effect.port].may_return)):
+        found = getattr(effect, what)
+        if not (isinstance(found, tuple) and all(one in known for one in found)):
+            raise InputError(f"{found!r:.60}, expected a tuple of names among {known}, what port {effect.port} has", file=path, place=what)
     _check_parameters(effect, path)
     _check_arguments(effect, act, path)
     return Entry(effect, act, path)
@@ -175,7 +179,7 @@ def _is_number(value) -> bool:
 def _check_arguments(effect: Effect, act: Callable, path: Path) -> None:
     """Raise InputError where ``act`` does not take what its port sees, its states and its parameters, in this order, by which a kernel is
     handed them."""
-    expected = [*PORTS[effect.port].sees, *effect.states, *(parameter.name for parameter in effect.parameters)]
+    expected = [*PORTS[effect.port].sees, *effect.also_sees, *effect.states, *(parameter.name for parameter in effect.parameters)]
     taken = list(inspect.signature(act).parameters)
     if len(taken) != len(expected) or any(name != own and name in expected for name, own in zip(taken, expected)):
         raise InputError(f"act takes ({', '.join(taken)}), expected ({', '.join(expected)})", file=path)

@@ -26,9 +26,9 @@ def kinematics_port(wheel, deflection, parameters, states, slopes):
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
-def suspension_port(wheel, deflection, velocity, stiffness, damping, force_x, force_y, parameters, states, slopes):
-    """Extra force in N between body and wheel, positive pushing them apart."""
-    return 0.0
+def suspension_port(wheel, deflection, velocity, stiffness, damping, force_x, force_y, damper, parameters, states, slopes):
+    """Extra force in N between body and wheel, positive pushing them apart, and the force in N of the damper, which starts as ``damper``."""
+    return 0.0, damper
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)

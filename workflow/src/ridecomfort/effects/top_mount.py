@@ -16,11 +16,14 @@ effect = Effect(
         Parameter("rear", "m/N", 0.0, 2e-6, (0.0, 1e-5), "compliance of one rear mount"),
     ),
     states=("force",),
+    order=2,
+    also_sees=("damper",),
+    also_returns=("damper",),
 )
 
 
-def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, force, front, rear):
+def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, damper, force, front, rear):
     compliance = front if wheel < 2 else rear
-    rigid = damping * velocity
-    passed, slope = lag(rigid, force, compliance * damping)
-    return passed - rigid, slope
+    secant = damper / velocity if velocity != 0.0 else damping
+    passed, slope = lag(damper, force, compliance * secant)
+    return 0.0, passed, slope

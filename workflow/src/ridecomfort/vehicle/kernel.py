@@ -302,7 +302,7 @@ def _vertical(
     per_step = 1.0 / (6.0 * step)
     rest = pose[Z] - car.cg_height + car.tyre_radius
     travel, corner_speed, lean = zeros(4), zeros(4), zeros(4)
-    held, deflection, rate, damper, radial = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    held, deflection, rate, tyre_damper, radial = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     lean[0], lean[2] = wheel_z[0] - wheel_z[1], wheel_z[2] - wheel_z[3]
     lean[1], lean[3] = -lean[0], -lean[2]
     for i in range(4):
@@ -313,10 +313,12 @@ def _vertical(
         travel_rate[i] = wheel_v[i] + half * wheel_change[i] - corner_speed[i]
         held[i] = wheels[STATIC_FORCE, i] + wheels[SPRING, i] * travel[i] + wheels[ANTI_ROLL, i] * twist
     for i in range(4):
-        held[i] += suspension_port(
-            i, travel[i], travel_rate[i], wheels[SPRING, i], wheels[DAMPING, i], force_x[i], force_y[i],
+        linear = wheels[DAMPING, i] * travel_rate[i]
+        extra, damper = suspension_port(
+            i, travel[i], travel_rate[i], wheels[SPRING, i], wheels[DAMPING, i], force_x[i], force_y[i], linear,
             parameters, states, slopes,
         )  # fmt: skip
+        held[i] += extra + (damper - linear)
         held[i] += interconnection_port(
             i, travel[i], travel_rate[i], travel[i ^ 2], travel_rate[i ^ 2], travel[i ^ 1], travel_rate[i ^ 1], travel[i ^ 3], travel_rate[i ^ 3],
             parameters, states, slopes,
@@ -326,9 +328,9 @@ def _vertical(
         held[i] -= wheels[DAMPING, i] * corner_speed[i] + (wheels[SCRUB, i] + scrub[i]) * side_push[i]
         held[i] += recession[i] * fore_push[i]
         deflection[i] = ground[1, i] + car.tyre_radius - wheel_z[i]
-        damper[i] = car.tyre_damping * min(max(deflection[i] * PER_CONTACT_DEPTH, 0.0), 1.0)
+        tyre_damper[i] = car.tyre_damping * min(max(deflection[i] * PER_CONTACT_DEPTH, 0.0), 1.0)
         rate[i] = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
-        radial[i] = car.tyre_stiffness * deflection[i] + damper[i] * rate[i]
+        radial[i] = car.tyre_stiffness * deflection[i] + tyre_damper[i] * rate[i]
     for i in range(4):
         radial[i] += tyre_vertical_port(
             i, deflection[i], rate[i] - travel_rate[i] - corner_speed[i], car.tyre_stiffness, wheels[STATIC_DEFLECTION, i],
@@ -337,9 +339,9 @@ def _vertical(
     for i in range(4):
         # The wheel's own damping, implicit: its speed now is that before plus half a step of its change.
         weight = wheels[MASS, i] * STANDARD_GRAVITY
-        damping = damper[i] + wheels[DAMPING, i]
+        damping = tyre_damper[i] + wheels[DAMPING, i]
         change = (radial[i] - held[i] - weight - damping * wheel_v[i]) / (wheels[MASS, i] + half * damping)
-        pressing = radial[i] - damper[i] * (wheel_v[i] + half * change)
+        pressing = radial[i] - tyre_damper[i] * (wheel_v[i] + half * change)
         # In the air it is held by its own damper alone.
         lifted = pressing < 0.0 or deflection[i] <= 0.0
         free = (-held[i] - weight - wheels[DAMPING, i] * wheel_v[i]) / (wheels[MASS, i] + half * wheels[DAMPING, i])
