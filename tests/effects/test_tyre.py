@@ -42,7 +42,7 @@ def test_tyre_that_is_not_round_feels_a_wave_once_a_turn():
 
 
 def test_imbalance_is_mass_times_eccentricity_times_spin_squared():
-    forces = [vertical("wheel_imbalance", REST, 0.012, 0.0, rotation=turn, spin=80.0) for turn in np.linspace(0, 6.3, 1000)]
+    forces = [vertical("wheel_imbalance", REST, 0.012, 0.0, rotation=turn, spin=80.0)[1] for turn in np.linspace(0, 6.3, 1000)]
     assert max(forces) == pytest.approx(0.012 * 80.0**2, rel=1e-4)
     assert min(forces) == pytest.approx(-0.012 * 80.0**2, rel=1e-4)
 
@@ -52,6 +52,25 @@ def test_imbalance_shakes_the_car_at_the_frequency_of_its_wheels(car):
     spectrum = np.abs(np.fft.rfft(seen.a_z.values[-1000:] * np.hanning(1000)))
     peak = np.fft.rfftfreq(1000, 0.01)[spectrum.argmax()]
     assert peak == pytest.approx(25.0 / car["tyre_radius"] / (2 * np.pi), abs=0.1)
+
+
+def test_imbalance_loads_the_tyre_by_what_the_wheel_moves(car):
+    """By the rolling resistance, a share of the load. F lifts a wheel between tyre and strut, whose load falls by (k + i w c) F / (k + k_s +
+    i w (c + c_s) - m w2); the two wheels are a phase of 2.4 apart."""
+    share, imbalance, speed = 0.04, 0.05, 22.0
+    resisting, shaken = {"rolling_resistance": {"coefficient": share}}, {"wheel_imbalance": {"front": imbalance, "rear": 0.0}}
+    both, shaken, resisting, none = (
+        drive(road(300.0), car, effects=effects, speed=speed).a_x.values[-600:-20] for effects in (resisting | shaken, shaken, resisting, {})
+    )
+    added = (both - resisting) - (shaken - none)
+    turns = speed / car["tyre_radius"]
+    tyre = car["tyre_radial_stiffness"] + 1j * turns * car["tyre_radial_damping"]
+    strut = car["spring_stiffness_front"] + 1j * turns * car["damping_front"]
+    force = imbalance * turns**2 * abs(1 + np.exp(2.4j))
+    load = force * abs(tyre / (tyre + strut - car["unsprung_mass_front"] * turns**2))
+    mass = car["sprung_mass"] + 2 * (car["unsprung_mass_front"] + car["unsprung_mass_rear"])
+    wave = np.exp(-1j * turns * 0.01 * np.arange(added.size)) * np.hanning(added.size)
+    assert 4 * abs(added @ wave) / added.size == pytest.approx(share * load / mass, rel=0.05)
 
 
 def test_progressive_tyre_keeps_rest_and_lifts_off_without_force():

@@ -76,7 +76,9 @@ PORTS: Mapping[str, Port] = MappingProxyType(
             ("force",),
             True,
             "extra radial force in N, positive pushing the wheel up; deflection and velocity (m, m/s), positive pressed; radial stiffness (N/m), "
-            "deflection at rest (m); turn (rad) and spin (rad/s) of the wheel",
+            "deflection at rest (m); turn (rad) and spin (rad/s) of the wheel. Where asked for: `shake`, a force in N that lifts the wheel "
+            "without the tyre, as its inertia does, and is no part of its load",
+            may_return=("shake",),
         ),
         "tyre_planar": Port(
             ("wheel", "slip_x", "slip_y", "load", "speed", "slope", "force_x"),

@@ -42,8 +42,8 @@ def interconnection_port(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def tyre_vertical_port(wheel, deflection, velocity, stiffness, rest, rotation, spin, parameters, states, slopes):
-    """Extra radial force in N of the tyre, positive pushing the wheel up."""
-    return 0.0
+    """Extra radial force in N of the tyre, positive pushing the wheel up, and one that is no part of its load."""
+    return 0.0, 0.0
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)

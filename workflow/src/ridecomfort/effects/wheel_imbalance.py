@@ -16,9 +16,10 @@ effect = Effect(
         Parameter("rear", "kg m", 0.0, 0.01, (0.0, 0.05), "mass times eccentricity of a rear wheel"),
     ),
     symmetric=False,
+    also_returns=("shake",),
 )
 
 
 def act(wheel, deflection, velocity, stiffness, rest, rotation, spin, front, rear):
     imbalance = front if wheel < 2 else rear
-    return imbalance * spin * spin * wave(rotation + PHASE * wheel)
+    return 0.0, imbalance * spin * spin * wave(rotation + PHASE * wheel)

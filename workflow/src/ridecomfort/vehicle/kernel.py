@@ -302,7 +302,7 @@ def _vertical(
     per_step = 1.0 / (6.0 * step)
     rest = pose[Z] - car.cg_height + car.tyre_radius
     travel, corner_speed, lean = zeros(4), zeros(4), zeros(4)
-    held, deflection, rate, tyre_damper, radial = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    held, deflection, rate, tyre_damper, radial, shake = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     lean[0], lean[2] = wheel_z[0] - wheel_z[1], wheel_z[2] - wheel_z[3]
     lean[1], lean[3] = -lean[0], -lean[2]
     for i in range(4):
@@ -332,13 +332,14 @@ def _vertical(
         rate[i] = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
         radial[i] = car.tyre_stiffness * deflection[i] + tyre_damper[i] * rate[i]
     for i in range(4):
-        radial[i] += tyre_vertical_port(
+        extra, shake[i] = tyre_vertical_port(
             i, deflection[i], rate[i] - travel_rate[i] - corner_speed[i], car.tyre_stiffness, wheels[STATIC_DEFLECTION, i],
             rotation[i], spin[i], parameters, states, slopes,
         )  # fmt: skip
+        radial[i] += extra
     for i in range(4):
         # The wheel's own damping, implicit: its speed now is that before plus half a step of its change.
-        weight = wheels[MASS, i] * STANDARD_GRAVITY
+        weight = wheels[MASS, i] * STANDARD_GRAVITY - shake[i]
         damping = tyre_damper[i] + wheels[DAMPING, i]
         change = (radial[i] - held[i] - weight - damping * wheel_v[i]) / (wheels[MASS, i] + half * damping)
         pressing = radial[i] - tyre_damper[i] * (wheel_v[i] + half * change)
