@@ -177,7 +177,8 @@ def work(entry, rng):
         return -float(np.dot(forces[:6], speeds))
     if effect.port == "tyre_planar":
         load, speed = rng.uniform(0.0, 8000.0), rng.uniform(-40.0, 40.0)
-        return -entry.act(0, 0.0, 0.0, load, speed, 0.0, 0.0, *[0.0] * len(effect.states), *sizes)[2] * speed
+        nil = [0.0] * (len(effect.also_sees) + len(effect.states))
+        return -entry.act(0, 0.0, 0.0, load, speed, 0.0, 0.0, *nil, *sizes)[2] * speed
     if effect.port == "interconnection":
         motion = rng.normal(0.0, (0.01, 0.1), (4, 2))
         force = [entry.act(i, *motion[i], *motion[i ^ 2], *motion[i ^ 1], *motion[i ^ 3], *[0.0] * len(effect.states), *sizes) for i in range(4)]

@@ -8,7 +8,7 @@ import pytest
 from ridecomfort.effects.wave import wave
 from ridecomfort.vehicle.ground import Surface
 
-from tests.effects.whole import act, drive
+from tests.effects.whole import ENTRIES, act, drive
 from tests.vehicle.roads import road, rough
 
 STIFFNESS, REST = 280000.0, 0.0144
@@ -19,7 +19,8 @@ def vertical(name, deflection, *sizes, wheel=0, rotation=0.0, spin=0.0):
 
 
 def planar(name, *more, slip_x=0.0, slip_y=0.0, load=4000.0, speed=20.0, slope=0.0, force_x=0.0, wheel=0):
-    return act(name)(wheel, slip_x, slip_y, load, speed, slope, force_x, *more)
+    handed = [0.0] * len(ENTRIES[name].effect.also_sees)
+    return act(name)(wheel, slip_x, slip_y, load, speed, slope, force_x, *handed, *more)
 
 
 @pytest.mark.parametrize("wavelength", [2.0, 0.5, 0.3])
@@ -179,6 +180,34 @@ def test_wheel_on_bushings_passes_on_the_force_of_a_spring_and_a_mass(frequency)
     measured = 2 * np.mean(passed[last] * np.exp(-1j * turns * time[last]))
     held = 1 / compliance + 1j * turns * 2 * ratio * np.sqrt(mass / compliance)
     assert abs(measured - held / (held - mass * turns**2)) < 0.02 * abs(measured)
+
+
+@pytest.mark.parametrize("mass", [45.0, 120.0])
+@pytest.mark.parametrize("cause", [{"tyre_rolling_radius": {"per_load": 2e-5}}, {"tyre_local_slope": {"share": 1.0}}])
+def test_wheels_on_bushings_move_against_the_body_that_they_shake(car, mass, cause):
+    """On waves of half the wheelbase, on which all wheels are pushed alike. With V of the body, v of a wheel against it, a tyre that holds
+    back by Z (V + v) and bushings by K v, s = i w: (M s + 4 Z) V + 4 (Z + m s) v = 4 f and (Z + m s) V + (m s + K + Z) v = f."""
+    compliance, ratio, frequency = 2e-6, 0.1, 12.0
+    car = car.replace(pitch_inertia=40000.0)
+    wavelength = car["wheelbase"] / 2
+    ground = road(150.0, 0.02, height=lambda u, v: 5e-4 * np.sin(2 * np.pi * u / wavelength) + 0 * v)
+    bushings = {"wheel_compliance": {"front": compliance, "rear": compliance, "mass": mass, "damping_ratio": ratio}}
+    place = 0.0, 0.0, car["tyre_radius"] - car["cg_height"]
+
+    def shaken(effects):
+        seen = drive(ground, car, effects=effects, speed=frequency * wavelength, step=0.0005, sensor=place)
+        seen = seen.isel(time=(seen.s > 60.0) & (seen.s < 60.0 + 60 * wavelength))
+        return np.mean((seen.a_x - seen.a_x.mean()).values * np.exp(-2j * np.pi * seen.s.values / wavelength))
+
+    s = 2j * np.pi * frequency
+    total = car["sprung_mass"] + 2 * (car["unsprung_mass_front"] + car["unsprung_mass_rear"])
+    slip = car["longitudinal_slip_stiffness"] / car["tyre_reference_load"] * total * 9.81 / 4
+    tyre = slip / (frequency * wavelength + slip * car["tyre_radius"] ** 2 / (s * car["wheel_spin_inertia"]))
+    bushing = 2 * ratio * np.sqrt(mass / compliance) + 1 / compliance / s
+    matrix = [[total * s + 4 * tyre, 4 * (tyre + mass * s)], [tyre + mass * s, mass * s + bushing + tyre]]
+    expected = np.linalg.solve(matrix, [4.0, 1.0])[0] * (total * s + 4 * tyre) / 4
+    found = shaken(cause | bushings) - shaken(bushings)
+    assert abs(found / (shaken(cause) - shaken({})) - expected) < 0.1 * abs(expected)
 
 
 @pytest.mark.parametrize("speed", [3.0, 5.0, 15.0])

@@ -86,7 +86,9 @@ PORTS: Mapping[str, Port] = MappingProxyType(
             True,
             "longitudinal slip and tangent of the slip angle that the tyre answers to, and extra force in N that pulls "
             "the axle forward; load in N, speed in m/s, slope of the road under this wheel against the plane under "
-            "all four, force_x that the tyre had the step before (N)",
+            "all four, force_x that the tyre had the step before (N). Where asked for: `surge`, the acceleration forward of the body where "
+            "the wheel is (m/s2), and the `pull` so far",
+            ("surge", "pull"),
         ),
         "body": Port(
             ("motion",),

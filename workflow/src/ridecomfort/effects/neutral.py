@@ -47,7 +47,7 @@ def tyre_vertical_port(wheel, deflection, velocity, stiffness, rest, rotation, s
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
-def tyre_planar_port(wheel, slip_x, slip_y, load, speed, slope, force_x, parameters, states, slopes):
+def tyre_planar_port(wheel, slip_x, slip_y, load, speed, slope, force_x, surge, parameters, states, slopes):
     """Longitudinal slip and tangent of the slip angle that the tyre's force answers to, extra force in N forward."""
     return slip_x, slip_y, 0.0
 

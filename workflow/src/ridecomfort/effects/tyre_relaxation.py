@@ -13,7 +13,7 @@ effect = Effect(
         Parameter("lateral", "m", 0.0, 0.5, (0.0, 1.2), "relaxation length of the slip angle"),
     ),
     states=("slip_x", "slip_y"),
-    order=1,
+    order=2,
 )
 
 

@@ -26,16 +26,18 @@ effect = Effect(
         Parameter("damping_ratio", "1", 0.1, 0.1, (0.02, 0.4), "damping ratio of the bushings with that mass"),
     ),
     states=("place", "rate"),
+    order=1,
+    also_sees=("surge", "pull"),
 )
 
 
-def act(wheel, slip_x, slip_y, load, speed, slope, force_x, place, rate, front, rear, mass, damping_ratio):
+def act(wheel, slip_x, slip_y, load, speed, slope, force_x, surge, pull, place, rate, front, rear, mass, damping_ratio):
     compliance = front if wheel < 2 else rear
     integrated = max(compliance, 1.0 / (mass * FASTEST * FASTEST))
     share = compliance / integrated
     stiffness = 1.0 / integrated
     damping = 2.0 * damping_ratio * sqrt(stiffness * mass)
     pace = max(abs(speed), 1.0)
-    acceleration = (force_x - stiffness * place - damping * rate) / max(mass, SLIPPING * load / pace)
+    acceleration = (force_x + pull - mass * surge - stiffness * place - damping * rate) / max(mass, SLIPPING * load / pace)
     slip_x -= share * rate / pace
     return slip_x, slip_y, -share * mass * acceleration, rate, acceleration

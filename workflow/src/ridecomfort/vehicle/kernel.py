@@ -128,7 +128,7 @@ def _drive(
     wheel_z, wheel_v, wheel_change, spin, spin_change, rotation = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     force_x, force_y, load, torque, suspension = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     travel_rate, recession, toe, scrub, fore_push, side_push = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
-    ground = zeros(4, 4)
+    ground, before, surging = zeros(4, 4), zeros(6), zeros(6)
     half = 0.5 * step
     _settle(
         car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
@@ -167,8 +167,11 @@ def _drive(
             force_x, force_y, fore_push, side_push, parameters, states, slopes, load, suspension, travel_rate,
             recession, toe, scrub,
         )  # fmt: skip
+        for k in range(6):
+            surging[k] = 2.0 * change[k] - before[k]
+            before[k] = change[k]
         _planar(
-            car, wheels, now, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
+            car, wheels, now, surging, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
             friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
         )  # fmt: skip
         flex_x, flex_y, flex_z = _accelerate(
@@ -355,12 +358,13 @@ def _vertical(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _planar(
-    car, wheels, now, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
+    car, wheels, now, surging, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
     friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
 ):  # fmt: skip
     """Driving torque of every wheel and force of its tyre along the road; their spin is advanced.
 
-    ``side_push``: the side force carried on to the next step.
+    ``surging``: the acceleration of the body, carried on from the two steps before: that of the step before would make a wheel swing that moves
+    on bushings. ``side_push``: the side force carried on to the next step.
     """
     sine, cosine = sin_cos(angle)
     half = 0.5 * step
@@ -369,7 +373,7 @@ def _planar(
     share_front = car.drive_share_front if demand > 0.0 else car.brake_share_front
     ahead, aside, share = zeros(4), zeros(4), zeros(4)
     c, d, rolling, per_speed, pushed = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
-    slip_x, slip_y, slope, pull = zeros(4), zeros(4), zeros(4), zeros(4)
+    slip_x, slip_y, slope, pull, surge = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     for i in range(4):
         ahead[i] = cosine if i < 2 else 1.0
         aside[i] = sine if i < 2 else 0.0
@@ -387,9 +391,10 @@ def _planar(
         pushed[i] = (torque[i] - car.spin_inertia * spin_change[i]) * per_radius
         slip_x[i] = (spin[i] * car.tyre_radius - rolling[i]) * per_speed[i]
         slip_y[i] = -sliding * per_speed[i]
+        surge[i] = surging[V_X] - now[YAW_RATE] * now[V_Y] - wheels[Y, i] * surging[YAW_RATE] - car.pitch_arm * surging[PITCH_RATE]
     for i in range(4):
         slip_x[i], slip_y[i], pull[i] = tyre_planar_port(
-            i, slip_x[i], slip_y[i], load[i], rolling[i], slope[i], pushed[i], parameters, states, slopes,
+            i, slip_x[i], slip_y[i], load[i], rolling[i], slope[i], pushed[i], surge[i], parameters, states, slopes,
         )  # fmt: skip
     for i in range(4):
         tyre_x, tyre_y, give = brush(
