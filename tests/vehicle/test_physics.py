@@ -44,20 +44,24 @@ def test_on_a_grade_the_axles_carry_what_moments_demand(car, slope):
 
 
 @pytest.mark.parametrize("bank", [0.05, -0.05])
-def test_on_a_bank_the_lower_side_carries_more(car, bank):
+@pytest.mark.parametrize("roll_centres", [(0.0, 0.0), (0.06, 0.10), (0.3, 0.3)])
+def test_on_a_bank_the_lower_side_carries_more(car, bank, roll_centres):
+    """By the moment about the road of all weights: of the body at its centre of gravity, of the wheels at their own centres."""
+    car = car.replace(**dict(zip(("roll_centre_height_front", "roll_centre_height_rear"), roll_centres)))
     drive = watched(car, road(120.0, height=lambda u, v: bank * v + 0 * u), 10.0)
     load = drive["load"][-1]
     moment = (load[0] - load[1] + load[2] - load[3]) * car["track_front"] / 2
     lean = drive["roll"][-1] - bank
     arm = car["cg_height"] - (car["roll_centre_height_front"] + car["roll_centre_height_rear"]) / 2
     expected = -car["sprung_mass"] * G * (car["cg_height"] * bank + arm * lean)
-    assert moment == pytest.approx(expected, rel=0.02)
+    expected -= 2 * (car["unsprung_mass_front"] + car["unsprung_mass_rear"]) * G * car["tyre_radius"] * bank
+    assert moment == pytest.approx(expected, rel=0.005)
 
 
 @pytest.mark.parametrize("bank", [0.05, -0.05])
 @pytest.mark.parametrize("roll_centres", [(0.0, 0.0), (0.06, 0.10)])
 def test_on_a_bank_the_body_leans_down_it_by_its_weight_over_the_roll_stiffness(car, bank, roll_centres):
-    """Against the road by m g arm (bank + lean) over springs and bars in series with the tyres, and what the links take over these."""
+    """Against the road by m g arm (bank + lean) over springs and bars in series with the tyres, and what the links and the wheels' own weight put on the tyres alone."""
     car = car.replace(**dict(zip(("roll_centre_height_front", "roll_centre_height_rear"), roll_centres)))
     drive = watched(car, road(120.0, height=lambda u, v: bank * v + 0 * u), 10.0)
     half = np.array([car["track_front"], car["track_rear"]]) / 2
@@ -68,7 +72,8 @@ def test_on_a_bank_the_body_leans_down_it_by_its_weight_over_the_roll_stiffness(
     weight = car["sprung_mass"] * G * np.array([1 - rear, rear])
     tilting = np.sum(weight * (car["cg_height"] - np.array(roll_centres)))
     stiffness = springs * tyres / (springs + tyres)
-    links = np.sum(weight * roll_centres * stiffness / tyres)
+    wheels = 2 * G * car["tyre_radius"] * np.array([car["unsprung_mass_front"], car["unsprung_mass_rear"]])
+    links = np.sum((weight * roll_centres + wheels) * stiffness / tyres)
     expected = bank * (tilting + links) / (stiffness.sum() - tilting)
     assert drive["roll"][-1] - bank == pytest.approx(expected, rel=0.01)
 
@@ -116,12 +121,14 @@ def test_steady_cornering_is_that_of_the_single_track_model(car, radius):
     assert side_slip == pytest.approx((base - front) / radius - slip, rel=0.05, abs=2e-4)
 
 
-def test_load_transfer_in_a_bend_balances_the_moment_about_the_road(car):
+@pytest.mark.parametrize("roll_centres", [(0.0, 0.0), (0.06, 0.10), (0.3, 0.3)])
+def test_load_transfer_in_a_bend_balances_the_moment_about_the_road(car, roll_centres):
+    car = car.replace(**dict(zip(("roll_centre_height_front", "roll_centre_height_rear"), roll_centres)))
     radius, speed = 120.0, 14.0
     drive = watched(car, road(200.0, curvature=1.0 / radius), speed)
     side = drive["acceleration"][-1, 1] + drive["speeds"][-1, 2] * drive["speeds"][-1, 0]
     wheels = reference.Car(car)
     moment = np.sum(wheels.y * drive["load"][-1])
     lean = car["sprung_mass"] * G * np.mean(wheels.arm) * drive["roll"][-1]
-    inertia = side * (car["sprung_mass"] * car["cg_height"] + np.sum(wheels.wheel_mass * wheels.roll_centre))
-    assert -moment == pytest.approx(inertia + lean, rel=0.02)
+    inertia = side * (car["sprung_mass"] * car["cg_height"] + wheels.wheel_mass.sum() * wheels.radius)
+    assert -moment == pytest.approx(inertia + lean, rel=0.005)

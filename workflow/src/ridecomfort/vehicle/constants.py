@@ -9,9 +9,10 @@ import numpy as np
 from ..vocabulary import STANDARD_GRAVITY
 from .parameters import Vehicle
 
-(X, Y, MASS, SPRING, DAMPING, ANTI_ROLL, ROLL_CENTRE, ROLL_ARM, SCRUB, STATIC_FORCE, STATIC_DEFLECTION) = range(11)
+(X, Y, MASS, SPRING, DAMPING, ANTI_ROLL, ROLL_CENTRE, ROLL_ARM, SCRUB, STATIC_FORCE, STATIC_DEFLECTION, OVERTURNING) = range(12)
 """Rows of the table of wheels (`wheel_table`). ANTI_ROLL: N per metre of difference between the sides. ROLL_ARM: height
-of the centre of gravity above the roll centre. SCRUB: how far the contact moves sideways per travel."""
+of the centre of gravity above the roll centre. SCRUB: how far the contact moves sideways per travel.
+OVERTURNING: kg; what lifts a wheel per acceleration of its mass aside, which acts at its centre."""
 
 
 class Constants(NamedTuple):
@@ -49,13 +50,13 @@ class Constants(NamedTuple):
 
 
 def wheel_table(vehicle: Vehicle) -> np.ndarray:
-    """Constants of each wheel, shape (11, 4): front left, front right, rear left, rear right."""
+    """Constants of each wheel, shape (12, 4): front left, front right, rear left, rear right."""
     axles = lambda name: np.repeat([vehicle[f"{name}_front"], vehicle[f"{name}_rear"]], 2)
     front = vehicle["cg_to_front_axle"]
     rear = front - vehicle["wheelbase"]
     track, mass = axles("track"), axles("unsprung_mass")
     load = static_loads(vehicle)
-    table = np.empty((11, 4))
+    table = np.empty((12, 4))
     table[X] = [front, front, rear, rear]
     table[Y] = np.array([1, -1, 1, -1]) * track / 2
     table[MASS] = mass
@@ -67,6 +68,7 @@ def wheel_table(vehicle: Vehicle) -> np.ndarray:
     table[SCRUB] = axles("roll_centre_height") / table[Y]
     table[STATIC_FORCE] = load
     table[STATIC_DEFLECTION] = (load + mass * STANDARD_GRAVITY) / vehicle["tyre_radial_stiffness"]
+    table[OVERTURNING] = mass * vehicle["tyre_radius"] / table[Y]
     return table
 
 

@@ -37,6 +37,7 @@ from ridecomfort.vehicle.constants import (
     ANTI_ROLL,
     DAMPING,
     MASS,
+    OVERTURNING,
     ROLL_ARM,
     ROLL_CENTRE,
     SCRUB,
@@ -162,14 +163,15 @@ def _drive(
             wheels, surface, elevation, pose, pose_rate, curvature, step, spin, rotation, parameters, states, slopes, ground
         )
         slope_x, slope_y = _plane(car, ground[1])
-        _vertical(
-            car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
-            force_x, force_y, fore_push, side_push, parameters, states, slopes, load, suspension, travel_rate,
-            recession, toe, scrub,
-        )  # fmt: skip
+        # The acceleration of the body, carried on: that of the step before would make wheels on soft bushings swing.
         for k in range(6):
             surging[k] = 2.0 * change[k] - before[k]
             before[k] = change[k]
+        _vertical(
+            car, wheels, pose, now, change, slope_y, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
+            force_x, force_y, fore_push, side_push, parameters, states, slopes, load, suspension, travel_rate,
+            recession, toe, scrub,
+        )  # fmt: skip
         _planar(
             car, wheels, now, surging, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
             friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
@@ -296,11 +298,11 @@ def _feel(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _vertical(
-    car, wheels, pose, now, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
+    car, wheels, pose, now, change, slope_y, wheel_z, wheel_v, wheel_change, spin, rotation, ground, step,
     force_x, force_y, fore_push, side_push, parameters, states, slopes, load, suspension, travel_rate,
     recession, toe, scrub,
 ):  # fmt: skip
-    """Load of every tyre, force of every suspension (N, positive pushing apart), motion of every wheel, way of its links."""
+    """Load of every tyre, force of every suspension (N, positive pushing apart), motion of every wheel, way of its links; ``change``: of the step before."""
     half = 0.5 * step
     per_step = 1.0 / (6.0 * step)
     rest = pose[Z] - car.cg_height + car.tyre_radius
@@ -340,17 +342,21 @@ def _vertical(
             rotation[i], spin[i], parameters, states, slopes,
         )  # fmt: skip
         radial[i] += extra
+    moving = now[V_X] * now[YAW_RATE] + change[V_Y]
     for i in range(4):
+        # Moved aside, and on a bank, its mass acts at its centre, and takes its part of what the tyre gives to the links: the body does not feel it.
+        aside = moving + wheels[X, i] * change[YAW_RATE] + wheels[ROLL_ARM, i] * change[ROLL_RATE]
+        overturning = wheels[OVERTURNING, i] * (aside + STANDARD_GRAVITY * slope_y) - wheels[MASS, i] * wheels[SCRUB, i] * aside
         # The wheel's own damping, implicit: its speed now is that before plus half a step of its change.
-        weight = wheels[MASS, i] * STANDARD_GRAVITY - shake[i]
+        weight = wheels[MASS, i] * STANDARD_GRAVITY - shake[i] - overturning
         damping = tyre_damper[i] + wheels[DAMPING, i]
-        change = (radial[i] - held[i] - weight - damping * wheel_v[i]) / (wheels[MASS, i] + half * damping)
-        pressing = radial[i] - tyre_damper[i] * (wheel_v[i] + half * change)
+        pushed = (radial[i] - held[i] - weight - damping * wheel_v[i]) / (wheels[MASS, i] + half * damping)
+        pressing = radial[i] - tyre_damper[i] * (wheel_v[i] + half * pushed)
         # In the air it is held by its own damper alone.
         lifted = pressing < 0.0 or deflection[i] <= 0.0
         free = (-held[i] - weight - wheels[DAMPING, i] * wheel_v[i]) / (wheels[MASS, i] + half * wheels[DAMPING, i])
         load[i] = 0.0 if lifted else pressing
-        wheel_change[i] = free if lifted else change
+        wheel_change[i] = free if lifted else pushed
         wheel_speed = wheel_v[i] + half * wheel_change[i]
         suspension[i] = held[i] + wheels[DAMPING, i] * wheel_speed
         travel_rate[i] = wheel_speed - corner_speed[i]
@@ -363,8 +369,7 @@ def _planar(
 ):  # fmt: skip
     """Driving torque of every wheel and force of its tyre along the road; their spin is advanced.
 
-    ``surging``: the acceleration of the body, carried on from the two steps before: that of the step before would make a wheel swing that moves
-    on bushings. ``side_push``: the side force carried on to the next step.
+    ``surging``: the acceleration of the body, carried on. ``side_push``: the side force carried on to the next step.
     """
     sine, cosine = sin_cos(angle)
     half = 0.5 * step
@@ -452,8 +457,7 @@ def _accelerate(
     yaw += v_y * momentum_x - v_x * momentum_y
     roll -= car.unsprung_roll * r * v_x
     pitch -= car.unsprung_mass * car.pitch_arm * r * v_y
-    # What is shaken by the body (an engine on its mounts) answers to the acceleration of this step. Each round leaves, of the error
-    # of the one before, the share of the inertia that it takes away: up to two thirds.
+    # What is shaken by the body (an engine on its mounts) answers to the acceleration of this step: a round leaves up to two thirds of the error.
     for _ in range(4):
         motion = BodyMotion(
             pose[S], now[V_X], now[V_Y], now[V_Z], pose[ROLL], pose[PITCH],

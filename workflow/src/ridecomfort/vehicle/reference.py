@@ -15,24 +15,27 @@ Equations of motion in these moving axes (Boltzmann-Hamel; T is the kinetic ener
     d/dt dT/dv_x - r dT/dv_y                     = sum F_x
     d/dt dT/dv_y + r dT/dv_x                     = sum F_y
     d/dt dT/dr   + v_x dT/dv_y - v_y dT/dv_x     = sum (x F_y - y F_x)
-    d/dt dT/dp   + sum (m_i arm) r v_x           = sum (h F_y + (y + aside) S)
+    d/dt dT/dp   + sum (m_i arm) r v_x           = sum (h F_y - h_roll m_i a_i + (y + aside) S)
     d/dt dT/dw   + sum (m_i h_wheel) r v_y       = -sum (h_wheel F_x + T_i + (x + ahead) S)
     m_s (dv_z/dt + g)                            = sum S
-    m_i (d2z_i/dt2 + g)                          = N_i - S_i
+    m_i (d2z_i/dt2 + g)                          = N_i - S_i + R / y_i m_i (a_i + g bank)
     J_i d(spin_i)/dt                             = T_i - R F_i
 
 S: suspension force (with the push of the links), N: load of the tyre, F: its force in the
 plane, T: driving torque, which the body takes up; h, h_wheel: heights of the centre of gravity
-above the road and above the wheel centres. A slope tilts the load: its level part is -N times
+above the road and above the wheel centres, h_roll: of the roll centre above the road; a_i: acceleration of a wheel
+sideways, bank: slope of the road to the left. A slope tilts the load: its level part is -N times
 the slope of the plane through the four contacts. The radial damping of a tyre builds up over
 the first CONTACT_DEPTH of its deflection. ``aside`` and ``ahead`` are how far the loads
 move under the centre of gravity as body and road tilt. The unsprung masses move sideways at the
-roll centre (arm below the centre of gravity).
+roll centre (arm below the centre of gravity). Links that swing about the roll centre move a wheel's centre aside by
+(h_roll - R) / y per metre that it rises, its contact by h_roll / y: the side force less the mass's m_i (a_i + g bank) lifts it by
+h_roll / y, and that mass, at the height of the centre, by R / y.
 
 Time: leapfrog. Positions at full steps, speeds half a step later; where a force depends on a
 speed, the speed is carried half a step on with the last acceleration, except that of the
 wheels up and down and in spin, which are solved for (their damping is stiff). The push of the
-links takes the side force carried on from the step before.
+links takes the side force carried on from the step before, a wheel's inertia aside the body's last acceleration.
 """
 
 from __future__ import annotations
@@ -171,16 +174,18 @@ def drive(
         travel = wheel_z - corner_z
         twist = (wheel_z - wheel_z[[1, 0, 3, 2]]) - 2 * car.y * roll
         spring = car.held + car.spring * travel + car.bar * twist - car.damper * corner_v
-        spring = spring - car.scrub * side_push
+        wheel_side = acceleration[1] + r * v_x + car.x * acceleration[2] + car.arm * acceleration[4]
+        spring = spring - car.scrub * (side_push - car.wheel_mass * wheel_side)
         deflection = ground[0] + car.radius - wheel_z
         tyre_damper = car.tyre_damping * np.clip(deflection / CONTACT_DEPTH, 0.0, 1.0)
         tyre = car.tyre_stiffness * deflection + tyre_damper * ground_rate
         weight = car.wheel_mass * STANDARD_GRAVITY
+        bearing = weight - car.wheel_mass * (wheel_side + STANDARD_GRAVITY * slope_y) * car.radius / car.y
         damping = tyre_damper + car.damper
-        wheel_acceleration = (tyre - spring - weight - damping * wheel_v) / (car.wheel_mass + step / 2 * damping)
+        wheel_acceleration = (tyre - spring - bearing - damping * wheel_v) / (car.wheel_mass + step / 2 * damping)
         load = tyre - tyre_damper * (wheel_v + step / 2 * wheel_acceleration)
         lifted = (load < 0) | (deflection <= 0)
-        free = (-spring - weight - car.damper * wheel_v) / (car.wheel_mass + step / 2 * car.damper)
+        free = (-spring - bearing - car.damper * wheel_v) / (car.wheel_mass + step / 2 * car.damper)
         load = np.where(lifted, 0.0, load)
         wheel_acceleration = np.where(lifted, free, wheel_acceleration)
         wheel_now = wheel_v + step / 2 * wheel_acceleration
@@ -218,7 +223,12 @@ def drive(
                 np.sum(force_y) - r * momentum[0],
                 np.sum(car.x * force_y - car.y * force_x) - v_x * momentum[1] + v_y * momentum[0],
                 np.sum(suspension) - car.body_mass * STANDARD_GRAVITY,
-                np.sum(car.height * force_y + (car.y + aside) * suspension - car.arm * turning_wheels * v_x),
+                np.sum(
+                    car.height * force_y
+                    - car.roll_centre * car.wheel_mass * wheel_side
+                    + (car.y + aside) * suspension
+                    - car.arm * turning_wheels * v_x
+                ),
                 -np.sum(
                     car.wheel_height * (force_x + turning_wheels * v_y)
                     + torque
