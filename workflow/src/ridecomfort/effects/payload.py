@@ -6,7 +6,8 @@ effect = Effect(
     name="payload",
     sentence=(
         "Passengers and luggage add mass where they sit: the centre of gravity moves towards them and the inertia "
-        "grows by the parallel-axis theorem."
+        "grows by the parallel-axis theorem. The car stands as high as without them, as one that levels itself; on plain springs the "
+        "centre of gravity would also sink by a centimetre or so per 100 kg."
     ),
     source="parallel-axis theorem; 75 kg for an occupant as in ISO 2416:1992",
     port="vehicle",
