@@ -258,6 +258,13 @@ def test_what_is_wrong_is_said_in_one_line(given, words):
         assert word in message, message
 
 
+@pytest.mark.parametrize(("scale", "rate"), [(1e3, "0.1"), (1e6, "0.0001"), (1e9, "1e-07"), (86400.0, "0.00116")])
+def test_time_in_a_finer_unit_than_it_is_told_in_is_refused_before_it_is_sampled(scale, rate):
+    given = {name: (scale * time, values) for name, (time, values) in quantities().items()}
+    with pytest.raises(InputError, match=rf"^drive.csv: time of a_x: {rate} samples per second \(expected 2 or more; is the unit of time right\?\)$"):
+        record.from_arrays(given, file="drive.csv")
+
+
 def test_gravity_that_is_not_where_it_is_said_to_be_is_refused():
     with pytest.raises(InputError, match=r"a_z: mean 9.8.* gravity: False"):
         record.from_arrays(quantities(), gravity=False)

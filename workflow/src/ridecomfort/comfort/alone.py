@@ -28,9 +28,6 @@ HEIGHTS = ("left", "right", "elevation")
 LARGEST_MEAN, LARGEST_RMS = 20.0, 30.0
 """m/s2; an acceleration whose mean, or rms about it, lies beyond is in another unit: no passenger bears it."""
 
-SLOWEST_RATE = 2.0
-"""Hz; accelerations that are recorded more slowly hold nothing of ride comfort: the time is in another unit."""
-
 SLOWEST_WEIGHTED, FASTEST_WEIGHTED = 0.5, 80.0
 """Hz; the vibration that comfort and health are told of (ISO 2631-1:1997, 6.4.1)."""
 
@@ -98,10 +95,10 @@ def recording(file, settings: Mapping | None = None) -> xr.Dataset:
     sampling.check_clock(clock, file=file)
     start, interval, _ = sampling.require_uniform(clock, file=file)
     rate = 1.0 / interval
-    if rate < SLOWEST_RATE:
+    if rate < sampling.SLOWEST_RATE:
         column = columns["time"]["column"]
         raise InputError(
-            f"{rate:.3g} samples per second (expected {SLOWEST_RATE:g} or more; is the time in s? Name its unit in brackets behind "
+            f"{rate:.3g} samples per second (expected {sampling.SLOWEST_RATE:g} or more; is the time in s? Name its unit in brackets behind "
             "the name of the column, as in time [ms])",
             file=file,
             place=f"column {column!r}",

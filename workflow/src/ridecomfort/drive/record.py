@@ -93,6 +93,12 @@ def from_arrays(
                 f"{quantity} has shape {values.shape} where its time has {time.shape}", file=file, place=name
             )
         sampling.check_clock(time, file=file, place=f"time of {quantity}")
+        own_rate = sampling.rate_of(time)
+        if quantity in SIGNALS and own_rate < sampling.SLOWEST_RATE:  # at the rate of the study it may not fit into memory
+            raise InputError(
+                f"{own_rate:.3g} samples per second (expected {sampling.SLOWEST_RATE:g} or more; is the unit of time right?)",
+                file=file, place=f"time of {quantity}",
+            )  # fmt: skip
         _check_values(quantity, time, values, file=file)
         arrays[quantity] = time, values
     if "s" in arrays and "v_x" in arrays:

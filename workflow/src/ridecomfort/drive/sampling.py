@@ -15,6 +15,9 @@ LARGEST_JITTER, NEIGHBOURS, FARTHEST_STAMP = 0.2, 11, 0.5
 """Largest rms distance of NEIGHBOURS consecutive time stamps from a uniform clock, in sampling intervals, for inertial signals, and the largest of
 one alone. A sample that is missing moves all that follow; a stamp that a computer gave late moves itself alone."""
 
+SLOWEST_RATE = 2.0
+"""Hz; accelerations that are recorded more slowly hold nothing of ride comfort: the time is in another unit."""
+
 LARGEST_SHIFT = 0.02
 """Distance in intervals within which samples stand on a clock: at 20 Hz and 100 Hz sampling a phase of 1.4 degrees."""
 
