@@ -94,5 +94,15 @@ def test_no_state_is_forgiven_more_than_alignment_may_be_off_by(road, nominal, t
     assert found["clock_correction"].item() == pytest.approx(0.001)
 
 
+def test_a_distance_that_jitters_is_no_noise_of_the_signals(road, nominal, tmp_path):
+    """What a wrong vehicle gets wrong is the same in both repeats, though their places jitter by 0.1 m from sample to sample."""
+    drive, random = measured(road, nominal.replace(damping_front=1500.0), tmp_path), np.random.default_rng(5)
+    repeats = [drive.assign(s=drive["s"] + 0.1 * random.standard_normal(drive.sizes["time"])).assign_attrs(name=name) for name in ("one", "two")]
+    found = compare.compare(repeats, road, {"reference": (nominal, {})}, simulate=quarter_cars.run)
+    assert (np.diff(found["s"].values) > 0).all()
+    share = found["floor_rmse"] / found["rmse"].isel(state=0)
+    assert (share.sel(signal=["roll_rate", "pitch_rate"]) < 0.15).all() and (share < 0.7).all()
+
+
 def test_without_a_calibration_nothing_is_changed(nominal):
     assert calibrated.apply(None, nominal, {"payload": {"mass": 100.0}}) == (nominal, {"payload": {"mass": 100.0}})

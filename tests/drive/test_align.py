@@ -61,6 +61,15 @@ def test_clock_is_found_to_better_than_a_millisecond(drive, road, nominal, clock
     assert found.attrs["clock_offset"] == pytest.approx(clock, abs=0.5e-3)
 
 
+def test_a_distance_that_is_held_until_the_next_is_known_delays_no_clock(drive, road, nominal):
+    recorded = quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL)
+    time = drive["time"].values
+    held = np.interp(np.floor(time / 0.1 + 1e-6) * 0.1, time, drive["s"].values)
+    quantities = {name: (time, recorded[name].values) for name in (*SIGNALS, "v_x")}
+    found = aligned(record.from_arrays(quantities | {"s": (time, held)}, lateral_position=LATERAL), road, nominal)
+    assert found.attrs["clock_offset"] == pytest.approx(0.0, abs=2e-3)
+
+
 def test_all_errors_at_once_are_found(drive, road, nominal):
     recorded = quarter_cars.recorded(
         drive,

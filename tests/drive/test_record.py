@@ -182,6 +182,28 @@ def test_a_distance_that_is_held_jumps_by_a_metre_or_is_told_beside_a_speed_in_a
     record.from_arrays(quantities(s=(TIME[::10], 20 * TIME[::10]), v_x=(TIME, 72 + 0 * TIME)))
 
 
+@pytest.mark.parametrize("hold", [0.1, 0.25, 1.0])
+def test_a_place_that_is_held_until_the_next_is_known_is_that_of_its_changes(hold):
+    driven = lambda time: 20 * time + 1.5 * np.sin(0.8 * time)
+    aside = lambda time: 0.5 * np.sin(0.4 * time)
+    known = hold * np.floor(TIME / hold + 1e-6)
+    drive = record.from_arrays(quantities(s=(TIME, driven(known)), v_x=(TIME, np.gradient(driven(TIME), TIME)), e=(TIME, aside(known))))
+    time = drive["time"].values + drive.attrs["start_time"]
+    assert np.abs(drive["s"].values - driven(time)).max() < 0.15 * hold**2  # of a line between its changes, an eighth of the acceleration
+    assert np.abs(drive["e"].values - aside(time)).max() < 0.02 * hold**2
+    assert drive.attrs["treatment"].count(f"held for {hold:.3g} s at a time") == 2
+    assert time[0] == pytest.approx(hold, abs=0.011) and time[-1] > TIME[-1] - 1.1 * hold
+
+
+def test_a_place_that_is_rounded_or_seldom_changes_stays_as_it_is():
+    aside = np.where(TIME < 8, 0.1, np.where(TIME < 13, 0.4, np.where(TIME < 16, 0.2, 0.0)))
+    given = quantities(s=(TIME, np.round(20 * TIME + 1.5 * np.sin(0.8 * TIME))), e=(TIME, aside))
+    drive = record.from_arrays(given)
+    assert drive.attrs["treatment"] == "none"
+    for name in ("s", "e"):
+        np.testing.assert_allclose(drive[name].values, given[name][1], rtol=0, atol=1e-9)
+
+
 def test_a_distance_that_goes_on_where_no_speed_was_recorded_is_no_jump():
     middle = (TIME >= 5) & (TIME <= 15)
     seldom = TIME[::20]

@@ -60,7 +60,7 @@ def compare(
 
     Returns over drive, time, signal, state: ``measured`` and ``simulated`` (unit by signal in
     ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
-    recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s``, ``e``, ``role``, ``cut_off``,
+    recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s`` (by ``replay.fused_place``), ``e``, ``role``, ``cut_off``,
     of the last state ``suspension_velocity``, ``tyre_velocity``, ``road_heave`` and ``road_tilt`` (``wheels.wheels``), and
     the floor and the explainable error (``explain.explain``, which ``noise_density`` and ``elsewhere`` are for). ``each`` maps a function over drives
     (``map``, or that of threads).
@@ -80,8 +80,8 @@ def compare(
         count = drive.sizes["time"]
         again = pedals.listening(replay(drive, road, simulate, options=options), *list(states.values())[-1]).replay
         measured[i, :, :count], by_foot[i] = again.measured(), again.by_foot
-        for name in DRIVEN:
-            series[name][i, :count] = drive[name].values
+        for name, values in zip(DRIVEN, (drive["v_x"].values, again.place, drive["e"].values)):  # a recorded distance may stand and leap
+            series[name][i, :count] = values
         for j, (vehicle, effects) in enumerate(states.values()):
             clock[j, i], difference = _at_best_clock(again, vehicle, effects)
             residual[j, i, :, :count] = difference

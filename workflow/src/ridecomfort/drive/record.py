@@ -43,6 +43,9 @@ JUMP, FASTER = 3.0, 0.2
 """m, and share of what the recorded speed drives, by which the distance may change otherwise from one sample to the next: the fix of a
 receiver jumps by a metre or two."""
 
+LONGEST_HOLD = 1.1
+"""s for which a faster table usually holds a place until the next is known, at most: receivers tell one a second or more."""
+
 SAME_RATE = 1e-4
 """Relative difference up to which rates are the same, each told from the times of its drive."""
 
@@ -68,7 +71,8 @@ def from_arrays(
     ``quantities`` maps a name of ``vocabulary.DRIVE`` to (time in s, values); all six
     ``SIGNALS`` and at least one of ``v_x`` and ``s`` are needed. The stretch that all
     of them cover is brought to ``rate`` (Hz): inertial signals through an anti-alias
-    filter, all through the same, speed and place linearly. ``s`` that is missing is integrated from ``v_x``
+    filter, all through the same, speed and place linearly; a place that is held until the next is known (``_unheld``) between its changes.
+    ``s`` that is missing is integrated from ``v_x``
     beginning at ``distance_start`` (m), which is the way driven until ``align`` makes a place on the road of it, ``v_x`` that is missing is the derivative of ``s``.
     ``sensor`` is the place of the accelerometer in m from the centre of gravity.
 
@@ -103,6 +107,7 @@ def from_arrays(
         arrays[quantity] = time, values
     if "s" in arrays and "v_x" in arrays:
         _check_way(*arrays["s"], *arrays["v_x"], file=file)
+    arrays, held = _unheld(arrays)
     first = max(time[0] for time, _ in arrays.values())
     last = min(time[-1] for time, _ in arrays.values())
     start, interval, _ = sampling.uniform_clock(arrays["a_z"][0])
@@ -113,6 +118,7 @@ def from_arrays(
         raise InputError(f"the clocks of its quantities overlap by {max(last - first, 0):.3g} s", file=file, place=name)
     time = first + np.arange(count) / rate
     columns, treatment, cut_off = _inertial({name: arrays[name] for name in SIGNALS}, time, rate, file=file)
+    treatment += held
     for quantity, (clock, values) in arrays.items():
         if quantity not in SIGNALS:
             columns[quantity] = sampling.resample_slow(clock, values, time, file=file, place=f"time of {quantity}")
@@ -142,6 +148,27 @@ def from_arrays(
         faults="; ".join(faults.found({name: arrays[name] for name in SIGNALS})),
     )
     return check(describe(drive), file=file)
+
+
+def _unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> tuple[dict, list[str]]:
+    """The same with a place that a faster table holds until the next is known, as that of a receiver, linear between the values where it changes,
+    which are those of their time, and what was done; ``s`` from its first change to its last.
+
+    Values that lie whole steps apart were rounded: where one changes it is half a step off.
+    """
+    result, done = dict(arrays), []
+    for name in ("s", "e"):
+        time, values = arrays.get(name, (np.empty(0), np.empty(0)))
+        known = 1 + np.flatnonzero(np.diff(values))
+        if len(known) < 3 or np.median(np.diff(known)) < 2 or (hold := np.median(np.diff(time[known]))) > LONGEST_HOLD:
+            continue
+        steps = (values[known] - values[0]) / np.median(np.abs(np.diff(values[known])))
+        if np.allclose(steps, np.round(steps), rtol=0.0, atol=0.01):
+            continue
+        kept = slice(known[0], known[-1] + 1) if name == "s" else slice(None)
+        result[name] = time[kept], np.interp(time[kept], time[known], values[known])
+        done.append(f"{name}, held for {hold:.3g} s at a time, interpolated between its changes")
+    return result, done
 
 
 def _inertial(signals: Mapping[str, tuple[np.ndarray, np.ndarray]], time: np.ndarray, rate: float, *, file) -> tuple[dict, list[str], float]:
