@@ -149,6 +149,17 @@ def test_a_path_farther_from_what_is_told_than_is_searched_is_refused(lanes, nom
         aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=0.0, name="own"), road, nominal)
 
 
+@pytest.mark.parametrize("told", [-15.0, -3.2, 3.0, 3.2, 15.0])
+@pytest.mark.parametrize("is_recorded", [False, True])
+def test_a_path_that_lies_off_the_road_is_refused_however_far(drive, road, nominal, told, is_recorded):
+    """Half the vehicle keeps on this road from 1.1 m to the right to 1.1 m to the left of its middle."""
+    recorded = quarter_cars.recorded(drive, name="own", lateral_position=np.nan if is_recorded else told)
+    if is_recorded:
+        recorded["e"] = recorded["e"].copy(data=np.where(recorded["time"] < 5.0, 0.0, told))
+    with pytest.raises(InputError, match=rf"^drive own: its path, as recorded or told, lies .*[+-]{abs(told):.2f} .*m to the left .*expected -1.10 to \+1.10 m"):
+        aligned(recorded, road, nominal)
+
+
 @pytest.mark.parametrize("scale", [1.0, np.pi / 180.0])
 def test_a_drive_that_is_refused_names_signals_in_another_unit(lanes, nominal, scale):
     """A roll rate in rad/s, told as deg/s, shows of its road as little as one on a wrong path."""

@@ -60,10 +60,11 @@ def align(
     along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, yaw_rate_gain (against the bends of
     the road; nan where it hardly bends), roll/pitch/yaw_rate_bias (rad/s). New variables ``roll`` and ``pitch`` (rad): the
     simulated attitude that gravity was taken out with; zero where the record held none. Raises InputError when the model cannot
-    drive where the record says it went, when clock or path lie at an end of what is searched or beyond, and
+    drive where the record says it went or that is off the road, when clock or path lie at an end of what is searched or beyond, and
     when model and record do not agree anywhere.
     """
     options, simulate = options or {}, _with(simulate, effects or {})
+    path.require_on_road(drive, road)
     work = mounting.level(drive)
     measured, start = bool(drive.attrs["place_measured"]), float(drive["s"][0])
     way = place.way(work, road, start)

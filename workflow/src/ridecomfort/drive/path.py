@@ -9,6 +9,7 @@ import xarray as xr
 from scipy.optimize import minimize_scalar
 from scipy.sparse import csr_array, hstack
 
+from ..errors import InputError
 from . import leftover, place
 from .replay import Replay, Simulated, replay
 
@@ -38,6 +39,9 @@ SEARCHED = 45.0
 
 HALF_VEHICLE = 0.9
 """m that the path keeps from the edges of the road."""
+
+LEAP = 0.01
+"""Share of the samples of a recorded path that may leap to either side off the road."""
 
 EXPECTED_ASIDE, EXPECTED_ASIDE_MEASURED, EXPECTED_ALONG = 0.1, 0.02, 0.03
 """m; usual size of the wandering across the road, where e was recorded, and along it."""
@@ -81,6 +85,22 @@ def is_at_an_end(drive: xr.Dataset, road, lateral: float) -> bool:
     """Whether a path that was found (m to the left of the drive's) lies where the search for it ends, or beyond."""
     right, left = ends(drive, road)
     return left - right > 2 * STEP - TIE and not right + END < lateral < left - END
+
+
+def require_on_road(drive: xr.Dataset, road) -> None:
+    """Raise InputError where a path that was recorded or told lies too far off the road for its true one to be looked for there."""
+    if not is_known(drive):
+        return
+    aside = drive["e"].values if has_offset(drive) else drive.attrs["lateral_position"]
+    lowest, highest = np.quantile(aside, (LEAP, 1.0 - LEAP))
+    v = getattr(road, "road", road)["v"].values
+    right, left, reach = float(v[0]) + HALF_VEHICLE, float(v[-1]) - HALF_VEHICLE, WRONG - 2 * STEP + TIE
+    if lowest < right - reach or highest > left + reach:
+        raise InputError(
+            f"its path, as recorded or told, lies {lowest:+.2f} to {highest:+.2f} m to the left of the reference line (expected "
+            f"{right:+.2f} to {left:+.2f} m, where half the vehicle keeps on the road; is lateral_position or e right, is the road as wide as the drive?)",
+            place=f"drive {drive.attrs['name']}",
+        )
 
 
 def part(drive: xr.Dataset) -> xr.Dataset:
