@@ -107,6 +107,26 @@ def test_a_netcdf_file_of_the_drive_schema_comes_back_as_it_was(tmp_path):
     assert (back.attrs["sensor_x"], back.attrs["sensor_z"], back.attrs["lateral_position"]) == (0.1, 0.3, 0.4)
 
 
+def test_a_netcdf_file_that_says_to_be_held_out_is_not_fitted(tmp_path):
+    drive = readers.read(write(tmp_path, table()), COLUMNS, role="check")
+    store.write(drive, tmp_path / "drive.nc", title="a drive")
+    with pytest.raises(InputError, match=r"drive.nc: attribute role: holds 'check' where the drive is to be fitted"):
+        readers.read(tmp_path / "drive.nc", role="fit")
+    store.write(drive.assign_attrs(role="fit"), tmp_path / "fitted.nc", title="a drive")
+    assert readers.read(tmp_path / "fitted.nc", role="check").attrs["role"] == "check"
+
+
+@pytest.mark.parametrize(("columns", "both"), [({"a_x": "a_y"}, "a_x and a_y"), ({"v_x": "yaw_rate"}, "v_x and yaw_rate"), ({"a_z": "t"}, "time and a_z")])
+def test_a_variable_of_a_netcdf_file_stands_for_one_quantity(tmp_path, columns, both):
+    path, _ = netcdf(tmp_path / "drive.nc")
+    named = {"time": {"column": "t"}, **{quantity: {"column": column} for quantity, column in columns.items()}}
+    for read in (readers.read, readers.check):
+        with pytest.raises(InputError, match=f"drive.nc: columns: variable .* stands for both {both}"):
+            read(path, named)
+    swapped = readers.read(path, {"time": {"column": "t"}, "a_x": {"column": "a_y"}, "a_y": {"column": "a_x"}})
+    assert swapped.sizes["time"] == 1000
+
+
 @pytest.mark.parametrize("said, holds", [("false", 0), ("0", 0), ("True", 1), ("yes", 1)])
 def test_whether_a_netcdf_file_holds_gravity_may_be_told_in_words(tmp_path, said, holds):
     drive = readers.read(write(tmp_path, table()), COLUMNS, sensor=(0.1, 0.2, 0.3)).assign_attrs(gravity=said)

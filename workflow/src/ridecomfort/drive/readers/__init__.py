@@ -60,7 +60,8 @@ def read(path, columns: Mapping[str, Mapping] | None = None, *, measured: bool =
     """A drive from a file, by the reader of its suffix; see ``record.from_arrays``.
 
     ``columns`` maps quantities to ``{"column": ..., "unit": ..., "factor": 1}``.
-    Attributes given here (name, role, gravity, sensor, ...) win over what the file says. A signal that is constant is
+    Attributes given here (name, role, gravity, sensor, ...) win over what the file says, but one that says that it is kept for checking is refused
+    where it would be fitted. A signal that is constant is
     refused where it was ``measured``, for a simulated vehicle need not roll or yaw on an even, straight road; so is an angular rate that no
     road vehicle has.
     """
@@ -70,6 +71,8 @@ def read(path, columns: Mapping[str, Mapping] | None = None, *, measured: bool =
     if not path.exists():
         raise InputError("no such file", file=path)
     quantities, own = reader_of(path).read(path, columns)
+    if own.get("role") == "check" and attributes.get("role") == "fit":
+        raise InputError("holds 'check' where the drive is to be fitted (expected role: check in the site file, or no such attribute)", file=path, place="attribute role")
     for signal in SIGNALS if measured else ():
         if signal in quantities:
             column = (columns or {}).get(signal, {}).get("column", signal)

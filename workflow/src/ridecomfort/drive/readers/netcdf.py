@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,6 +34,7 @@ def read(path, columns: Mapping[str, Mapping] | None) -> tuple[dict, dict]:
     clock = named.get("time", {}).get("column", "time")
     if clock not in dataset.variables:
         raise InputError(f"has no variable {clock!r} for time", file=path)
+    _check_taken(named, dataset.variables, path)
     time = _clock(dataset[clock], named.get("time", {}), path)
     quantities = {}
     for quantity in DRIVE:
@@ -84,13 +85,27 @@ def check(path, columns: Mapping[str, Mapping] | None) -> None:
             variables = set(file.variables)
     except (OSError, RuntimeError):
         return  # reading it says why
-    named = {name: (columns or {}).get(name, {}).get("column", name) for name in ("time", *DRIVE)}
+    named = _variables(columns or {})
     for quantity in columns or {}:
         if named.get(quantity, quantity) not in variables:
             raise InputError(f"has no variable {named.get(quantity, quantity)!r} for {quantity}", file=path)
+    _check_taken(columns or {}, variables, path)
     lacks = missing([quantity for quantity, variable in named.items() if variable in variables])
     if lacks:
         raise InputError(f"{lacks}; `columns` says what variables of other names hold", file=path, place="variables")
+
+
+def _variables(columns: Mapping[str, Mapping]) -> dict[str, str]:
+    """The variable that holds a quantity, of its own name where ``columns`` does not say another."""
+    return {name: columns.get(name, {}).get("column", name) for name in ("time", *DRIVE)}
+
+
+def _check_taken(columns: Mapping[str, Mapping], found: Collection[str], path) -> None:
+    """Raise InputError where a variable of the file would be read for two quantities."""
+    taken: dict[str, str] = {}
+    for quantity, variable in _variables(columns).items():
+        if variable in found and (other := taken.setdefault(variable, quantity)) != quantity:
+            raise InputError(f"variable {variable!r} stands for both {other} and {quantity} (expected one; `columns` says which)", file=path, place="columns")
 
 
 def _clock(series: xr.DataArray, entry: Mapping, path) -> np.ndarray:
