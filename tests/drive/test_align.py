@@ -345,6 +345,46 @@ def test_what_lies_where_no_place_was_recorded_is_not_kept(truth, nominal):
     assert np.abs(found["s"].values - true).max() < 0.3
 
 
+@pytest.fixture(scope="module")
+def whole(road, truth):
+    """A drive over the whole of the road."""
+    u = road["u"].values
+    return quarter_cars.run(road, truth, speed=xr.DataArray(20 + 2 * np.sin(2 * np.pi * u / 250), {"u": u}, "u"), lateral=LATERAL)
+
+
+@pytest.mark.parametrize("clock", [0.0307, -0.0307, 0.3, -0.3])
+def test_what_only_the_clock_moves_off_the_road_is_cut(whole, road, nominal, clock):
+    found = aligned(quarter_cars.recorded(whole, clock=clock, noise=1.0, lateral_position=LATERAL), road, nominal)
+    assert found.attrs["clock_offset"] == pytest.approx(clock, abs=1e-3)
+    assert found["s"].values[0] > -0.1 and found["s"].values[-1] < 560.1 and np.ptp(found["s"].values) > 559.0 - 25.0 * abs(clock)
+    time = found["time"].values + found.attrs["start_time"] - clock
+    np.testing.assert_allclose(found["s"], np.interp(time, whole["time"], whole["s"]), atol=0.2)
+
+
+def test_what_only_the_place_of_the_axle_that_it_was_told_of_moves_off_the_road_is_cut(whole, road, nominal):
+    recorded = quarter_cars.recorded(whole, noise=1.0, lateral_position=LATERAL)
+    recorded = recorded.isel(time=slice(0, -20)).assign_attrs(cg_to_front_axle=1.4)
+    found = aligned(recorded.assign(s=recorded["s"] - 1.4), road, nominal)
+    assert found["s"].values[0] == pytest.approx(1.4, abs=0.3)
+    assert found.attrs["clock_offset"] == pytest.approx(-1.4 / 20.0, abs=5e-3)  # the distance of the body was told for that of the axle
+    with pytest.raises(InputError, match=r"its centre of gravity runs from s = -3.0 to .* within the road"):
+        aligned(recorded.assign(s=recorded["s"] - 3.0), road, nominal)
+
+
+@pytest.mark.parametrize("scale", [0.97, 1.03])
+def test_a_drive_over_the_whole_road_lies_on_it_though_its_speed_is_off(whole, road, nominal, scale):
+    recorded = quarter_cars.recorded(whole, place=False, speed_scale=scale, noise=1.0, lateral_position=LATERAL)
+    found = aligned(recorded, road, nominal)
+    assert found.attrs["speed_scale"] == pytest.approx(scale, abs=1e-3)
+    assert found["s"].values[-1] == pytest.approx(560.0, abs=0.5)
+
+
+def test_a_drive_that_goes_on_behind_the_road_is_refused_by_its_way(whole, road, nominal):
+    recorded = quarter_cars.recorded(whole, place=False, lateral_position=LATERAL)
+    with pytest.raises(InputError, match=r"its centre of gravity runs from s = -?0.0 to 5\d\d.\d m by v_x \(expected within the road, 0.0 to 450.0 m\)"):
+        aligned(recorded, road.sel(u=slice(0, 450)), nominal)
+
+
 def test_a_search_of_less_than_half_a_sample_finds_a_clock_that_is_right(drive, road, nominal):
     recorded = quarter_cars.recorded(drive, lateral_position=LATERAL)
     found = align.align(recorded, road, nominal, simulate=quarter_cars.run, search=0.004)

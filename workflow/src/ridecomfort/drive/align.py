@@ -52,7 +52,7 @@ def align(
     ``drive`` is a record (``drive.record``), ``road`` a road or a prepared one (``simulate.prepare``),
     ``vehicle`` the one to begin from (it need not fit), driven with ``effects``; ``simulate`` has the signature of ``simulate.run``
     and ``search`` (s) bounds the clock offset. A place that was integrated from speed is that on the road after so much way,
-    but for a scale and an offset. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
+    but for a scale and an offset. What lies off the road only because of these, of the clock or since ``s`` was told of the front axle is cut off. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
     gain, mounting and bias; ``e`` becomes the path that was found.
 
     New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
@@ -71,9 +71,12 @@ def align(
     if measured:
         scale, offset = place.speed_scale(work, way), 0.0
         work = place.moved(work, scale=scale)
+        work = place.cut(work, place.on_road(work, road, before=float(drive.attrs.get("cg_to_front_axle", 0.0)), behind=0.0))
     else:
         scale, offset = place.odometer(work, way, road, vehicle, simulate, options)
         work = place.driven(work, drive, way, scale, offset)
+        kept = place.on_road(work, road, place.ODOMETER_REACH, place.ODOMETER_REACH)
+        work, drive = place.cut(work, kept), place.cut(drive, kept)
     error, fitted = np.nan, mounting.Mounting()
     work, clock, lateral = _found(work, road, vehicle, simulate, search, options)
     work = _where_recorded(work, clock) if measured else work
@@ -122,16 +125,17 @@ def align(
     return aligned
 
 
+def _moved_on_road(work: xr.Dataset, road, clock: float) -> xr.Dataset:
+    """The drive moved by a ``clock`` (s) without what that moves off the road."""
+    work = place.moved(work, clock=clock)
+    return place.cut(work, place.on_road(work, road))
+
+
 def _where_recorded(work: xr.Dataset, clock: float) -> xr.Dataset:
     """The drive where its place and speed were recorded, whose ``clock`` (s) was off: farther than ``place.END`` beyond, they would only be
-    continued. Its time counts from nought again."""
+    continued."""
     time = work["time"].values
-    kept = (time - clock >= time[0] - place.END) & (time - clock <= time[-1] + place.END)
-    if kept.all():
-        return work
-    first = float(time[np.argmax(kept)] - time[0])
-    short = work.isel(time=kept).assign_coords(time=work["time"][: kept.sum()])
-    return short.assign_attrs(start_time=float(work.attrs["start_time"]) + first)
+    return place.cut(work, (time - clock >= time[0] - place.END) & (time - clock <= time[-1] + place.END))
 
 
 def _with(simulate: Callable[..., xr.Dataset], own: Mapping) -> Callable[..., xr.Dataset]:
@@ -153,7 +157,7 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
     if measured:
         again = replay(work, road, simulate, options=options)
         clock = place.coarse_clock(again, again(vehicle), search)
-        work = place.moved(work, clock=clock)
+        work = _moved_on_road(work, road, clock)
     reach = max(search - 0.5 * float(work["time"][1] - work["time"][0]), 0.0)  # a clock at the last lag of the search may lie beyond it
     look = dict(clock=clock, reach=reach)
     if known:
@@ -172,7 +176,7 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
             place=label,
         )
     if measured and abs(lag) > CLOSE:
-        clock, work = clock + lag, place.moved(work, clock=lag)
+        clock, work = clock + lag, _moved_on_road(work, road, lag)
     if abs(clock) > reach:
         raise InputError(
             f"the inertial signals lag {clock:.3g} s behind s (expected within {search:g} s, `alignment: search` of the study: "

@@ -11,6 +11,7 @@ from scipy.signal import butter, correlate, sosfiltfilt
 from scipy.stats import theilslopes
 
 from ..vocabulary import CALIBRATED, SIGNALS
+from .configured import SPEED_SCALE
 from .replay import Replay, Simulated, replay
 from .sampling import integral
 
@@ -95,6 +96,23 @@ def _slope(road: xr.Dataset, aside: np.ndarray) -> np.ndarray:
         return np.zeros(len(u))
     ahead, behind = (np.interp(np.clip(u + step, u[0], u[-1]), u[known], met[known]) for step in (0.5 * BASE, -0.5 * BASE))
     return (ahead - behind) / (np.minimum(u + 0.5 * BASE, u[-1]) - np.maximum(u - 0.5 * BASE, u[0]))
+
+
+def cut(drive: xr.Dataset, kept: np.ndarray) -> xr.Dataset:
+    """The drive from the first to the last sample that is ``kept`` (time,); its time counts from nought again."""
+    if kept.all():
+        return drive
+    first, last = np.flatnonzero(kept)[[0, -1]]
+    time = drive["time"].values
+    short = drive.isel(time=slice(first, last + 1)).assign_coords(time=drive["time"][: last + 1 - first])
+    return short.assign_attrs(start_time=float(drive.attrs["start_time"]) + float(time[first] - time[0]))
+
+
+def on_road(drive: xr.Dataset, road, before: float = np.inf, behind: float = np.inf) -> np.ndarray:
+    """Which samples of the drive lie on the road, (time,); all where some lie farther ``before`` or ``behind`` it (m), or none on it."""
+    u, s = getattr(road, "road", road)["u"].values, drive["s"].values
+    kept = (s >= u[0]) & (s <= u[-1])
+    return kept if kept.any() and s.min() >= u[0] - before and s.max() <= u[-1] + behind else np.full(s.size, True)
 
 
 def moved(drive: xr.Dataset, *, clock: float = 0.0, scale: float = 1.0) -> xr.Dataset:
@@ -237,12 +255,15 @@ def odometer(
     """Scale and offset (m) of a way that was integrated from speed, found by what the road feels like.
 
     Windows of the record are looked for on the simulated road, each around the place that the ones
-    before it predict; a line through what they say (Theil-Sen, robust against false finds).
+    before it predict; a line through what they say (Theil-Sen, robust against false finds). What lies beyond the road only because
+    the speed was off is left out until that is known.
     """
+    beyond = ODOMETER_REACH, ODOMETER_REACH + SPEED_SCALE * float(np.ptp(drive["s"].values))
     high = butter(2, 0.5, "highpass", fs=1 / float(drive["time"][1] - drive["time"][0]), output="sos")
     scale, offset = 1.0, 0.0
     for _ in range(2):
-        again = replay(driven(drive, drive, along, scale, offset), road, simulate, margin=ODOMETER_REACH, options=options)
+        placed = driven(drive, drive, along, scale, offset)
+        again = replay(cut(placed, on_road(placed, road, *beyond)), road, simulate, margin=ODOMETER_REACH, options=options)
         simulated = again(vehicle)
         measured = sosfiltfilt(high, again.measured(), axis=1)
         model = sosfiltfilt(high, simulated.signals, axis=1)

@@ -345,7 +345,7 @@ def replay(
     first, last = float(surface["u"][0]), float(surface["u"][-1])
     if place[0] < first - SPACING or place[-1] > last + SPACING:
         raise InputError(
-            f"runs from s = {place[0]:.1f} to {place[-1]:.1f} m "
+            f"its centre of gravity runs from s = {place[0]:.1f} to {place[-1]:.1f} m{'' if drive.attrs.get('place_measured', 1) else ' by v_x'} "
             f"(expected within the road, {first:.1f} to {last:.1f} m)",
             place=label,
         )
