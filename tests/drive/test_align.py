@@ -242,6 +242,18 @@ def test_an_odometer_without_a_fix_is_scaled_and_placed_by_the_road(drive, road,
     np.testing.assert_allclose(found["s"], drive["s"], atol=0.06)
 
 
+@pytest.mark.parametrize(("longer", "said"), [(1.0, ""), (1.01, "s: runs 1.0 % too far over the road"), (0.985, "s: runs 1.5 % too short over the road")])
+def test_an_odometer_that_is_told_for_a_place_on_the_road_is_called_one(drive, road, nominal, longer, said):
+    start = float(drive["s"][0])
+    recorded = quarter_cars.recorded(drive.assign(s=start + longer * (drive["s"] - start)), noise=1.0, lateral_position=LATERAL)
+    found = aligned(recorded.assign_attrs(faults="a_z: it clips"), road, nominal)
+    before, *after = found.attrs["faults"].split("; ")
+    assert before == "a_z: it clips" and len(after) == bool(said)
+    for words in after:
+        told = float(words.split()[2])
+        assert words.startswith(f"s: runs {told} % too {said.split()[5]} over the road") and told == pytest.approx(float(said.split()[2]), abs=0.15)
+
+
 def on_hills(road, vehicle, *, speed, lateral=0.0, **options):
     """``quarter_cars.run`` with the speed along the body: uphill and outside of a bend it passes less of the reference line."""
     aside = np.interp(road["u"], lateral["u"], lateral) if isinstance(lateral, xr.DataArray) else lateral

@@ -36,6 +36,10 @@ acceleration in g a tenth of one in m/s2."""
 CLOSE = 0.02
 """s by which two ways to find the clock may differ."""
 
+OFF, DRIFT = 0.003, 1.0
+"""Share, and m in all, beyond which a recorded distance that the road finds too long or too short is an odometer's: a receiver's is good to some
+metres wherever it is, and drives of 20 s tell a share to 0.001."""
+
 
 def align(
     drive: xr.Dataset,
@@ -55,7 +59,7 @@ def align(
     but for a scale and an offset. What lies off the road only because of these, of the clock or since ``s`` was told of the front axle is cut off. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
     gain, mounting and bias; ``e`` becomes the path that was found.
 
-    New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
+    New in the attribute ``faults``: a recorded distance that is an odometer's. New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
     lateral_correction (m), distance_wander and lateral_wander (m, rms of what was found of both
     along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, yaw_rate_gain (against the bends of
     the road; nan where it hardly bends), roll/pitch/yaw_rate_bias (rad/s). New variables ``roll`` and ``pitch`` (rad): the
@@ -81,6 +85,7 @@ def align(
     work, clock, lateral = _found(work, road, vehicle, simulate, search, options)
     work = _where_recorded(work, clock) if measured else work
     work = _on_path(work, lateral)
+    doubt = _odometer(work, way, road, vehicle, simulate, options) if measured else ""
     expected = path.EXPECTED_ASIDE_MEASURED if path.has_offset(drive) else path.EXPECTED_ASIDE
     if not measured:  # along another path the way is another
         way = place.way(work, road, start)
@@ -119,10 +124,21 @@ def align(
         lateral_correction=float(lateral),
         distance_wander=float(moved_along.std()),
         lateral_wander=float(moved_aside.std()),
+        faults="; ".join(filter(None, (drive.attrs.get("faults", ""), doubt))),
         yaw_rate_gain=turning.gyroscope_gain(aligned, getattr(road, "road", road))[0],
         **fitted.attributes(),
     )
     return aligned
+
+
+def _odometer(work: xr.Dataset, way: place.Way, road, vehicle, simulate, options: Mapping) -> str:
+    """Words on a recorded distance that runs faster or slower than the road goes by; empty where it does not."""
+    scale, _ = place.odometer(work.assign(s=work["s"].copy(data=way(work["s"].values))), way, road, vehicle, simulate, options)
+    too_far = 1.0 / scale - 1.0
+    if abs(too_far) < max(OFF, DRIFT / float(np.ptp(work["s"].values))):
+        return ""
+    where = "far" if too_far > 0 else "short"
+    return f"s: runs {100 * abs(too_far):.1f} % too {where} over the road, as that of an odometer (leave s out: it is then integrated from v_x and scaled)"
 
 
 def _moved_on_road(work: xr.Dataset, road, clock: float) -> xr.Dataset:
