@@ -236,9 +236,9 @@ def test_mistake_in_a_site(project, content, said):
 
 
 def calibrated(project, **on):
-    (project / "drive.csv").write_text(HEADER)
     for site, other in on.items():
-        write(project, site, {"road": {"file": "road.crg"}, "drives": [DRIVE], "calibrated_on": other})
+        (project / f"{site}.csv").write_text(HEADER)
+        write(project, site, {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": f"{site}.csv"}], "calibrated_on": other})
 
 
 def test_sites_that_are_calibrated_on_each_other_are_refused(project):
@@ -249,6 +249,21 @@ def test_sites_that_are_calibrated_on_each_other_are_refused(project):
     assert_said(project, {"sites": ["a", "b", "c"]}, "calibrated_on: b on c on b is a circle", config.SITES / "a.yaml")
     calibrated(project, a="b", b="c", c="c")
     config.load({"sites": ["a", "b", "c"]}, project)
+
+
+def test_a_record_is_not_both_fitted_and_held_out(project):
+    (project / "drive.csv").write_text(HEADER)
+    twice = [{**DRIVE, "columns": columns()}, {**DRIVE, "name": "again", "file": "./drive.csv", "columns": columns(), "role": "check"}]
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": twice})
+    assert_said(project, {"sites": ["own"]}, "drives: entry 2: file: './drive.csv' is entry 1 already", config.SITES / "own.yaml")
+    other = {**columns(), "v_x": {"column": "a_x", "unit": "m/s"}, "a_x": {"column": "v_x", "unit": "m/s2"}}
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [twice[0], {**twice[1], "columns": other}]})
+    config.load({"sites": ["own"]}, project)
+    write(project, "second", {"road": {"file": "road.crg"}, "drives": [{**twice[1], "columns": other}], "calibrated_on": "own"})
+    config.load({"sites": ["own", "second"]}, project)  # it is held out on both
+    write(project, "second", {"road": {"file": "road.crg"}, "drives": [{**twice[0], "role": "check"}], "calibrated_on": "own"})
+    said = "drives: entry 1: file: 'drive.csv' is fitted on 'own', on which this site is calibrated"
+    assert_said(project, {"sites": ["own", "second"]}, said, config.SITES / "second.yaml")
 
 
 def wide(project, width):

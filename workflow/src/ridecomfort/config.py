@@ -142,7 +142,17 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
     names = [drive.setdefault("name", Path(drive["file"]).stem) for drive in site["drives"]]
     for twice in sorted({drive for drive in names if names.count(drive) > 1}):
         raise InputError(f"two drives are named {twice!r}", file=file, place="drives")
+    records = [_record_of(drive) for drive in site["drives"]]
+    for number, (drive, own) in enumerate(zip(site["drives"], records), start=1):
+        if own in records[: number - 1]:
+            problem = f"{drive['file']!r} is entry {records.index(own) + 1} already, expected a record once, either fitted or held out"
+            raise InputError(problem, file=file, place=f"drives: entry {number}: file")
     return site
+
+
+def _record_of(drive: Mapping) -> tuple:
+    """What tells a record from another: its file, which may hold those of several instruments, and the columns that are read of it."""
+    return Path(drive["file"]).resolve(), drive.get("columns")
 
 
 def _check_drive(drive: Mapping, file, place: str) -> None:
@@ -345,6 +355,11 @@ def _check_calibrations(study: Study) -> None:
         if study.vehicle(other) != study.vehicle(name):
             raise InputError(f"site {other!r} has another vehicle", file=file, place=place)
         _check_circle(study, name, file, place)
+        fitted = [_record_of(drive) for drive in study.sites[other]["drives"] if drive["role"] == "fit"]
+        for number, drive in enumerate(study.sites[name]["drives"] if other != name else (), start=1):
+            if _record_of(drive) in fitted:
+                problem = f"{drive['file']!r} is fitted on {other!r}, on which this site is calibrated, expected a drive that is held out here"
+                raise InputError(problem, file=file, place=f"drives: entry {number}: file")
 
 
 def _check_circle(study: Study, name: str, file, place: str) -> None:
