@@ -176,6 +176,13 @@ def test_drives_on_other_tracks_repeat_nothing():
     assert "nil" in explain(weaving).attrs["floor"]
 
 
+def test_drives_with_instruments_at_different_places_repeat_nothing():
+    """Of a body that pitches they record other accelerations, so that other errors of the model would pass for noise."""
+    compared = comparison(repeats=3)[1].assign({f"sensor_{axis}": ("drive", np.zeros(3)) for axis in "yz"})
+    for ahead, found in (([0.0, 0.02, -0.02], [[0, 1, 2]]), ([0.0, 0.3, 0.0], [[0, 2]]), ([0.0, 0.3, 0.6], [])):
+        assert repeats(compared.assign(sensor_x=("drive", ahead))) == found
+
+
 def test_drives_that_repeat_one_another_all_have_a_stretch_in_common():
     """The third has all of its own in common with the first, but hardly anything with both others."""
     passages, numbers = [], []

@@ -16,7 +16,7 @@ from ..drive.record import require_one_rate, unstack
 from ..drive.replay import CLOCK_LEFT, Replay, replay
 from ..drive.sampling import rate_of
 from ..vocabulary import SIGNALS
-from .explain import explain
+from .explain import SENSOR, explain
 from .wheels import wheels
 
 CLOCK_STEPS = 2
@@ -61,7 +61,7 @@ def compare(
     Returns over drive, time, signal, state: ``measured`` and ``simulated`` (unit by signal in
     ``signal_unit``), ``residual`` = simulated - measured (NaN in the run-in), where gravity was
     recorded with the attitude of the simulation in both, ``rmse``, ``nrmse``, ``v_x``, ``s`` (by ``replay.fused_place``), ``e``, ``role``, ``cut_off``,
-    of the last state ``suspension_velocity``, ``tyre_velocity``, ``road_heave`` and ``road_tilt`` (``wheels.wheels``), and
+    ``sensor_x/y/z``, of the last state ``suspension_velocity``, ``tyre_velocity``, ``road_heave`` and ``road_tilt`` (``wheels.wheels``), and
     the floor and the explainable error (``explain.explain``, which ``noise_density`` and ``elsewhere`` are for). ``each`` maps a function over drives
     (``map``, or that of threads).
     """
@@ -102,6 +102,7 @@ def compare(
             "clock_correction": (("state", "drive"), clock, {"units": "s"}),
             "role": ("drive", np.array([drive.attrs.get("role", "fit") for drive in drives])),
             "cut_off": ("drive", np.array([float(drive.attrs["cut_off"]) for drive in drives]), {"units": "Hz"}),
+            **{name: ("drive", [float(drive.attrs[name]) for drive in drives], {"units": "m"}) for name in SENSOR},
             "signal_unit": ("signal", np.array(["m/s2"] * 3 + ["rad/s"] * 3)),
             **{name: (("drive", "time"), values) for name, values in series.items()},
         },

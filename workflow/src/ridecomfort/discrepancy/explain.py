@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import dist
 from typing import NamedTuple
 
 import numpy as np
@@ -15,10 +16,13 @@ from .experiment import Record
 from .floor import deviations
 from .judged import band, judged, lowest
 
-SAME_SPEED, COMMON, SAME_PATH = 0.05, 0.5, 0.3
+SAME_SPEED, COMMON, SAME_PATH, SAME_SENSOR = 0.05, 0.5, 0.3, 0.05
 """Relative difference of mean speeds, where both drove, within which drives repeat one another, share of the shorter that both must have driven,
-and m (rms) that their paths may lie apart. On other tracks wheels meet another road, so that errors of the model differ, too, and pass for noise: up to
-15 % of them at 0.3 m, half at 0.6 m."""
+m (rms) that their paths may lie apart, and m that their instruments may. On other tracks wheels meet another road, so that errors of the model
+differ, too, and pass for noise: up to 15 % of them at 0.3 m, half at 0.6 m. Elsewhere on a body that rolls and pitches all accelerations are others."""
+
+SENSOR = ("sensor_x", "sensor_y", "sensor_z")
+"""Where the instrument of a drive was, in m from the centre of gravity, as a comparison has it over drives and a drive among its attributes."""
 
 REPEATS = "from repeats"
 NIL = "taken as nil: no drive was repeated"
@@ -44,13 +48,14 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 class Passage(NamedTuple):
     """What drives that repeat one another drove, from ``start`` to ``end`` (m): ``place`` (m), ``lateral`` position (m) and ``time`` (s) of the
-    first, (sample,)."""
+    first, (sample,), and where its ``sensor`` was, in m from the centre of gravity."""
 
     start: float
     end: float
     place: np.ndarray
     lateral: np.ndarray
     time: np.ndarray
+    sensor: Sequence[float] = (0.0, 0.0, 0.0)
 
     @property
     def speed(self) -> float:
@@ -160,21 +165,24 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
     for number, place in enumerate(comparison["s"].transpose("drive", "time").values):
         known = np.isfinite(place) & compared[number]
         aside = comparison["e"].isel(drive=number).values[known]
-        group = joined(passages, place[known], comparison["time"].values[known], aside)
+        sensor = [float(comparison[name][number]) for name in SENSOR if name in comparison]
+        group = joined(passages, place[known], comparison["time"].values[known], aside, sensor)
         groups += [[]] * (len(passages) - len(groups))
         groups[group] = [*groups[group], number]
     return [own for own in groups if len(own) > 1]
 
 
-def joined(passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral: np.ndarray) -> int:
-    """Number of the first of ``passages`` that a drive (place and lateral position in m over time in s) repeats, which is cut to what they
-    have in common; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
-    own = Passage(float(np.min(place)), float(np.max(place)), place, np.nan_to_num(lateral), time)
+def joined(
+    passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral: np.ndarray, sensor: Sequence[float] = (0.0, 0.0, 0.0)
+) -> int:
+    """Number of the first of ``passages`` that a drive (place and lateral position in m over time in s, place of its sensor in m) repeats, which
+    is cut to what they have in common; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
+    own = Passage(float(np.min(place)), float(np.max(place)), place, np.nan_to_num(lateral), time, sensor)
     for number, known in enumerate(passages):
         start, end = max(own.start, known.start), min(own.end, known.end)
         is_along = end - start > COMMON * min(own.end - own.start, known.end - known.start)
         is_alike = is_along and abs(own.pace(start, end) / known.pace(start, end) - 1.0) < SAME_SPEED
-        if is_alike and known.apart(own) < SAME_PATH:
+        if is_alike and known.apart(own) < SAME_PATH and dist(own.sensor, known.sensor) < SAME_SENSOR:
             passages[number] = known._replace(start=start, end=end)
             return number
     passages.append(own)

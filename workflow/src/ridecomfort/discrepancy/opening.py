@@ -25,7 +25,7 @@ from ..vocabulary import SIGNALS, VARIABLES
 from .candidates import candidate
 from .car import Car
 from .experiment import Record, Size
-from .explain import HIGHEST, INSTRUMENT, Passage, joined
+from .explain import HIGHEST, INSTRUMENT, SENSOR, Passage, joined
 from .judged import LOWEST, LOWEST_OF_DRIVER
 
 CALIBRATION_PROBE = 0.02
@@ -198,8 +198,13 @@ def _not_repeated(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
     passages: list[Passage] = []
     first = {}
     for drive in drives:
-        first.setdefault(joined(passages, drive["s"].values, drive["time"].values, drive["e"].values), drive)
+        first.setdefault(joined(passages, drive["s"].values, drive["time"].values, drive["e"].values, _sensor(drive)), drive)
     return list(first.values())
+
+
+def _sensor(drive: xr.Dataset) -> list[float]:
+    """Where the instrument of a drive was, in m from the centre of gravity."""
+    return [float(drive.attrs.get(name, 0.0)) for name in SENSOR]
 
 
 def sites_of(measured: Mapping[str, tuple]) -> list[Site]:
@@ -272,7 +277,7 @@ def _side_by_side(records: Sequence[Record]) -> list[Record]:
 
 def _record(site: str, again: Replay, role: str, passages: list[Passage], several: bool) -> Record:
     place, time = again.place[again.compared], again.time[again.compared]
-    number = joined(passages, place, time, again.drive["e"].values[again.compared])
+    number = joined(passages, place, time, again.drive["e"].values[again.compared], _sensor(again.drive))
     speed = passages[number].speed
     rate = rate_of(time)
     band = (LOWEST, min(HIGHEST * float(again.drive.attrs["cut_off"]), 0.45 * rate))
