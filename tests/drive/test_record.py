@@ -182,6 +182,38 @@ def test_a_distance_that_is_held_jumps_by_a_metre_or_is_told_beside_a_speed_in_a
     record.from_arrays(quantities(s=(TIME[::10], 20 * TIME[::10]), v_x=(TIME, 72 + 0 * TIME)))
 
 
+def alone(s, time=TIME):
+    """A drive whose distance (m) was recorded without a speed."""
+    return {name: pair for name, pair in quantities(s=(time, s)).items() if name != "v_x"}
+
+
+def test_a_distance_without_a_speed_tells_it_though_it_jitters():
+    driven = 20 * TIME + 1.5 * np.sin(0.8 * TIME)
+    clean = record.from_arrays(alone(driven))
+    np.testing.assert_allclose(clean["v_x"].values, np.gradient(driven, 0.01), rtol=0, atol=1e-9)
+    jitter = 0.5 * np.random.default_rng(3).standard_normal(TIME.size)
+    found = record.from_arrays(alone(driven + jitter))
+    assert "low-passed" in found.attrs["treatment"]
+    assert np.abs(found["v_x"].values - np.gradient(driven, 0.01)).max() < 5.0
+    held = record.from_arrays(alone(20 * np.floor(4 * TIME) / 4 + 0.1 * np.floor(4 * TIME) ** 2))
+    assert 15 < held["v_x"].values.min() < held["v_x"].values.max() < 95
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (alone(400 - 20 * TIME), "s: falls from 400.0 to 0.2 m: driven against the reference line"),
+        (alone(20 * TIME + 5 * (TIME >= 8)), "s: sample 801 (8 s) lies +5.2 m from the value before it, while it goes on by 0.20"),
+        (alone(20 * TIME + 5 * (TIME >= TIME[-1])), "s: sample 2000 (19.99 s) lies +5.2 m from the value before it"),
+        ({name: (time + 7, values) for name, (time, values) in alone(200 * TIME).items()}, "s: changes by 200 m/s at 7 s (expected -5 to 90; are the units"),
+    ],
+)
+def test_a_mistake_in_a_distance_without_a_speed_is_told_of_the_distance(given, words):
+    with pytest.raises(InputError) as problem:
+        record.from_arrays(given, file="drive.csv")
+    assert str(problem.value).startswith(f"drive.csv: {words}")
+
+
 @pytest.mark.parametrize("hold", [0.1, 0.25, 1.0])
 def test_a_place_that_is_held_until_the_next_is_known_is_that_of_its_changes(hold):
     driven = lambda time: 20 * time + 1.5 * np.sin(0.8 * time)

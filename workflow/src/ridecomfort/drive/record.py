@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
+from scipy.ndimage import median_filter
 
 from ..errors import InputError
 from ..vehicle.parameters import PARAMETERS
@@ -46,6 +47,9 @@ receiver jumps by a metre or two."""
 LONGEST_HOLD = 1.1
 """s for which a faster table usually holds a place until the next is known, at most: receivers tell one a second or more."""
 
+AROUND = 9
+"""Steps of a distance without a speed beside it, the median of which is what it goes on by."""
+
 SAME_RATE = 1e-4
 """Relative difference up to which rates are the same, each told from the times of its drive."""
 
@@ -73,7 +77,8 @@ def from_arrays(
     of them cover is brought to ``rate`` (Hz): inertial signals through an anti-alias
     filter, all through the same, speed and place linearly; a place that is held until the next is known (``_unheld``) between its changes.
     ``s`` that is missing is integrated from ``v_x``
-    beginning at ``distance_start`` (m), which is the way driven until ``align`` makes a place on the road of it, ``v_x`` that is missing is the derivative of ``s``.
+    beginning at ``distance_start`` (m), which is the way driven until ``align`` makes a place on the road of it, ``v_x`` that is missing is the
+    derivative of ``s``, low-passed where that jitters beyond reason.
     ``sensor`` is the place of the accelerometer in m from the centre of gravity.
 
     Returns a Dataset over ``time`` (s, from 0); attributes name, role, gravity,
@@ -107,6 +112,8 @@ def from_arrays(
         arrays[quantity] = time, values
     if "s" in arrays and "v_x" in arrays:
         _check_way(*arrays["s"], *arrays["v_x"], file=file)
+    elif "s" in arrays:
+        _check_way_alone(*arrays["s"], file=file)
     arrays, held = _unheld(arrays)
     first = max(time[0] for time, _ in arrays.values())
     last = min(time[-1] for time, _ in arrays.values())
@@ -127,8 +134,8 @@ def from_arrays(
         columns["s"] = distance_start + sampling.integral(columns["v_x"], time)
         treatment.append("s integrated from v_x")
     if "v_x" not in columns:
-        columns["v_x"] = np.gradient(columns["s"], 1 / rate)
-        treatment.append("v_x differentiated from s")
+        columns["v_x"], said = _speed(columns["s"], time, rate, file=file)
+        treatment.append(said)
     if "e" not in columns:
         columns["e"] = np.full(count, np.nan)
     drive = xr.Dataset({key: ("time", columns[key]) for key in DRIVE}, {"time": np.arange(count) / rate})
@@ -238,8 +245,39 @@ def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> N
         )
 
 
-def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np.ndarray, *, file) -> None:
-    """InputError where the distance jumps from one value to the next as no drive at the recorded speed goes.
+def _speed(place: np.ndarray, time: np.ndarray, rate: float, *, file) -> tuple[np.ndarray, str]:
+    """Speed (m/s, (time,)) that a distance rises by, and how it was made; InputError where it is none of a vehicle on a road."""
+    from .slow import smooth  # here: it takes a while, and the library of effects is read at every start
+
+    speed, said = np.gradient(place, 1 / rate), "v_x differentiated from s"
+    lower, upper = REASONABLE["v_x"]
+    if speed.min() < lower or speed.max() > upper:
+        speed, said = np.gradient(smooth(place, rate), 1 / rate), f"{said}, low-passed"
+    bad = np.flatnonzero((speed < lower) | (speed > upper))
+    if bad.size:
+        i = bad[0]
+        raise InputError(
+            f"changes by {speed[i]:.4g} m/s at {round(time[i], 6) + 0.0:.6g} s (expected {lower:g} to {upper:g}; are the units of s and of its time right?)",
+            file=file, place="s",
+        )  # fmt: skip
+    return speed, said
+
+
+def _check_way_alone(time: np.ndarray, place: np.ndarray, *, file) -> None:
+    """InputError where a distance without a speed beside it falls, or jumps otherwise than it goes on around."""
+    if place[-1] < place[0]:
+        raise InputError(
+            f"falls from {place[0]:.1f} to {place[-1]:.1f} m: driven against the reference line, which is not supported (expected s that rises)",
+            file=file, place="s",
+        )  # fmt: skip
+    known = np.flatnonzero(np.concatenate([[True], np.diff(place) != 0.0]))
+    if len(known) > AROUND:
+        speed = median_filter(np.diff(place[known]) / np.diff(time[known]), AROUND)
+        _check_way(time, place, time[known], np.concatenate([speed[:1], speed]), is_recorded=False, file=file)
+
+
+def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np.ndarray, *, is_recorded: bool = True, file) -> None:
+    """InputError where the distance jumps from one value to the next as no drive at the speed goes, recorded or that of the distance around.
 
     One that is held until the next is known, as that of a receiver in a faster table, changes at some samples only.
     """
@@ -254,9 +292,10 @@ def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np
     bad = np.flatnonzero(np.abs(step - expected) > JUMP + FASTER * np.abs(expected))
     if bad.size:
         i = known[bad[0] + 1]
+        told, instead = ("v_x drives", ", or leave s out, which is then integrated from v_x") if is_recorded else ("it goes on by", "")
         raise InputError(
-            f"sample {before + i + 1} ({time[i]:.6g} s) lies {step[bad[0]]:+.4g} m from the value before it, while v_x drives {expected[bad[0]]:.4g} m "
-            f"(expected within {JUMP:g} m of that; cut the record there, or leave s out, which is then integrated from v_x)",
+            f"sample {before + i + 1} ({time[i]:.6g} s) lies {step[bad[0]]:+.4g} m from the value before it, while {told} {expected[bad[0]]:.4g} m "
+            f"(expected within {JUMP:g} m of that; cut the record there{instead})",
             file=file,
             place="s",
         )
