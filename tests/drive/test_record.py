@@ -203,7 +203,7 @@ def test_a_distance_without_a_speed_tells_it_though_it_jitters():
     ("given", "words"),
     [
         (alone(400 - 20 * TIME), "s: falls from 400.0 to 0.2 m: driven against the reference line"),
-        (alone(20 * TIME + 5 * (TIME >= 8)), "s: sample 801 (8 s) lies +5.2 m from the value before it, while it goes on by 0.20"),
+        (alone(20 * TIME + 5 * (TIME >= 8)), "s: sample 801 (8 s) lies +5.2 m from the value before it, while it goes on by 0.2 m"),
         (alone(20 * TIME + 5 * (TIME >= TIME[-1])), "s: sample 2000 (19.99 s) lies +5.2 m from the value before it"),
         ({name: (time + 7, values) for name, (time, values) in alone(200 * TIME).items()}, "s: changes by 200 m/s at 7 s (expected -5 to 90; are the units"),
     ],
@@ -299,6 +299,7 @@ def irregular():
         (quantities(s=(TIME[:-1], TIME)), ("s has shape (2000,)", "(1999,)")),
         (spoilt("s", -1, 394.0), ("s: sample 2000", "19.99 s", "-5.6 m", "v_x drives 0.2 m", "within 3 m")),
         (quantities(s=(TIME, 20 * TIME + 5 * (TIME >= 8))), ("s: sample 801", "8 s", "+5.2 m")),
+        (quantities(s=(TIME, (20 * TIME) % 100.0)), ("s: sample 501", "5 s", "-99.8 m", "v_x drives 0.2 m")),
         (quantities(v_x=(TIME + 100, 20 + 0 * TIME)), ("overlap",)),
         (quantities(v_x=(np.delete(TIME, slice(300, 400)), np.full(1900, 20.0))), ("pause of 1.01 s", "2.99 s")),
     ],

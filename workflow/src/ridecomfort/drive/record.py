@@ -286,9 +286,10 @@ def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np
         return
     before, time, place = int(np.argmax(inside)), time[inside], place[inside]
     driven = np.interp(time, clock, sampling.integral(speed, clock))
-    scale = np.polyfit(driven, place, 1)[0] if np.ptp(driven) > JUMP else 1.0  # v_x may be in another unit: alignment says so
     known = np.flatnonzero(np.concatenate([[True], np.diff(place) != 0.0]))
-    step, expected = np.diff(place[known]), scale * np.diff(driven[known])
+    step, expected = np.diff(place[known]), np.diff(driven[known])
+    if np.ptp(driven) > JUMP and (moves := expected > 0.0).any():
+        expected = expected * np.median(step[moves] / expected[moves])  # v_x may be in another unit: alignment says so
     bad = np.flatnonzero(np.abs(step - expected) > JUMP + FASTER * np.abs(expected))
     if bad.size:
         i = known[bad[0] + 1]
