@@ -63,6 +63,13 @@ def test_a_run_in_must_let_the_running_rms_settle(files, averaging, enough, too_
         spaced(files, "both", averaging=averaging, time_constant=too_long)
 
 
+def test_a_drive_that_begins_behind_the_run_in_is_told_of_its_place_and_not_of_its_pace(files):
+    late = store.read(files / "one.nc")
+    store.write(late.assign(s=late["s"] + 60.0).drop_attrs(), files / "late.nc", title="drives")
+    with pytest.raises(InputError, match=r"run 4: covers 60.0 to 45\d.\d m, expected 50.0 to"):
+        spaced(files, "late")
+
+
 def test_a_drive_that_never_comes_out_of_the_run_in_is_said_to_have_stopped(files):
     drives = store.read(files / "both.nc").load()
     drives["s"][0] = np.minimum(drives["s"][0], 40.0)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
 from ridecomfort import store
+from ridecomfort.errors import InputError
 from ridecomfort.steps import handed_in
 from ridecomfort.vocabulary import SIGNALS, describe
 
@@ -40,3 +42,19 @@ def test_accelerations_of_a_place_on_the_body_are_handed_in_as_those_of_the_cent
     inside = slice(5, -5)  # at the ends derivatives are of lower order
     for name in ("a_x", "a_y", "a_z", "pitch_rate"):
         np.testing.assert_allclose(found[name][inside], expected[name][inside], atol=2e-3, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda table: table.drop(columns="s"), "s: is missing"),
+        (lambda table: table.assign(s=table["s"] - 2.5 * (table["time"] > 4.995)), "s: falls from 99.80 to 97.50 m at 4.99 s"),
+        (lambda table: table.assign(s=200.0 - table["s"]), "s: falls from 200.00 to 199.80 m at 0.00 s"),
+    ],
+)
+def test_a_drive_without_a_distance_that_rises_is_named(tmp_path, spoil, said):
+    path = tmp_path / "run7.csv"
+    spoil(pd.DataFrame({"time": TIME, **centre_of_gravity()})).to_csv(path, index=False)
+    with pytest.raises(InputError) as refused:
+        handed_in.main([path], "0-0", {"rate": 100.0, "site": "one"}, tmp_path / "out.nc")
+    assert str(refused.value).startswith(f"{path}: {said}")

@@ -46,8 +46,7 @@ def along(drives: xr.Dataset, s: np.ndarray, variables: Sequence[str]) -> xr.Dat
     s = np.asarray(s, dtype=np.float64)
     distance = drives["s"].transpose("run", "time").values
     lengths = _lengths(distance)
-    for run, row, length in zip(drives["run"].values, distance, lengths):
-        _check(run, row[:length], s)
+    require_cover(drives, s)
     index = _indices(distance, lengths, s)
     interval = 1.0 / sampling.rate_of(drives["time"].values)
     result = xr.Dataset(coords={"run": drives["run"].values, "s": s})
@@ -65,6 +64,13 @@ def along(drives: xr.Dataset, s: np.ndarray, variables: Sequence[str]) -> xr.Dat
             result[name].values[run] = values if name in waves else np.interp(at, np.arange(length), values)
     result.attrs = {"evaluated": f"{s[0]:g} to {s[-1]:g} m in steps of {s[1] - s[0]:g} m"}
     return result
+
+
+def require_cover(drives: xr.Dataset, s: np.ndarray) -> None:
+    """Raise InputError, naming the run, where one of the drives (as for ``along``) does not cover ``s`` (m), runs backwards or holds a gap."""
+    distance = drives["s"].transpose("run", "time").values
+    for run, row, length in zip(drives["run"].values, distance, _lengths(distance)):
+        _check(run, row[:length], s)
 
 
 def _lengths(distance: np.ndarray) -> np.ndarray:

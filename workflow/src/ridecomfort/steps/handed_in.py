@@ -5,6 +5,7 @@ import xarray as xr
 
 from ridecomfort import store
 from ridecomfort.drive import readers, record
+from ridecomfort.errors import InputError
 from ridecomfort.steps.command import Command
 from ridecomfort.vocabulary import DRIVE, describe
 
@@ -23,8 +24,17 @@ def main(files, runs, config, output):
 
 
 def _at_centre_of_gravity(path, rate):
-    """The quantities of a drive at ``rate`` (Hz), its accelerations (m/s2) those of the centre of gravity wherever the file has them from."""
+    """The quantities of a drive at ``rate`` (Hz), its accelerations (m/s2) those of the centre of gravity wherever the file has them from. Raises
+    InputError without a distance ``s`` and where that falls."""
     drive = readers.read(path, rate=rate, gravity=False, measured=False)
+    if not drive.attrs["place_measured"]:
+        raise InputError("is missing (expected the distance along the reference line, which v_x does not tell)", file=path, place="s")
+    s = drive["s"].values.astype(np.float32)
+    back = np.flatnonzero(np.diff(s) < 0)
+    if back.size:
+        i = back[0]
+        fall = f"falls from {s[i]:.2f} to {s[i + 1]:.2f} m at {drive['time'].values[i]:.2f} s"
+        raise InputError(f"{fall} (expected a drive that never runs backwards)", file=path, place="s")
     if any(drive.attrs[f"sensor_{axis}"] for axis in "xyz"):
         drive = record.transfer(drive, (0.0, 0.0, 0.0))
     return drive[list(DRIVE)]

@@ -7,7 +7,7 @@ from ridecomfort.comfort import iso2631, quantities
 from ridecomfort.comfort.doses import Doses
 from ridecomfort.comfort.seat import Seat
 from ridecomfort.errors import InputError
-from ridecomfort.space import along, places
+from ridecomfort.space import along, places, require_cover
 from ridecomfort.steps.command import Command
 
 VARIABLES = ("v_x", "a_x", "a_y", "a_z", "a_v")
@@ -21,6 +21,7 @@ def main(drives, road, config, output):
     weighting = config["iso2631"]
     averaging = weighting["time_constant"], weighting["averaging"]
     rate = 1.0 / float(runs["time"][1] - runs["time"][0])
+    require_cover(runs, s)
     _check_run_in(runs, s[0], weighting, drives)
     doses = Doses(runs["s"].transpose("run", "time"), rate, s[0], s[-1], *averaging)
     runs["a_v"] = iso2631.running_total_value(
