@@ -14,8 +14,10 @@ from .agreement import spearman
 BINS = 60
 """Equal shares of the runs by one factor; 4,000 runs leave 66 in each."""
 
-LEAST_RUNS = 16
+NEIGHBOURS = 8
+"""Runs at least, next to one another by a factor, among which that factor is taken to act along a line."""
 
+LEAST_RUNS = 16
 
 BACKFITS = 8
 """Rounds in which the additive model is fitted; independent factors need few."""
@@ -37,21 +39,23 @@ def first_order(factors, measure, bins: int = BINS) -> np.ndarray:
     First-order Sobol' indices from given runs with independent factors: an additive model, a
     mean for each of ``bins`` equal shares of the runs by each factor, fitted to all factors
     together, so that what one does does not blur the others; the variance of a factor's
-    means less what scatter adds to it. Close to 0, and by chance a little below, where a
-    factor alone does not matter. NaN for a constant measure.
+    means less what scatter adds to it, and what the factor does within its shares, of which
+    runs next to one another tell by how much less they scatter. Close to 0, and by chance a
+    little below, where a factor alone does not matter. NaN for a constant measure.
     """
     factors, measure = np.atleast_2d(np.asarray(factors, float)), np.asarray(measure, float)
-    labels = _labels(factors, bins)
-    return _shares(labels, measure, _degrees(labels))
+    cells, fine = _cells(factors, bins)
+    return _shares(factors, measure, cells, fine, _degrees(cells // fine))
 
 
-def _labels(factors: np.ndarray, bins: int) -> np.ndarray:
-    """Which of up to ``bins`` equal shares each run is in, by each factor."""
+def _cells(factors: np.ndarray, bins: int) -> tuple[np.ndarray, int]:
+    """The cell of neighbours that each run is in, by each factor, and of how many cells each of up to ``bins`` equal shares consists."""
     runs = factors.shape[1]
     if runs < LEAST_RUNS:
         raise InputError(f"{runs} runs are too few to tell an influence; expected at least {LEAST_RUNS}")
     bins = min(bins, max(2, runs // 10))
-    return np.argsort(np.argsort(factors, axis=1, kind="stable"), axis=1) * bins // runs
+    fine = max(1, runs // (bins * NEIGHBOURS))
+    return np.argsort(np.argsort(factors, axis=1, kind="stable"), axis=1) * (bins * fine) // runs, fine
 
 
 def _degrees(labels: np.ndarray) -> list[float]:
@@ -68,12 +72,13 @@ def _degrees(labels: np.ndarray) -> list[float]:
     return found
 
 
-def _shares(labels: np.ndarray, measure: np.ndarray, degrees: Sequence[float]) -> np.ndarray:
-    """``first_order`` from the shares that the runs are in, whose ``_degrees`` are these."""
+def _shares(factors: np.ndarray, measure: np.ndarray, cells: np.ndarray, fine: int, degrees: Sequence[float]) -> np.ndarray:
+    """``first_order`` from the ``_cells`` that the runs are in, whose shares have these ``_degrees``."""
     rest = measure - measure.mean()
     total = rest.var(ddof=1)
     if total == 0.0:
-        return np.full(len(labels), np.nan)
+        return np.full(len(cells), np.nan)
+    labels = cells // fine
     counts = [np.bincount(label) for label in labels]
     alone = [np.zeros(len(count)) for count in counts]
     for _ in range(BACKFITS):
@@ -82,9 +87,24 @@ def _shares(labels: np.ndarray, measure: np.ndarray, degrees: Sequence[float]) -
             alone[i] += step
             rest = rest - step[label]
     free = [np.count_nonzero(count) - 1 for count in counts]
-    scatter = rest @ rest / (len(rest) - sum(free) - 1)
-    between = [count @ means**2 - own * scatter for count, means, own in zip(counts, alone, degrees)]
-    return np.array(between) / len(rest) / total
+    left = len(rest) - sum(free) - 1
+    scatter = rest @ rest / left
+    squares = []
+    for factor, cell, count, means, own, taken in zip(factors, cells, counts, alone, degrees, free):
+        within = len(rest) - taken - 1
+        noise = _scatter(factor, rest, cell) * within / left  # the means of the other factors have taken of it, too
+        squares.append(count @ means**2 - own * noise + within * (scatter - noise))
+    return np.array(squares) / len(rest) / total
+
+
+def _scatter(factor: np.ndarray, values: np.ndarray, cell: np.ndarray) -> float:
+    """Variance of values (run,) about a line over the factor in each cell."""
+    count = np.bincount(cell)
+    x, y = (each - (np.bincount(cell, each) / np.maximum(count, 1))[cell] for each in (factor, values))
+    square = np.bincount(cell, x**2)
+    has_slope = square > 0.0
+    y = y - (np.bincount(cell, x * y) / np.where(has_slope, square, 1.0))[cell] * x
+    return y @ y / (len(y) - np.count_nonzero(count) - np.count_nonzero(has_slope))
 
 
 def influence(measure, samples: xr.Dataset, *, groups: int = 50, bins: int = BINS) -> xr.Dataset:
@@ -102,11 +122,14 @@ def influence(measure, samples: xr.Dataset, *, groups: int = 50, bins: int = BIN
     values = [np.asarray(samples[name], float) for name in factors]
     if any(len(each) != len(measure) for each in values):
         raise InputError(f"{len(measure)} values of the measure for {len(values[0])} samples", place="influence")
-    labels = _labels(np.array(values), bins)
-    degrees = _degrees(labels)
+    values = np.array(values)
+    cells, fine = _cells(values, bins)
+    degrees = _degrees(cells // fine)
     figures = {
         "spearman": np.array([_jackknife(lambda runs: spearman(x[runs], measure[runs]), len(x), groups) for x in values]),
-        "first_order": _jackknife(lambda runs: _shares(labels[:, runs], measure[runs], degrees), len(measure), groups),
+        "first_order": _jackknife(
+            lambda runs: _shares(values[:, runs], measure[runs], cells[:, runs], fine, degrees), len(measure), groups
+        ),
     }
     answer = xr.Dataset(
         {key: (("factor", "bound"), table) for key, table in figures.items()},
