@@ -93,6 +93,12 @@ def test_another_title_of_a_site_makes_its_pages_again_and_nothing_that_they_sho
     assert {step for step in steps if told[0][step] != told[1][step]} == {"tables", "report"}
 
 
+def test_tables_and_figures_are_told_which_stand_ins_a_vehicle_is_calibrated_on(project):
+    told = lambda site, step: stepsettings.of_step(config.load({"sites": [site]}, project), step, site, "base")["standin_calibrations"]
+    for step in ("tables", "figures", "report", "compared", "located"):
+        assert told("ts2", step) == ["ts1"] and told("own", step) == []
+
+
 def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
     drive = {**DRIVE, "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
     (project / "drive.csv").write_text(HEADER)

@@ -63,6 +63,7 @@ def settings(sites) -> dict:
             }
             for each in sites
         },
+        "standin_calibrations": [each.name for each in sites if each.standin and each.calibrated_on == each.name],
         "model": "base",
         "effects": {},
         "runs": sites[0].samples.sizes["run"],

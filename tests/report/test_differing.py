@@ -327,6 +327,9 @@ def test_stand_in_is_said(tables, study):
     assert all(any(note.startswith("Stand-in data") for note in made.notes) for made in tables.values())
     own = Difference(tuple(Compared(s.name, s.measured, s.comparison) for s in study.sites), study.ladder)
     assert not any("tand-in" in note for made in differing.tables(own).values() for note in made.notes)
+    elsewhere = replace(own, standin_calibrations=["ts3"])
+    assert all(any("drives of Ts3 are" in note for note in made.notes) for made in differing.tables(elsewhere).values())
+    assert elsewhere.standin_mark() == replace(own.sites[0], standin_calibrations=["ts3"]).standin_mark() == "Stand-in data: Ts3"
 
 
 def test_a_site_that_nothing_is_calibrated_on_has_its_first_rung_only():

@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 from ridecomfort.comfort import weighting
-from ridecomfort.report import catalogue, figures, style
+from ridecomfort.report import catalogue, figures, style, tables
 from ridecomfort.report.figures.weighting import response_of_weight, sample_signal
 from tests.report import synthetic
 
@@ -87,6 +87,19 @@ def test_figures_of_stand_in_sites_say_so_and_others_do_not(drawn, own_site):
     assert "Stand-in data: Ts3" in words_of(drawn["opti_plots"])
     for name in ("critical_shares", "validation_iso"):
         assert "Stand-in" not in words_of(figures.draw(own_site, name))
+
+
+def test_what_a_stand_in_elsewhere_calibrated_says_so(own_site):
+    """A study of a site of one's own whose vehicle is calibrated on a stand-in that is not in the call."""
+    both = synthetic.study(("ts1", "home"))
+    site = dataclasses.replace(both.sites[1], standin=False)
+    study = dataclasses.replace(both, sites=(site,), assessment=own_site.assessment, standin_calibrations=("ts1",))
+    for name in ("optichain", "convergence", "opti_plots", "validation_iso", "critical_shares"):
+        assert figures.standin_mark(study, name) == "Stand-in data: Ts1", name
+    for name in ("views_home", "testsection_figs", "smoothing", "framework"):
+        assert figures.standin_mark(study, name) is None, name
+    for found in (tables.calibration.constraints(study), tables.calibration.opti_res(study, site)):
+        assert any("measured drives of Ts1 are made from seeds" in note for note in found.notes)
 
 
 def test_drawing_leaves_the_settings_of_others_alone(own_site):

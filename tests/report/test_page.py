@@ -94,7 +94,7 @@ def captions_of(text):
 
 def test_figures_of_a_site_of_ones_own_do_not_say_stand_in_beside_one_that_is():
     study, found = synthetic.study(("ts1", "home")), differing.difference(("ts1", "home"))
-    own = [dataclasses.replace(each.sites[1], standin=False) for each in (study, found)]
+    own = [dataclasses.replace(study.sites[1], standin=False, calibrated_on="home"), dataclasses.replace(found.sites[1], standin=False)]
     found = dataclasses.replace(found, sites=(found.sites[0], own[1]))
     study = dataclasses.replace(study, sites=(study.sites[0], own[0]), difference=found, diagnosis=differing.diagnosis(standin=False))
     text = page.render(study, tables.make(study), dict.fromkeys(page.captions(study), PIXEL))

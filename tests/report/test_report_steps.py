@@ -89,6 +89,15 @@ def test_a_diagnosis_may_be_of_a_site_that_is_not_in_the_call(written):
     assert found.sites == ("ts1", "home") and found.standin == ("Ts1",)
 
 
+def test_the_stand_in_that_a_vehicle_is_calibrated_on_is_known_though_it_is_not_in_the_call(written):
+    folder, config = written
+    home = {**config["sites"]["home"], "standin": False, "calibrated_on": "ts1"}
+    alone = {**config, "sites": {"home": home}, "standin_calibrations": ["ts1"]}
+    assert results.load(folder, alone).standin_mark() == results.difference(folder, alone).standin_mark() == "Stand-in data: Ts1"
+    drives = {**config, "sites": {"ts1": {**config["sites"]["ts1"], "standin": False}}}
+    assert results.compared(folder, drives, "ts1").standin_mark() == "Stand-in data: Ts1"
+
+
 def test_traces_name_files_that_exist(written):
     folder, config = written
     tables.main(folder, config, folder / "tables")

@@ -69,9 +69,9 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
                 "iso2631": weighted,
             }
         case "located":
-            return {"model": model, "sites": _shown(study, [site])}
+            return {"model": model, **_shown(study, [site])}
         case "compared":
-            return {"model": model, "sites": _shown(study, study.measured)}
+            return {"model": model, **_shown(study, study.measured)}
         case "diagnosed":
             return {"model": model, "diagnosed": _diagnosed(study), "scored": False, **_switched_on(study)}
         case "standin_score":
@@ -118,7 +118,7 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"], **place}
         case "tables" | "figures" | "report":
             keys = ("runs", "seed", "sampling_method", "space", "calibration", "comfort")
-            told = {**simulated, "sites": summaries(study), "model": model, **{key: chosen[key] for key in keys}}
+            told = {**simulated, **_sites(study, study.names), "model": model, **{key: chosen[key] for key in keys}}
             return told | _of_page(study) if step == "report" else told
     raise KeyError(step)
 
@@ -166,9 +166,18 @@ def _switched_on(study: Study) -> dict:
     return {"switched_on": study.switched_on, "held": held, "told_before": before}
 
 
-def _shown(study: Study, sites: Iterable[str]) -> dict[str, dict]:
-    """What tables and figures of measured drives say of these sites."""
-    return {site: {key: _summary(study, site)[key] for key in ("title", "standin", "has_drives", "calibrated_on")} for site in sites}
+def _sites(study: Study, names: Iterable[str]) -> dict:
+    """What tables and figures say of these sites, and the stand-ins that their vehicles are calibrated on, which may be others."""
+    sites = {site: _summary(study, site) for site in names}
+    found = dict.fromkeys(each["calibrated_on"] for each in sites.values())
+    return {"sites": sites, "standin_calibrations": [site for site in found if site and study.sites[site]["standin"]]}
+
+
+def _shown(study: Study, names: Iterable[str]) -> dict:
+    """The same of measured drives."""
+    told = _sites(study, names)
+    keys = ("title", "standin", "has_drives", "calibrated_on")
+    return {**told, "sites": {site: {key: each[key] for key in keys} for site, each in told["sites"].items()}}
 
 
 def _aligned(study: Study, site: str) -> dict:

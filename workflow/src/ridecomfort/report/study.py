@@ -45,13 +45,14 @@ class Site:
 
 @dataclass(frozen=True)
 class Compared:
-    """A measured site: its aligned drives, and what the model did on them. ``files`` as for Site."""
+    """A measured site: its aligned drives, and what the model did on them. ``files`` as for Site, ``standin_calibrations`` as for Study."""
 
     name: str
     measured: xr.Dataset
     comparison: xr.Dataset
     standin: bool = False
     files: Mapping[str, str] = field(default_factory=dict)
+    standin_calibrations: Sequence[str] = ()
 
     @property
     def label(self) -> str:
@@ -60,14 +61,14 @@ class Compared:
 
     def standin_mark(self) -> str | None:
         """As of a Study."""
-        return standin_mark([self.label] if self.standin else [])
+        return standin_mark(_labels([self], self.standin_calibrations))
 
 
 @dataclass(frozen=True)
 class Difference:
     """Where model and measurement differ, on every measured site, and the error ladder (``discrepancy.ladder``).
 
-    The calibrations of the model by the site that they were made on, with their files.
+    The calibrations of the model by the site that they were made on, with their files; ``standin_calibrations`` as for Study.
     """
 
     sites: tuple[Compared, ...]
@@ -76,6 +77,7 @@ class Difference:
     model: str = "base"
     calibrations: Mapping[str, xr.Dataset] = field(default_factory=dict)
     calibration_files: Mapping[str, str] = field(default_factory=dict)
+    standin_calibrations: Sequence[str] = ()
 
     def site(self, name: str) -> Compared:
         """The measured site of that name."""
@@ -83,11 +85,11 @@ class Difference:
 
     def standin_note(self) -> str | None:
         """As of a Study."""
-        return standin_note([site.label for site in self.sites if site.standin])
+        return standin_note(_labels(self.sites, self.standin_calibrations))
 
     def standin_mark(self) -> str | None:
         """As of a Study."""
-        return standin_mark([each.label for each in self.sites if each.standin])
+        return standin_mark(_labels(self.sites, self.standin_calibrations))
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,7 @@ class Diagnosis:
 class Study:
     """The sites in order, the calibrations by the site that they were made on, and the settings.
 
+    ``standin_calibrations`` are the names of the stand-in sites that a vehicle is calibrated on, whether or not they are among the sites.
     ``assessment`` is what the sites together say of the methods (``comfort.assessment.gather``).
     ``settings`` is the configuration that the report was made with (plain data), ``software``
     maps names of software to versions. ``difference`` and ``diagnosis`` are None where nothing was measured or diagnosed.
@@ -140,6 +143,7 @@ class Study:
     sites: tuple[Site, ...]
     calibrations: Mapping[str, xr.Dataset] = field(default_factory=dict)
     calibration_files: Mapping[str, str] = field(default_factory=dict)
+    standin_calibrations: Sequence[str] = ()
     assessment: xr.Dataset | None = None
     assessment_file: str = ""
     model: str = "base"
@@ -168,13 +172,18 @@ class Study:
         return tuple(site for site in self.sites if site.standin)
 
     def standin_note(self) -> str | None:
-        """The sentence that goes wherever results of stand-in sites are shown, None without them."""
-        return standin_note([site.label for site in self.standin])
+        """The sentence that goes wherever results of stand-in sites, or of vehicles calibrated on them, are shown; None without them."""
+        return standin_note(_labels(self.sites, self.standin_calibrations))
 
     def standin_mark(self, sites: Iterable[str] | None = None) -> str | None:
         """The words that go into figures of stand-in sites (of those among ``sites``, of any), None without them."""
-        shown = [site.name for site in self.sites] if sites is None else list(sites)
-        return standin_mark([each.label for each in self.standin if each.name in shown])
+        return standin_mark(_labels(self.sites, self.standin_calibrations, sites))
+
+
+def _labels(sites: Iterable[Site | Compared], calibrations: Iterable[str], shown: Iterable[str] | None = None) -> list[str]:
+    """Labels of stand-ins, each once: those of the sites, then those that a vehicle is calibrated on; only of those ``shown`` where given."""
+    names = dict.fromkeys([*(site.name for site in sites if site.standin), *calibrations])
+    return [label(name) for name in dict.fromkeys(names if shown is None else shown) if name in names]
 
 
 def foot_notes(sites: Iterable[Site | Compared]) -> list[str]:

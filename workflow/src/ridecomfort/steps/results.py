@@ -23,6 +23,7 @@ def load(results: Path, config: dict, software: dict | None = None) -> Study:
         sites=tuple(_site(results, name, model, settings) for name, settings in config["sites"].items()),
         calibrations={name: store.read(file) for name, file in calibrations.items()},
         calibration_files={name: file.as_posix() for name, file in calibrations.items()},
+        standin_calibrations=config["standin_calibrations"],
         assessment=store.read(assessment),
         assessment_file=assessment.as_posix(),
         model=model,
@@ -52,6 +53,7 @@ def difference(results: Path, config: dict) -> Difference:
         model=model,
         calibrations={name: store.read(file) for name, file in calibrations.items()},
         calibration_files={name: file.as_posix() for name, file in calibrations.items()},
+        standin_calibrations=config["standin_calibrations"],
     )
 
 
@@ -61,7 +63,11 @@ def compared(results: Path, config: dict, name: str) -> Compared:
     files = {"measured": results / aligned_file(name, model, calibrated), "comparison": results / name / model / "comparison.nc"}
     loaded = {key: store.read(file) for key, file in files.items()}
     return Compared(
-        name, **loaded, standin=config["sites"][name]["standin"], files={key: file.as_posix() for key, file in files.items()}
+        name,
+        **loaded,
+        standin=config["sites"][name]["standin"],
+        files={key: file.as_posix() for key, file in files.items()},
+        standin_calibrations=[site for site in config["standin_calibrations"] if site == calibrated],
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from matplotlib.figure import Figure
 
 from .. import style
-from ..study import Study
+from ..study import Site, Study
 from . import agreement, along, calibration, diagrams, overview, roads, roughness, surface, weighting
 
 BUILDERS: Mapping[str, Callable[[Study], Figure]] = {
@@ -39,12 +39,19 @@ OF_SITE: Mapping[str, Callable[[Study, str], Figure]] = {
 SHOWN: Mapping[str, Callable[[Study], Iterable[str]]] = {
     "framework": lambda study: (),
     "leastsquare": lambda study: (),
-    "validation_iso": lambda study: (weighting.sampled(study).name,),
+    "validation_iso": lambda study: _simulated(weighting.sampled(study)),
+    "testsection_figs": lambda study: [site.name for site in study.sites],
+    "smoothing": lambda study: [site.name for site in study.sites],
     "optichain": lambda study: study.calibrations,
     "convergence": lambda study: study.calibrations,
-    "opti_plots": lambda study: (calibration.shown(study).name,),
+    "opti_plots": lambda study: _simulated(calibration.shown(study)),
 }
-"""Names of the sites whose data a figure shows, of each figure of the whole study that does not show all of them."""
+"""Names of the sites whose data a figure shows, of each figure of the whole study that does not show all of them and of all calibrations."""
+
+
+def _simulated(site: Site) -> tuple[str | None, ...]:
+    """Names of the sites whose data are in the simulated drives of a site."""
+    return site.name, site.calibrated_on
 
 
 def draw(study: Study, name: str) -> Figure:
