@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
@@ -194,6 +195,17 @@ def test_what_may_be_chance_is_not_on_the_map(study):
         noisy = own.assign(error_map=times * own["floor_density"].broadcast_like(own["error_map"]))
         _, above = located._above(noisy)
         assert above.shape[0] == own.sizes["s_map"] and above.any() == is_seen
+
+
+def test_places_that_no_drive_tells_of_do_not_look_like_places_without_error(study):
+    site = study.sites[0]
+    between = (site.comparison["s_map"] > 500) & (site.comparison["s_map"] < 700)
+    found = site.comparison.assign(error_map=site.comparison["error_map"].where(~between))
+    with style.styled():
+        made = located.located(replace(site, comparison=found), study.model)
+    image = next(axes.collections[0] for axes in made.axes if axes.get_ylabel().startswith("$a_z$"))
+    is_grey = (image.to_rgba(image.get_array()) == to_rgba(located.UNCOUNTED)).all(axis=-1)
+    assert (is_grey == found["error_map"].sel(signal="a_z").isnull().any("frequency_map").values).all()
 
 
 def test_maps_of_two_models_compare_by_their_colours(study):

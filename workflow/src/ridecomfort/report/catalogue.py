@@ -177,7 +177,8 @@ def site_figures(name: str) -> dict[str, str]:
     return {
         f"located_{name}": (
             f"{label(name)}: where simulated and measured drives differ. Left: error above the floor by place and frequency, in colours "
-            "that mean the same for every model and site, where it is more than chance, and in all; numbered boxes are "
+            "that mean the same for every model and site, where it is more than chance, and in all; grey are frequencies that are the "
+            "driver's, and places that no drive tells of; numbered boxes are "
             "the findings in words below, at most five, at most two of a signal: errors of 1 % of the signal's power or more in a band or, "
             "where none is as large, the largest. Right: spectra of signal, error and floor."
         ),

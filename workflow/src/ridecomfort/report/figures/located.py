@@ -6,6 +6,7 @@ from textwrap import fill
 
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
@@ -28,7 +29,7 @@ CHANCE = 2.0
 TICKS = (0.1, 0.3, 1, 3, 10, 30)
 
 UNCOUNTED = "#E1E3E6"
-"""Colour of frequencies that are the driver's and not judged."""
+"""Colour of what is not judged: frequencies that are the driver's, and places that no drive tells of."""
 
 PER_OCTAVE = 6
 """Rows of the map in an octave: single lines of a short spectrum scatter so much that noise would look like error."""
@@ -57,10 +58,10 @@ def located(site: Compared, model: str) -> Figure:
     )
     top, panels = panels[0], panels[1:]
     place = found["s_map"].values / 1000
+    colours = {"cmap": colormaps["YlOrBr"].with_extremes(bad=UNCOUNTED), "norm": LogNorm(PALEST, DARKEST)}
     for (left, right), signal in zip(panels, SIGNALS):
         own = found.sel(signal=signal)
         frequency, above = _above(own)
-        colours = {"cmap": "YlOrBr", "norm": LogNorm(PALEST, DARKEST)}
         image = left.pcolormesh(place, frequency, np.maximum(above, PALEST).T, **colours, shading="nearest", rasterized=True)
         whole = np.maximum(own["power_share"].sum("stretch").values, 0.0).sum()
         left.set_title(f"in all {100 * whole:.1f} % of the signal's power", loc="right", fontsize=7)
@@ -100,13 +101,13 @@ def located(site: Compared, model: str) -> Figure:
 
 def _above(found: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies (Hz), and error above the floor, (place, frequency), in percent of the signal's measured power per octave; nil where it may be
-    CHANCE."""
+    CHANCE, nan where no drive tells."""
     lines = found["frequency_map"].values
     rows = np.unique(np.round(PER_OCTAVE * np.log2(lines)), return_inverse=True)[1]
     mean = lambda values: np.stack([values[..., rows == row].mean(axis=-1) for row in range(rows.max() + 1)], axis=-1)  # noqa: E731
     frequency, power = mean(lines), float(found["measured_power"].sum())
     error, floor = mean(found["error_map"].values), mean(found["floor_density"].values)
-    above = np.where(error > CHANCE * floor, error - floor, 0.0)
+    above = np.where(error <= CHANCE * floor, 0.0, error - floor)
     return frequency, 100 * np.log(2) * frequency * above / (power or np.inf)
 
 
