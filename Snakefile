@@ -15,6 +15,7 @@ from ridecomfort.errors import InputError
 from ridecomfort.report import catalogue
 from ridecomfort.schema import read_yaml
 from ridecomfort.steps import models, progress
+from ridecomfort.study import has_fit
 
 os.environ.update(
     PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),
@@ -52,9 +53,13 @@ if "diagnose" in asked and not study.diagnosed:
     sys.exit(f"error: all drives of {sites} are held out, so that there is nothing to diagnose on (expected drives with role: fit)")
 
 beside = [site for site in study.measured if site not in study.diagnosed]
-if "diagnose" in asked and beside:
+others = [site for site in beside if study.calibrated_on(site) or has_fit(study.sites[site])]
+held_out = [site for site in beside if site not in others]
+if "diagnose" in asked and others:
     searched = ", ".join(study.diagnosed)
-    print(f"{', '.join(beside)}: not diagnosed, being of another car than {searched} (expected alone: --config sites=[{beside[0]}])", file=sys.stderr)
+    print(f"{', '.join(others)}: not diagnosed, being of another car than {searched} (expected alone: --config sites=[{others[0]}])", file=sys.stderr)
+if "diagnose" in asked and held_out:
+    print(f"{', '.join(held_out)}: not diagnosed, being calibrated nowhere, with all drives held out (expected drives with role: fit)", file=sys.stderr)
 
 followed = progress.follow(workflow)
 

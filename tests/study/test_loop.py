@@ -7,6 +7,7 @@ import re
 import shutil
 
 import pytest
+import yaml
 
 from ridecomfort.study import digest
 
@@ -92,6 +93,12 @@ def test_what_is_not_diagnosed_is_said(project, repository):
     assert said in answer.text and "measured ts1" in answer.jobs and "measured ts2" not in answer.jobs
     answer = project.snakemake("--dry-run", "diagnose", "--config", "sites=[ts1, ts3]")
     assert "not diagnosed" not in answer.text and "measured ts3" in answer.jobs
+    content = yaml.safe_load(second.read_text())
+    held_out = [{**drive, "role": "check"} for drive in content["drives"]]
+    second.write_text(yaml.safe_dump({**content, "calibrated_on": "none", "drives": held_out}))
+    answer = project.snakemake("--dry-run", "diagnose", "--config", "sites=[ts1, ts2]")
+    assert "ts2: not diagnosed, being calibrated nowhere, with all drives held out (expected drives with role: fit)" in answer.text
+    assert "of another car" not in answer.text
 
 
 def test_sites_without_drives_have_nothing_to_compare(project):
