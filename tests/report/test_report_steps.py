@@ -81,6 +81,18 @@ def test_a_diagnosis_elsewhere_stays_where_the_vehicle_of_a_site_is_calibrated_t
     assert {file.name for file in tmp_path.iterdir()} == {"verdict.csv", "standin_score.csv", "evidence.png"}
 
 
+@pytest.mark.parametrize("standin", [True, False])
+def test_the_score_of_an_earlier_study_does_not_stay_beside_the_verdict_on_real_drives(written, tmp_path, monkeypatch, standin):
+    folder, config = written
+    monkeypatch.setattr("ridecomfort.report.diagnosed.figures", lambda diagnosis: {})
+    (tmp_path / "tables").mkdir()
+    for suffix in table.WRITERS:
+        (tmp_path / "tables" / f"standin_score{suffix}").touch()
+    diagnosed.main(folder, {**config, "diagnosed": {"ts1": True, "home": standin}, "scored": False, "switched_on": [], "held": {}}, tmp_path, "1")
+    names = {file.name.split(".")[0] for file in (tmp_path / "tables").iterdir()}
+    assert names == {*catalogue.DIAGNOSIS_TABLES, *(["standin_score"] if standin else [])}
+
+
 def test_a_diagnosis_may_be_of_a_site_that_is_not_in_the_call(written):
     """As of the one that the vehicle is calibrated on, when the study is that of another site alone."""
     folder, config = written
