@@ -81,6 +81,16 @@ def test_improvement_follows_from_the_errors(made, paper_like):
     assert ours[3]["nrmse_a_z"] == pytest.approx(float(errors.sel(drive="slower")))
 
 
+def test_of_a_site_that_is_calibrated_elsewhere_no_row_passes_for_fitted(made, paper_like):
+    fitted, elsewhere = made["opti_res_ts1"], made["opti_res_ts2"]
+    assert "check: drives that nothing is fitted to." in fitted.notes and "check: drives that nothing is fitted to." not in elsewhere.notes
+    assert "Nothing is fitted to any drive of Ts2." in elsewhere.notes and not any("Nothing is fitted" in note for note in fitted.notes)
+    assert fitted.sources[0].rule == "mean over the drives of role fit"
+    assert elsewhere.sources[0].rule == "mean over the drives of role fit, not fitted"
+    nominal = tables.calibration.opti_res(paper_like, dataclasses.replace(paper_like.sites[1], calibrated_on=None))
+    assert "Nothing is fitted to any drive of Ts2." in nominal.notes
+
+
 def test_published_improvements_follow_from_published_errors():
     """tab:opti_res_ts1..3: the printed errors have four digits, the printed changes come from more."""
     for site in ("ts1", "ts2", "ts3"):

@@ -75,10 +75,13 @@ def opti_res(study: Study, site: Site) -> Table:
     rows = _changes(site, _main_role(site), "")
     sources = _sources((site,))
     breaks, notes = [], [NOT_CALIBRATED] if _has_effects(site) else []
+    is_fitted = site.calibrated_on == site.name
+    if not is_fitted:
+        notes.append(f"Nothing is fitted to any drive of {site.label}.")
     if _main_role(site) == "fit" and _drives(site, "check"):
         breaks.append(len(rows))
         rows += _changes(site, "check", ", check")
-        notes.append("check: drives that nothing is fitted to.")
+        notes.append("check: drives that nothing is fitted to." if is_fitted else "check: drives of role check; the other rows are those of role fit.")
         file = site.files.get("comparison", "")
         sources.append(Source(f"{OURS}, check", file, "nrmse", "mean over the drives of role check, never fitted"))
     rule = "100 (Ref − Opt) / Ref, from unrounded values"
@@ -263,7 +266,7 @@ def _sources(sites) -> list[Source]:
             f"{OURS}, {site.label}",
             site.files.get("comparison", ""),
             "nrmse",
-            f"mean over the drives of role {_main_role(site)}",
+            f"mean over the drives of role {_main_role(site)}{'' if site.calibrated_on == site.name else ', not fitted'}",
         )
         for site in sites
     ]
