@@ -54,6 +54,15 @@ def test_sines_have_the_doses_of_their_closed_forms(files):
     assert found["vdv"].values == pytest.approx(factors * (0.375 * found["duration"].values[:, None]) ** 0.25, rel=2e-3)
 
 
+def test_what_nobody_feels_has_no_crest_factor(files):
+    drives = store.read(files / "both.nc")
+    flat = drives["a_y"] * 0.0
+    flat[:, 2000] = 1e-12
+    store.write(drives.assign(a_y=flat), files / "flat.nc", title="drives")
+    crest = spaced(files, "flat")["crest_factor"]
+    assert np.isnan(crest.sel(axis="a_y")).all() and np.isfinite(crest.sel(axis=["a_x", "a_z"])).all()
+
+
 @pytest.mark.parametrize("averaging, enough, too_long", [("linear", 4.5, 4.6), ("exponential", 1.5, 4.6 / 3)])
 def test_a_run_in_must_let_the_running_rms_settle(files, averaging, enough, too_long):
     """50 m at 11 m/s are 4.55 s; of steady vibration an exponential mean knows 95 % of the power after three time constants."""

@@ -26,6 +26,14 @@ def test_metrics_of_a_sine():
     assert found.vdv.attrs["units"] == "m/s1.75"
 
 
+def test_what_nobody_feels_is_no_shock_however_it_rounds():
+    spike = np.zeros(2000)
+    spike[1000] = 1e-15
+    found = quantities.metrics(spike, 100.0)
+    assert 0.0 < float(found.rms) < quantities.UNFELT and bool(found.rms_suffices) and quantities.advice(found) == []
+    assert all(np.isnan(float(found[name])) for name in ("crest_factor", "mtvv_ratio", "vdv_ratio"))
+
+
 def test_advice_where_the_rms_underrates():
     shock = np.zeros(6000)
     shock[3000:3010] = 10.0

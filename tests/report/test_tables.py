@@ -244,6 +244,16 @@ def test_an_a_x_that_is_the_drivers_by_the_accelerometer_is_told_beside_the_pape
     assert not any("foot" in note for note in tables.calibration.baseline_res(study).notes)
 
 
+def test_an_axis_that_nobody_feels_has_no_ratios_and_an_rms_that_suffices(paper_like):
+    site = paper_like.sites[0]
+    found = site.iso2631.copy(deep=True)
+    found["weighted_rms"].loc[{"axis": "a_y"}] = found["vdv"].loc[{"axis": "a_y"}] = 1e-16
+    found["mtvv"].loc[{"axis": "a_y"}], found["crest_factor"].loc[{"axis": "a_y"}] = 1e-14, np.nan
+    study = dataclasses.replace(paper_like, sites=(dataclasses.replace(site, iso2631=found),))
+    row = tables.passengers.vibration(study).rows[1]
+    assert np.isnan(row[6:9]).all() and row[9] == 0.0
+
+
 def test_every_table_of_results_says_stand_in_and_names_its_sources(made):
     for name, each in made.items():
         assert each.sources and all(source.file and source.variable and source.rule for source in each.sources)

@@ -54,12 +54,12 @@ class Doses:
     def dataset(self, run) -> xr.Dataset:
         """``weighted_rms``, ``mtvv``, ``crest_factor``, ``vdv`` (run, axis), ``msdv_z``, ``duration`` (run).
 
-        Without k factors. Source: ISO 2631-1:1997 eq. 1, 4, 5, 6.2.1 and 9.2.1.
+        Without k factors. The crest factor is NaN where the rms is ``quantities.UNFELT``. Source: ISO 2631-1:1997 eq. 1, 4, 5, 6.2.1 and 9.2.1.
         """
         duration = (self._behind - self._first) / self.rate
         with np.errstate(divide="ignore", invalid="ignore"):
             rms = np.sqrt(self._second / self.rate / duration)
-            crest = self._peak / rms
+        crest = self._peak / np.where(rms >= quantities.UNFELT, rms, np.nan)
         variables = {
             "weighted_rms": (("run", "axis"), rms.T),
             "mtvv": (("run", "axis"), self._mtvv.T.copy()),

@@ -78,6 +78,9 @@ CREST_LIMIT, MTVV_LIMIT, VDV_LIMIT = 9.0, 1.5, 1.75
 """Where the rms alone may underrate a vibration: crest factor (ISO 2631-1:1997 6.2.2), MTVV / a_w and
 VDV / (a_w T^1/4) (6.3.3)."""
 
+UNFELT = 1e-6
+"""m/s2 of weighted rms below which nobody feels anything: the ratios to such an rms are those of rounding."""
+
 UNITS = {
     "rms": ("m/s2", "root mean square of the weighted acceleration"),
     "mtvv": ("m/s2", "maximum transient vibration value, the largest running rms"),
@@ -97,7 +100,8 @@ def metrics(weighted, rate: float, *, time_constant: float = 1.0, method: str = 
     Returns a dataset over the axes before time: ``rms``, ``mtvv``, ``vdv``, ``evdv``,
     ``msdv``, ``crest_factor``, ``mtvv_ratio``, ``vdv_ratio``, ``duration`` and
     ``rms_suffices``, which is False where the standard asks for more than the rms;
-    over time ``running_rms``, as in ``running_rms``. Units are in the attributes.
+    over time ``running_rms``, as in ``running_rms``. Units are in the attributes. Crest factor and ratios
+    are NaN where the rms is ``UNFELT``.
     MSDV is a dose of motion sickness only where the weighting is Wf. Padding with NaN
     at the end is no part of a signal.
 
@@ -119,10 +123,10 @@ def metrics(weighted, rate: float, *, time_constant: float = 1.0, method: str = 
         "msdv": rms * duration**0.5,
         "duration": duration,
     }
-    with np.errstate(invalid="ignore", divide="ignore"):
-        found["crest_factor"] = peak / rms
-        found["mtvv_ratio"] = found["mtvv"] / rms
-        found["vdv_ratio"] = found["vdv"] / (rms * duration**0.25)
+    felt = np.where(rms >= UNFELT, rms, np.nan)
+    found["crest_factor"] = peak / felt
+    found["mtvv_ratio"] = found["mtvv"] / felt
+    found["vdv_ratio"] = found["vdv"] / (felt * duration**0.25)
     running = restore(running.reshape(values.shape))
     if not isinstance(running, xr.DataArray):
         dims = (*(f"dim_{axis}" for axis in range(values.ndim - 1)), "time")
@@ -134,9 +138,8 @@ def metrics(weighted, rate: float, *, time_constant: float = 1.0, method: str = 
     for name, (unit, meaning) in UNITS.items():
         answer[name] = frame.copy(data=found[name].reshape(frame.shape))
         answer[name].attrs = {"units": unit, "long_name": meaning}
-    answer["rms_suffices"] = (
-        (answer.crest_factor <= CREST_LIMIT) & (answer.mtvv_ratio <= MTVV_LIMIT) & (answer.vdv_ratio <= VDV_LIMIT)
-    )
+    asks_for_more = (answer.crest_factor > CREST_LIMIT) | (answer.mtvv_ratio > MTVV_LIMIT) | (answer.vdv_ratio > VDV_LIMIT)
+    answer["rms_suffices"] = answer.rms.notnull() & ~asks_for_more
     answer.rms_suffices.attrs["long_name"] = "whether the basic evaluation by rms is enough (ISO 2631-1, 6.2 and 6.3)"
     return answer
 

@@ -82,11 +82,8 @@ def vibration(study: Study) -> Table:
     for site in study.sites:
         found = site.iso2631
         root = found["duration"] ** 0.25
-        ratios = {
-            "crest_factor": found["crest_factor"],
-            "mtvv_ratio": found["mtvv"] / found["weighted_rms"],
-            "vdv_ratio": found["vdv"] / (found["weighted_rms"] * root),
-        }
+        felt = found["weighted_rms"].where(found["weighted_rms"] >= quantities.UNFELT)
+        ratios = {"crest_factor": found["crest_factor"], "mtvv_ratio": found["mtvv"] / felt, "vdv_ratio": found["vdv"] / (felt * root)}
         beyond = sum(ratios[name] > limit for name, limit in LIMITS.items()) > 0
         means = {"a_w": found["weighted_rms"], "mtvv": found["mtvv"], "vdv": found["vdv"]}
         means |= {"evdv": 1.4 * found["weighted_rms"] * root, **ratios, "beyond": 100.0 * beyond}
@@ -99,7 +96,8 @@ def vibration(study: Study) -> Table:
     notes = (
         "Without multiplying factors, over the evaluated stretch. The rms does not suffice where the crest factor passes "
         f"{quantities.CREST_LIMIT:g}, MTVV / $a_w$ {quantities.MTVV_LIMIT:g} or VDV / ($a_w$ T^1/4) "
-        f"{quantities.VDV_LIMIT:g}: report MTVV or VDV too (ISO 2631-1:1997, 6.2.2 and 6.3.3).",
+        f"{quantities.VDV_LIMIT:g}: report MTVV or VDV too (ISO 2631-1:1997, 6.2.2 and 6.3.3). "
+        f"No ratio where nothing is felt ($a_w$ below {quantities.UNFELT:g} m/s²).",
     )
     caption = catalogue.COMFORT_TABLES["vibration"]
     breaks = tuple(range(3, len(rows), 3))
