@@ -71,9 +71,17 @@ def test_a_floor_recording_goes_through_a_seat(recording, tmp_path):
     assert seat / floor == pytest.approx(np.sqrt(2.44 / 10.44), rel=0.02)
 
 
+def test_a_seat_without_a_vertical_acceleration_is_refused(tmp_path):
+    file = write(tmp_path / "my.csv", time=TIME, a_x=np.sin(2 * np.pi * TIME), a_y=0 * TIME)
+    with pytest.raises(SystemExit) as end:
+        main(["comfort", "--iso2631", str(file), "--seat", "2", "0.3"])
+    assert str(end.value) == "error: --seat: a seat changes a_z alone, which is not among a_x, a_y"
+
+
 def test_thresholds_take_gravity_off_and_say_so(recording, capsys):
     main(["comfort", "--thresholds", str(recording), "--column", "a_z=up", "--unit", "g"])
-    assert "gravity" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "gravity" in said and said.startswith("Driving styles, 30.0 s")  # the title of the plot, too, which has no jerk
     table = pd.read_csv(recording.with_name("my_thresholds.csv")).set_index("style")
     share = 100 * (1 - 2 / np.pi * np.arcsin(0.3 / 0.980665))
     assert table.loc["AG", "time outside [%]"] == pytest.approx(share, abs=1.0)
@@ -88,6 +96,20 @@ def test_local_roughness_names_the_place_of_a_step(tmp_path, capsys):
     _, _, told = printed.partition("left: 1 stretch with more than 3 m/km over 7.62 m (25 ft)\n")
     start, stop = (float(part) for part in told.split(" m,")[0].split(" to "))
     assert 55.0 < start < 60.0 < stop < 70.0
+
+
+@pytest.mark.parametrize(("length", "said"), [(149.0, "the last 49.0 m, less than half a segment, are in no row (--segment)"), (151.0, None), (200.0, None)])
+def test_what_of_a_profile_is_in_no_segment_is_said(tmp_path, length, said):
+    s = np.arange(0.0, length + 0.05, 0.1)
+    found = alone.roughness(write(tmp_path / "profile.csv", s=s, left=0.001 * np.sin(s)), 100.0)
+    assert [remark for remark in found.remarks if "in no row" in remark] == ([said] if said else [])
+    assert (found.table["to [m]"].iloc[-1] < s[-1]) == bool(said)
+
+
+def test_places_far_along_a_road_are_printed_to_the_centimetre(tmp_path):
+    s = 1_000_000.5 + 0.1 * np.arange(3001)
+    printed = alone.roughness(write(tmp_path / "profile.csv", s=s, left=0.001 * np.sin(s)), 100.0).text()
+    assert "1000000.50 1000100.50" in printed and "1000200.50 1000300.50" in printed and "e+06" not in printed
 
 
 def test_iri_of_two_tracks(tmp_path, capsys):

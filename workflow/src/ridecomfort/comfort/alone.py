@@ -64,7 +64,8 @@ class Result:
 
     def text(self) -> str:
         """Title, table and remarks for a terminal."""
-        table = self.table.to_string(index=False, float_format=lambda number: f"{number:.4g}", na_rep="–")
+        places = {name: "{:.2f}".format for name in self.table if name.endswith(" [m]")}
+        table = self.table.to_string(index=False, float_format=lambda number: f"{number:.4g}", formatters=places, na_rep="–")
         return "\n".join([self.title, "", table, *(["", *self.remarks] if self.remarks else [])])
 
 
@@ -159,7 +160,7 @@ def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.
 
     Offsets, gravity among them, do not matter: no weighting passes them. Health and
     sickness are stated for ``exposure_time`` s of nothing but this recording, or
-    for the recording alone. Raises InputError below LEAST_RATE or SHORTEST.
+    for the recording alone. Raises InputError below LEAST_RATE or SHORTEST, and for a ``chair`` without a_z.
     """
     rate = recording.attrs["rate"]
     _check_band(recording)
@@ -168,7 +169,9 @@ def ride(recording: xr.Dataset, exposure_time: float | None = None, chair: seat.
     trip, dose = duration if exposure_time is None else exposure_time, 0.0
     names = [name for name in AXES if name in recording]
     running = xr.Dataset(coords={"time": recording["time"]})
-    if chair is not None and "a_z" in names:
+    if chair is not None and "a_z" not in names:
+        raise InputError(f"a seat changes a_z alone, which is not among {', '.join(names)}", place="--seat")
+    if chair is not None:
         recording = recording.assign(a_z=seat.on_seat(recording["a_z"], rate, chair))
         remarks.append(f"a_z through a seat of {chair.natural_frequency:g} Hz, damping ratio {chair.damping_ratio:g}")
     for name in names:
@@ -280,7 +283,7 @@ def styles(recording: xr.Dataset) -> Result:
                 for style, band in limits.JERK.items()
             ]
     remarks += [recording.attrs["unused"]] if recording.attrs.get("unused") else []
-    title = f"Accelerations and jerk against driving styles, {recording.sizes['time'] / rate:.1f} s at {rate:g} Hz"
+    title = f"Driving styles, {recording.sizes['time'] / rate:.1f} s at {rate:g} Hz"
     return Result("thresholds", title, pd.DataFrame(rows), remarks, describe(signals), "m/s2", limits.ACCELERATION)
 
 
@@ -351,7 +354,9 @@ def roughness(
     rows = pd.DataFrame({"from [m]": start, "to [m]": stop, **{f"{name} [m/km]": each for name, each in found.items()}})
     signals = xr.Dataset({name: ("segment", each) for name, each in found.items()}, {"s": s})
     remarks = ["profile taken as averaged over 250 mm already" if smoothed else "moving average of 250 mm applied"]
-    remarks += [remark for remark in (iri.coarse(spacing), _unused(table.columns, columns)) if remark]
+    rest = s[-1] - stop[-1]
+    left_out = f"the last {rest:.1f} m, less than half a segment, are in no row (--segment)" if rest > 0.05 else ""
+    remarks += [remark for remark in (left_out, iri.coarse(spacing), _unused(table.columns, columns)) if remark]
     for name, stretches in spots.items():
         remarks.append(f"{name}: {len(stretches)} stretch{'' if len(stretches) == 1 else 'es'} with more than {local:g} m/km over 7.62 m (25 ft)")
         remarks += [
@@ -378,5 +383,5 @@ def _check_ascending(s: np.ndarray, column, file) -> None:
     if not back.size:
         return
     i = back[0] + int(np.isfinite(s[back[0]]))
-    found = f"{s[i]:.6g} m after {s[i - 1]:.6g} m" if i and np.isfinite(s[i]) else "no number"
+    found = f"{s[i]:.10g} m after {s[i - 1]:.10g} m" if i and np.isfinite(s[i]) else "no number"
     raise InputError(f"{found} (expected positions that ascend)", file=file, place=f"line {csvtable.line_of(file, i)}, column {column!r}")
