@@ -102,6 +102,27 @@ def test_what_a_stand_in_elsewhere_calibrated_says_so(own_site):
         assert any("measured drives of Ts1 are made from seeds" in note for note in found.notes)
 
 
+def test_a_site_without_a_width_leaves_the_axes_to_the_others(paper_like):
+    found = paper_like.assessment.copy(deep=True)
+    found["designs"].loc[{"place": "ts2"}] = 0
+    full, some = (figures.draw(dataclasses.replace(paper_like, assessment=each), "number_of_runs").axes[0] for each in (paper_like.assessment, found))
+    assert some.get_xlim() == pytest.approx(full.get_xlim(), rel=0.05) and some.get_ylim()[0] > 0.01
+    found["designs"][:] = 0
+    empty = figures.draw(dataclasses.replace(paper_like, assessment=found), "number_of_runs").axes
+    assert all(axes.get_xlim() == (10, 1000) and axes.get_ylim() == (0.01, 1) for axes in empty)
+
+
+def test_no_two_of_many_parameters_look_alike(paper_like):
+    base = synthetic.calibration()
+    many = xr.concat([base.assign_coords(parameter=[f"{name}_{k}" for name in base["parameter"].values]) for k in range(4)], "parameter", data_vars="minimal")
+    drawn = figures.draw(dataclasses.replace(paper_like, calibrations={"ts1": many}), "convergence")
+    looks = [(line.get_color(), line.get_marker()) for line in drawn.axes[1].lines if not line.get_label().startswith("_")]
+    assert len(set(looks)) == len(looks) == 20
+    with style.styled():
+        drawn.draw_without_rendering()
+    test_nothing_is_cut_off("convergence", {"convergence": drawn})
+
+
 def test_drawing_leaves_the_settings_of_others_alone(own_site):
     import matplotlib
 

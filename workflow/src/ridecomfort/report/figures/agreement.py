@@ -101,8 +101,7 @@ def number_of_runs(study: Study) -> Figure:
         axes.set_xscale("log")
         axes.set_yscale("log")
         if not sizes.size:
-            axes.annotate(why_no_width(runs).replace(", ", ",\n"), (0.5, 0.5), xycoords="axes fraction", ha="center")
-            axes.set(xlim=(10, 1000), ylim=(0.01, 1))
+            axes.annotate(why_no_width(runs).replace(", ", ",\n"), (0.5, 0.5), xycoords="axes fraction", ha="center", fontsize=6)
             continue
         for scheme, (_, look) in SCHEMES.items():
             colour, marker = style.LINES[look]
@@ -113,6 +112,8 @@ def number_of_runs(study: Study) -> Figure:
         axes.plot(sizes, chosen["wilson"].values, color=style.FAINT, dashes=(3, 2))
         axes.set_xticks([tick for tick in RUNS if sizes[0] <= tick <= runs])
         axes.axvline(runs, color=style.MEASURED, linewidth=0.6, dashes=(1, 1.5))
+    if not any(axes.lines for axes in panels):
+        panels[0].set(xlim=(10, 1000), ylim=(0.01, 1))  # of all, which share their axes
     for axes in panels:
         if axes.get_subplotspec().is_first_col():
             axes.set_ylabel("width of the 95 % interval [-]")

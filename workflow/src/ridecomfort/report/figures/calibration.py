@@ -35,7 +35,10 @@ LONGEST = 110
 def convergence(study: Study) -> Figure:
     """Cost after every block and parameters within their bounds, a row for each calibration."""
     rows = len(study.calibrations)
-    drawn = style.figure(style.DOUBLE, 0.2 + 2.5 * rows)
+    names = [each["parameter"].values.tolist() for each in study.calibrations.values()]
+    columns = 5 if all(key in SYMBOLS for own in names for key in own) else 2
+    legend = 0.15 * -(-max(map(len, names)) // columns)
+    drawn = style.figure(style.DOUBLE, 0.2 + (2.35 + legend) * rows)
     panels = drawn.subplots(rows, 2, squeeze=False)
     for (left, right), (name, dataset) in zip(panels, study.calibrations.items()):
         blocks = dataset["step"].values.tolist()
@@ -52,7 +55,8 @@ def convergence(study: Study) -> Figure:
         lower, upper = dataset["lower"].values, dataset["upper"].values
         values = np.vstack([dataset["initial"].values, dataset["step_value"].values])
         for parameter, key in enumerate(dataset["parameter"].values.tolist()):
-            colour, marker = style.LINES[parameter % len(style.LINES)]
+            turn, look = divmod(parameter, len(style.LINES))
+            colour, marker = style.LINES[look][0], style.LINES[(look + turn) % len(style.LINES)][1]  # no two alike though colours come again
             scale = lambda value, k=parameter: (value - lower[k]) / (upper[k] - lower[k])  # noqa: E731
             along = scale(values[:, parameter])
             right.plot(places, along, marker=marker, color=colour, markersize=3.5, label=symbol(key))
@@ -64,7 +68,6 @@ def convergence(study: Study) -> Figure:
         right.set_xticks(places, names)
         right.set_ylabel("place between the bounds [-]")
         right.set_title("bars at the right: 90 % intervals")
-        columns = 5 if all(key in SYMBOLS for key in dataset["parameter"].values.tolist()) else 2
         right.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=columns, columnspacing=1.2)
     return drawn
 
