@@ -134,6 +134,14 @@ def test_a_share_of_next_to_nothing_does_not_press_all_others_together():
     assert any("−371 %" in text.get_text() for text in right.texts)
 
 
+@pytest.mark.parametrize(("fitted", "held_out", "said"), [(np.nan, 0.75, "– / 75 %  accepted"), (0.75, np.nan, "75 / – %  accepted"), (np.nan, np.nan, "accepted")])
+def test_a_share_that_is_missing_does_not_make_the_other_read_as_its_own(fitted, held_out, said):
+    ranking = made_up.ranking()
+    ranking["trial_share"][0], ranking["trial_held_out_share"][0] = fitted, held_out
+    right = evidence.evidence(replace(made_up.diagnosis(), ranking=ranking)).axes[1]
+    assert said in [text.get_text() for text in right.texts]
+
+
 def test_where_no_drive_held_out_has_anything_to_explain_no_mark_of_one_is_promised():
     ranking = made_up.ranking()
     ranking["trial_held_out_share"] = ranking["trial_held_out_share"] * np.nan

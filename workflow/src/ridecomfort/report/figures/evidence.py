@@ -16,6 +16,7 @@ from ...discrepancy.ranking import forms as forms_of
 from .. import style
 from ..notation import words
 from ..study import Diagnosis
+from ..table import MISSING
 from ..tables.diagnosis import NO_FORMS, STRONGEST, outcomes, refits
 
 LEAST = 1.0
@@ -74,6 +75,7 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         axes.set_axis_off()
         axes.text(0.5, 0.5, none, ha="center")
         return drawn
+    is_checked = bool(np.isfinite(ranking["trial_held_out_share"].values).any())
     panels = drawn.subplots(len(rounds), 2, squeeze=False, sharey="row", width_ratios=(1.4, 1.0))
     for (left, right), turn in zip(panels, rounds):
         one = ranking.sel(round=turn)
@@ -84,13 +86,12 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
         drawn_of = f", {len(names)} of {tested}" if len(names) < tested else ""
         came = f": none of {tested} accepted" if tested else ": nothing left to test"
         left.set_title(f"round {turn}{drawn_of if winner else came}")
-        _refits(right, one, names)
+        _refits(right, one, names, is_checked)
         is_narrow = max((len(_label(name)) for name in names), default=0) > LONG
         is_crowded = left.get_xlim()[1] > (THREE_DIGITS if is_narrow else FOUR_DIGITS)
         for axes, count in ((left, 3 if is_crowded else 4), (right, 3 if is_narrow else 5)):
             axes.locator_params(axis="x", nbins=count)
             axes.tick_params(axis="y", length=0)
-    is_checked = bool(np.isfinite(ranking["trial_held_out_share"].values).any())
     panels[0][1].set_title("refits: fitted / held out" if is_checked else "refits: on fitted drives")
     panels[-1][0].set_xlabel("gain of 2 ln L, square-root scale [-]")
     panels[-1][1].set_xlabel("error removed [%]")
@@ -126,8 +127,9 @@ def _scores(axes: Axes, tested: xr.Dataset, names: Sequence[str], winner: str) -
     axes.set_xlim(0.0, 1.4 * max([1.0, *tested["gain"].values]))
 
 
-def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str]) -> None:
-    """What the refits of a round removed, and what came of them, or why a significant effect was not refitted."""
+def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str], is_checked: bool) -> None:
+    """What the refits of a round removed, on drives held out too where any are ``is_checked``, and what came of them, or why a significant
+    effect was not refitted."""
     came = {name: _shortened(said) for name, said in outcomes(one).items()}
     for name, trial in refits(one).items():
         shares = [100 * float(trial[key]) for key in ("trial_share", "trial_held_out_share")]
@@ -137,8 +139,9 @@ def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str]) -> None:
             for share, mark in zip(shares, (DOT, DIAMOND)):
                 beyond = {} if not abs(share) > MOST else {"marker": ">" if share > 0 else "<"}
                 axes.plot(np.clip(share, -MOST, MOST), place, **{**mark, **beyond}, clip_on=False)
-        said = " / ".join(f"{share:.0f}" for share in np.round(shares) + 0.0 if np.isfinite(share)).replace("-", "−")
-        came[name] = f"{said} %  {came[name]}"
+        told = np.round(shares if is_checked else shares[:1]) + 0.0
+        said = " / ".join(f"{share:.0f}".replace("-", "−") if np.isfinite(share) else MISSING for share in told)
+        came[name] = f"{said} %  {came[name]}" if np.isfinite(told).any() else came[name]
     for place, name in enumerate(names):
         axes.text(1.06, place, came[name], transform=axes.get_yaxis_transform(), va="center", fontsize=6)
     axes.set_xlim(min(axes.get_xlim()[0], -LEAST), max(axes.get_xlim()[1], LEAST))
