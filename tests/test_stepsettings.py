@@ -99,6 +99,15 @@ def test_tables_and_figures_are_told_which_stand_ins_a_vehicle_is_calibrated_on(
         assert told("ts2", step) == ["ts1"] and told("own", step) == []
 
 
+@pytest.mark.parametrize(
+    ("comfort", "again"), [({"maps": {"probability": 0.7}}, {"maps", "report"}), ({"exposure": {"trip": 600}}, {"tables", "report"})]
+)
+def test_tables_and_figures_are_not_made_again_for_what_they_do_not_read(project, comfort, again):
+    before, after = (config.load({"sites": ["own"], **changed}, project) for changed in ({}, {"comfort": comfort}))
+    told = lambda study, step: stepsettings.as_json(study, step, "own", "base")
+    assert {step for step in ("maps", "tables", "figures", "report") if told(before, step) != told(after, step)} == again
+
+
 def test_noise_densities_of_a_data_sheet_are_compared_with_in_si_units(project):
     drive = {**DRIVE, "noise_density": {"accelerometer_ug": 100.0, "gyroscope_deg_s": 0.01}}
     (project / "drive.csv").write_text(HEADER)

@@ -117,8 +117,10 @@ def of_step(study: Study, step: str, site: str | None = None, model: str | None 
             place = {"geo_reference": own["road"]["geo_reference"]}
             return {**at, **comfort["maps"], "label": comfort["iso2631"]["label"], **place}
         case "tables" | "figures" | "report":
-            keys = ("runs", "seed", "sampling_method", "space", "calibration", "comfort")
+            keys = ("runs", "seed", "sampling_method", "space", "calibration")
+            unread = {"tables": ("maps",), "figures": ("maps", "exposure"), "report": ()}[step]
             told = {**simulated, **_sites(study, study.names), "model": model, **{key: chosen[key] for key in keys}}
+            told["comfort"] = {key: value for key, value in comfort.items() if key not in unread}
             return told | _of_page(study) if step == "report" else told
     raise KeyError(step)
 
