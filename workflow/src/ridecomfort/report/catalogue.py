@@ -184,7 +184,7 @@ def site_figures(name: str) -> dict[str, str]:
         ),
         f"conditions_{name}": (
             f"{label(name)}: error above the floor in percent of the signal's power under the same condition of the drive. "
-            "Each point is a fifth of the driving time; the axis reaches from 0.1 to 100 % at least."
+            "Each point is about a fifth of the driving time, or more where classes were alike; the axis reaches from 0.1 to 100 % at least."
         ),
         f"responses_{name}": (
             f"{label(name)}: how the signals answer to the road. Left: gain from the road, of the measured drives (dark) and of the model "
