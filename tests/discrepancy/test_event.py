@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter1d
 from scipy.stats import binom, kstest
 
 from ridecomfort.discrepancy import event
@@ -100,6 +101,26 @@ def test_what_acts_at_a_dozen_places_counts_as_an_event_and_what_acts_all_along_
     assert 8.0 < of_dozen < event.FEW_BLOCKS < of_all
     p_value, rare = event.p_values(frame, residual.ravel(), columns.reshape(2, -1), np.arange(2), np.zeros(2))
     assert rare.tolist() == [True, False] and p_value[0] < 0.005 and p_value[1] == 1.0
+
+
+@pytest.mark.parametrize("places", [(EVENT.start,), DOZEN])
+def test_false_alarms_over_many_slow_columns_are_as_rare_as_promised_at_small_levels_too(places):
+    """Forty columns as slow as what a vehicle does: the best of so many is soon ahead of all that others are elsewhere."""
+    rng, trials = np.random.default_rng(6), 300
+    slow = lambda: gaussian_filter1d(np.stack([a_column(rng, places) for _ in range(40)]), 4.0, axis=-1)
+    found = np.array([p_of([rng.standard_normal((CHANNELS, SAMPLES))], [slow()]).min() for _ in range(trials)])
+    for level in (0.05, 0.005):
+        assert np.sum(found <= level) <= binom.ppf(0.999, trials, level)
+
+
+def test_what_is_missing_stands_out_beside_another_that_does_the_same_a_moment_later():
+    """As the stops of both axles do."""
+    rng = np.random.default_rng(8)
+    own, others = a_column(rng), [a_column(rng) for _ in range(20)]
+    columns = np.stack([own, np.roll(own, 15, axis=1), *others])
+    residual = rng.standard_normal((CHANNELS, SAMPLES)) + own * 7.0 / np.linalg.norm(own)
+    found = p_of([residual], [columns])
+    assert found[0] == found.min() <= 0.002
 
 
 @pytest.mark.parametrize("places", [(EVENT.start,), DOZEN])

@@ -26,7 +26,7 @@ FINER = 4.0
 """Parts of a block that windows are made of, and of which the second form of the test by blocks, which sees rare events better."""
 
 NEAR = 0.5
-"""s around the true place in which a shifted column still resembles itself."""
+"""s around the true place in which shifted columns, its own and others like it, still resemble what is there."""
 
 
 def participation(columns: np.ndarray, numbers: np.ndarray) -> np.ndarray:
@@ -108,20 +108,15 @@ def _moved(rows: np.ndarray, series: np.ndarray) -> np.ndarray:
 
 
 def shift_test(like: np.ndarray, group: np.ndarray, apart: int) -> np.ndarray:
-    """p-value by group over all groups: how often a shift by at least ``apart`` samples makes any column as alike as it is in place.
+    """p-value by group over all groups: at which share of the shifts any column is as alike as the group's best is in place.
 
-    ``like`` is what ``likeness`` returns. Columns are compared by their ranks, so that a short one is not ahead of a
-    long one; the best of all counts at every shift (Westfall and Young 1993).
+    ``like`` is what ``likeness`` returns, here in shares of its mean over all shifts, so that a short column is not ahead of a long one. The
+    best of all groups counts at every shift (Westfall and Young 1993), but nearer than ``apart`` samples to the place only that of the group
+    itself: there its own column makes others alike. All shifts count, the place among them: left out, the
+    flanks of a chance peak would not, which are as wide as the column is slow.
     """
+    heights = like / np.maximum(like.mean(axis=1, keepdims=True), 1e-300)
+    best = np.stack([heights[group == g].max(axis=0) for g in range(group.max() + 1)])
     count = like.shape[1]
-    tried = np.arange(count)
-    tried = tried[(tried >= apart) & (tried <= count - apart)]
-    ordered = np.sort(like[:, tried], axis=1)
-    share = lambda values: np.stack(
-        [1.0 - np.searchsorted(row, value, side="left") / tried.size for row, value in zip(ordered, values)]
-    )
-    number = group.max() + 1
-    best = lambda ranks: np.stack([ranks[group == g].min(axis=0) for g in range(number)])
-    moved = best(share(like[:, tried]))
-    in_place = best(share(like[:, :1]))[:, 0]
-    return (1 + np.sum(moved.min(axis=0) <= in_place[:, None], axis=1)) / (tried.size + 1)
+    is_near = np.minimum(np.arange(count), count - np.arange(count)) < apart
+    return np.mean(np.where(is_near, best, best.max(axis=0)) >= best[:, :1], axis=1)
