@@ -71,6 +71,31 @@ def test_every_term_has_a_size_at_typical_motion(place):
     assert all(scale(place, term) > 0 for term in PLACES[place].terms)
 
 
+@pytest.mark.parametrize("place", PLACES)
+def test_what_swings_at_a_frequency_of_its_own_is_tried_with_close_ones(place):
+    """Between two that are a factor of two apart, as the ends of what is plausible and the middle were, it is not seen."""
+    for candidate in terms_of(place, None, 0.31):
+        name = candidate.name.partition(":")[2]
+        own = {setting.name: setting for setting in settings(place, name)}
+        if "damping_ratio" in own:
+            key = next(key for key in candidate.shapes[0] if key.endswith("frequency"))
+            tried = np.unique([shape[key] for shape in candidate.shapes])
+            assert tuple(tried[[0, -1]]) == pytest.approx(own["frequency"].plausible) and own["frequency"].typical in tried
+            assert np.max(tried[1:] / tried[:-1]) <= 1.35
+
+
+def test_what_is_shaped_by_a_time_or_a_way_is_tried_with_short_and_long_ones():
+    (late,) = (candidate for candidate in terms_of("steering", None, 0.31) if candidate.name == "steering:angle_late")
+    times = sorted(shape["unknown_steering_angle_late.angle_late_time"] for shape in late.shapes)
+    assert len(times) == 3 and times[0] < 0.6 * times[1] and times[1] < 0.6 * times[2]
+
+
+@pytest.mark.parametrize("term", PLACES["structure"].terms)
+def test_an_instrument_on_something_soft_that_moves_against_the_body_is_plausible(term):
+    (candidate,) = (candidate for candidate in terms_of("structure", None, 0.31) if candidate.name == f"structure:{term}")
+    assert all(size.lower < -1.0 < 1.0 < size.upper for size in candidate.sizes)
+
+
 def test_a_form_is_said_with_its_sizes():
     assert in_words("strut", {"velocity_direction": {"front": 57.3, "rear": 48.0}}) == (
         "force = (57.3 N front and 48 N rear) tanh(velocity / 0.005)"

@@ -30,6 +30,7 @@ def test_an_effect_that_stood_in_for_two_others_is_not_named_beside_them_and_doe
     selection, found = judged(model)
     assert selection.accepted[0] == "effect_0" and selection.needless == {"effect_0"}
     assert selection.final.values["effect_0.size"] == 0.0 and "effect_0.size" not in selection.intervals
+    assert selection.states[-1].fit.values["effect_0.size"] == 0.0, "shares are those of the model whose sizes are told"
     widths = [np.ptp(selection.intervals[f"effect_{k}.size"]) for k in (1, 2)]
     model.candidates = model.candidates[1:]
     without = select.select(model, {"stiffness": 0.0}, most=3)

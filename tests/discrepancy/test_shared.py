@@ -161,21 +161,37 @@ class Plain:
         return series
 
 
-@pytest.mark.parametrize("lengths", [(6000,), (6000, 6000), (6000, 1000)])
-def test_an_error_that_is_all_shared_is_so_however_long_each_condition(lengths):
-    rng = np.random.default_rng(5)
-    records, series = [], []
+def a_frame(repeats, lengths):
+    """Records of conditions of these lengths, each so often, whose series are white and clean."""
+    records = []
     for number, length in enumerate(lengths):
-        place = 0.2 * np.arange(length)
-        records += 2 * [Record("", "fit", "road", f"condition {number}", RATE, (0.3, 40.0), place, 20.0)]
-        series += 2 * [rng.standard_normal((2, length))]
+        records += repeats * [Record("", "fit", "road", f"condition {number}", RATE, (0.3, 40.0), 0.2 * np.arange(length), 20.0)]
     indices = list(range(len(records)))
-    frame = SimpleNamespace(
+    return SimpleNamespace(
         experiment=SimpleNamespace(records=records, channels=("a", "b")), indices=indices,
         whitening=dict.fromkeys(indices, Plain()), all_cleaned=dict,
     )  # fmt: skip
-    found = shared_error(frame, dict(enumerate(series)))
+
+
+@pytest.mark.parametrize("lengths", [(6000,), (6000, 6000), (6000, 1000)])
+def test_an_error_that_is_all_shared_is_so_however_long_each_condition(lengths):
+    rng = np.random.default_rng(5)
+    series = [part for length in lengths for part in 2 * [rng.standard_normal((2, length))]]
+    found = shared_error(a_frame(2, lengths), dict(enumerate(series)))
     assert found.share == pytest.approx(1.0) and found.z > 10.0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_how_surely_more_than_half_is_left_says_nothing_of_how_surely_anything_is(seed):
+    """The z of an error that is there for certain saturates: half of it left, nearly all of its z is."""
+    rng, frame = np.random.default_rng(seed), a_frame(2, (6000,))
+    error = rng.standard_normal((2, 6000))
+    noise = [0.3 * rng.standard_normal((2, 6000)) for _ in range(2)]
+    first = {k: error + noise[k] for k in range(2)}
+    left = lambda share: {k: np.sqrt(share) * error + noise[k] for k in range(2)}
+    assert shared.shared_error(frame, first).z > 9.0
+    assert abs(shared.left_z(frame, first, left(0.5), 0.5)) < 2.33
+    assert shared.left_z(frame, first, left(0.6), 0.5) > 2.33 and shared.left_z(frame, first, left(0.4), 0.5) < -2.33
 
 
 def test_without_repeats_nothing_is_known_to_be_shared():

@@ -85,9 +85,7 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
     is_refuted = is_met and held_out < CONFIRMED
     was_shared = selection.shared_z > SHARED_Z or not selection.has_repeats
-    # Both z hold the same noise, of which that of the difference to a half has half.
-    left_z = (selection.remaining.z - ENOUGH * selection.shared_z) / ENOUGH
-    may_be_left = left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
+    may_be_left = selection.left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
     enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
     is_all = is_little and not matters and left < 1.0 - ENOUGH

@@ -34,7 +34,7 @@ from .ranking import dataset
 from .rung import Rung, begin
 from .select import search
 from .selection import Selection, shares
-from .terms import FIRM, LINEAR, ORDER, PERIOD, TURNING, Term
+from .terms import DAMPING_RATIO, FIRM, LINEAR, ORDER, PERIOD, TURNING, Term
 from .turns import Line
 from .verdict import Named, plain
 
@@ -43,6 +43,13 @@ ROLLING = 0.05
 
 NEAR = 3.0
 """Widths of a line within which what is once a turn of each wheel may be heard."""
+
+WIDE = 10.0
+"""Ratio of the ends of what is plausible from which on a term that is shaped by its typical value is hardly like one at an end."""
+
+APART = 1.35
+"""Ratio of the frequencies that a term is tried with which swings at its own: between two, half as far, it still shows at a tenth of critical
+damping."""
 
 TERMS, TOGETHER = 3, 5
 """Terms of a force at most (the rod that nods on a tail pushes with three accelerations), and terms and effects of the library together."""
@@ -69,6 +76,8 @@ class Discovery:
     selection: Selection
     is_large: bool = False
     """Whether the first of its terms gains so much on the fitted drives that the error changes its colour by it."""
+    held_out_z: float = float("nan")
+    """How surely the first of its terms makes drives held out better, as a z; nan without."""
     evidence: xr.Dataset | None = None
     """What became of every term, as for the library (``ranking.dataset``)."""
     beside: tuple[Named, ...] = ()
@@ -190,7 +199,7 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(
         name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, turn.is_large,
-        beside=tuple(effects), sizes=tuple(size for term in terms for size in _told(selection, place, term, {**terms[term], **shaped[term]})),
+        turn.winner.held_out_z, beside=tuple(effects), sizes=tuple(size for term in terms for size in _told(selection, place, term, {**terms[term], **shaped[term]})),
     )  # fmt: skip
 
 
@@ -280,6 +289,20 @@ def _whole_turn(line: Line | None, radius: float) -> float | None:
     return way if abs(way - line.period) < NEAR * line.width else None
 
 
+def _is_wide(setting: Parameter) -> bool:
+    """Whether what is plausible of a setting is WIDE."""
+    lower, upper = setting.plausible
+    return setting.name not in (*FIRM, DAMPING_RATIO) and 0.0 < WIDE * lower < upper
+
+
+def _frequencies(setting: Parameter) -> list[float]:
+    """Frequencies in Hz, APART at most, between the ends of what is plausible of a setting, beside its typical one."""
+    (lower, upper), found = setting.plausible, []
+    for start, end in ((lower, setting.typical), (setting.typical, upper)):
+        found += np.geomspace(start, end, int(np.ceil(np.log(end / start) / np.log(APART))) + 1).tolist()
+    return [frequency for frequency in found if not np.isclose(frequency, setting.typical)]
+
+
 def terms_of(place: str, line: Line | None, radius: float) -> tuple[Candidate, ...]:
     """Every term of a place as a candidate: a factor for each part of the car, of either sign, and what shapes it; with those that come back
     as the ``line`` that was heard does, if any, in a car on wheels of this ``radius`` in m."""
@@ -294,9 +317,11 @@ def terms_of(place: str, line: Line | None, radius: float) -> tuple[Candidate, .
             own[period] = replace(own[period], plausible=(min(lower, whole), max(upper, whole)))
         typical = {key: setting.typical for key, setting in own.items()}
         # A linear part alone is what calibration changes: it is no other shape to try. Bends blur an order that is heard along the road.
-        is_tried = lambda setting: setting.name == ORDER or setting is not LINEAR and is_varied(setting)
-        varied = {key: setting for key, setting in own.items() if is_tried(setting)}
-        shapes = [typical, *({**typical, key: towards(setting, end)} for key, setting in varied.items() for end in (0, 1))]
+        is_tried = lambda setting: setting.name == ORDER or setting is not LINEAR and (is_varied(setting) or _is_wide(setting))
+        tried = {key: (towards(setting, 0), towards(setting, 1)) for key, setting in own.items() if is_tried(setting)}
+        if DAMPING_RATIO in (setting.name for setting in own.values()):
+            tried |= {key: _frequencies(setting) for key, setting in own.items() if setting.unit == "Hz"}
+        shapes = [typical, *({**typical, key: value} for key, values in tried.items() for value in values)]
         shapes += [{**typical, period: whole}] if whole is not None else []
         shaping = tuple(shaping_size(setting, key) for key, setting in own.items())
         sizes = tuple(

@@ -23,6 +23,9 @@ FORCE = 30.0
 STRONGEST, STRONGEST_OF_TYRE = 1500.0, 6000.0
 """N (or N m) at typical motion beyond which a term is not plausible; at a tyre, which bears 4000 N at rest, more is."""
 
+STRONGEST_OF_STRUCTURE = 3500.0
+"""N, the same of a body that is not rigid, whose instrument may stand on something soft: it then moves by as much as it, the other way."""
+
 STRONGEST_OF_LINKS = 600.0
 """N, the same of what links that are inclined by one, INCLINED, would make: steeper ones are not built."""
 
@@ -344,6 +347,7 @@ PLACES: Mapping[str, Place] = {
         },
         ("a_x", "a_y", "a_z"),
         {"a_x": MASS, "a_y": MASS, "a_z": MASS},
+        strongest=STRONGEST_OF_STRUCTURE,
     ),
 }  # fmt: skip
 

@@ -81,7 +81,8 @@ def reconsidered(
     if _is_better(verdict, proposal, fits_better):
         return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}")
     if _is_in_doubt(verdict) and is_sure(proposal) and not proposal.beside and left(proposal) < left(verdict):
-        return with_reason(verdict, verdict.verdict, f"{said} explains as much, and drives do not tell which it is: {_explained(proposal)}")
+        reason = f"{said} explains as much, and drives do not tell which it is: {_explained(proposal)}"
+        return replace(with_reason(verdict, "cluster", reason), is_like_force=True)
     return verdict
 
 
@@ -261,10 +262,15 @@ def with_reason(verdict: Verdict, kind: str, reason: str) -> Verdict:
 
 
 def is_sure(proposal: Discovery) -> bool:
-    """Whether a proposed form is more than chance, by its p-value, its share, and what it does on drives held out, if any."""
+    """Whether a proposed form is more than chance, by its p-value, its share, and what it does on drives held out, if any.
+
+    What is explainable holds what no model takes away, most of all where an effect is small and the road noisy: a true one may
+    take 5 % of drives held out, and they be sure of it all the same.
+    """
     if not (_is_no_chance(proposal) and proposal.share > LITTLE):
         return False
-    return not np.isfinite(proposal.held_out_share) or proposal.held_out_share > CONFIRMED
+    is_confirmed = proposal.held_out_share > CONFIRMED or proposal.held_out_share > 0.0 and proposal.held_out_z > SURE_Z
+    return is_confirmed or not np.isfinite(proposal.held_out_share)
 
 
 def _is_more_than_noise(proposal: Discovery) -> bool:

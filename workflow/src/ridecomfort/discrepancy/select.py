@@ -17,6 +17,7 @@ from ..errors import InputError
 from . import allowance, bursts, probe, refit
 from . import experiment as exp
 from .allowance import Allowance
+from .balance import ENOUGH
 from .confirm import LEAST_SHARE
 from .consistency import birge_ratio
 from .contest import Contest
@@ -25,7 +26,7 @@ from .probe import Job, Raw
 from .refit import Fit
 from .rung import Rung, awake, begin, climb, final_fit
 from .selection import Round, Selection, State, Trial, removed
-from .shared import Shared, shared_error
+from .shared import Shared, left_z, shared_error
 from .tries import LEAST_MOVED, own_sizes
 
 EFFECTS = 6
@@ -122,8 +123,11 @@ class _Search:
             self.sooner, _ = self._sooner()
             states.append(state)
             contest = self._contest()
-        rung = self.rung
         final, frame, sure = self._final_fit()
+        if self.needless:  # shares are those of the model whose sizes are told
+            self.rung = climb(self.rung.experiment, final.values, self._sizes(), self.each, before=self.rung)
+            states[-1] = State.of(self.rung, states[-1].name, self.rung.fit, self.rung.check)
+        rung = self.rung
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
         wider = birge_ratio(rung, final, frame, self._sizes(), self.each)
         found = refit.intervals(final, frame, self._sizes(), wider=wider)
@@ -238,9 +242,10 @@ class _Search:
         least = lambda name: ALIAS if self.by_name[name].is_aligned else LEAST_OWN
         return {job: found for job, found in kept.items() if self.rung.frame.own_shares(list(found.values())).max() > least(job[0])}
 
-    def _remaining(self, first: Fit, last: Fit) -> tuple[Shared, float, float, float, float]:
-        """What all repeats still share, the share of it that is gone, and the z that it had at first; of what is faster than a driver the last
-        two, too."""
+    def _remaining(self, first: Fit, last: Fit) -> tuple[Shared, float, float, float, float, float]:
+        """What all repeats still share, the share of it that is gone, the z that it had at first and that of more than half being left; of what
+        is faster than a driver the share that is gone and the z, too."""
         left, before = shared_error(self.rung.frame, last.residuals), shared_error(self.rung.frame, first.residuals)
         gone = lambda now, then: 1.0 - now / then if then > 0 else float("nan")
-        return left, gone(left.power, before.power), before.z, gone(left.faster, before.faster), before.faster_z
+        more = left_z(self.rung.frame, first.residuals, last.residuals, 1.0 - ENOUGH)
+        return left, gone(left.power, before.power), before.z, more, gone(left.faster, before.faster), before.faster_z

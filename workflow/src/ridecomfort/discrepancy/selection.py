@@ -106,6 +106,8 @@ class Selection:
     """Share of what the repeats had in common before the first effect that is gone; nan without repeats."""
     shared_z: float
     """How surely repeats shared any error before the first effect, as a z; nan without repeats."""
+    left_z: float
+    """How surely more than half of that is left, as a z; nil without repeats."""
     faster_gone: float
     """Share of what the repeats had in common above ``shared.OF_DRIVER`` before the first effect that is gone..."""
     faster_z: float

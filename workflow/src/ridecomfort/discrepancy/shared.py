@@ -110,16 +110,33 @@ def _white_pairs(frame: Frame, cleaned: Mapping[int, np.ndarray]) -> list[tuple[
     return list(_pairs(frame, {index: frame.whitening[index](part) for index, part in cleaned.items()}))
 
 
+def left_z(frame: Frame, first: Mapping[int, np.ndarray], last: Mapping[int, np.ndarray], share: float) -> float:
+    """How surely repeats share more than this share of what they did of the ``first`` residuals in the ``last``, as a z; nil where no drive was
+    repeated."""
+    was, now = (_by_block(_white_pairs(frame, frame.all_cleaned({index: part[index] for index in frame.indices}))) for part in (first, last))
+    return _z(now - share * was)
+
+
 def _in_common(pairs: Sequence[tuple[Record, np.ndarray, np.ndarray]]) -> tuple[float, float]:
-    """Sum of the products of white repeats, and its z (0 where they hold nothing)."""
+    """Sum of the products of white repeats, and its z."""
+    total = _by_block(pairs)
+    return float(total.sum()), _z(total)
+
+
+def _z(total: np.ndarray) -> float:
+    """z of the sum of what differs by block; 0 where that is nothing."""
+    chance = float(np.sqrt(np.sum(total**2)))
+    return float(total.sum() / chance) if chance > 0 else 0.0
+
+
+def _by_block(pairs: Sequence[tuple[Record, np.ndarray, np.ndarray]]) -> np.ndarray:
+    """Sums of the products of white repeats over parts of blocks, all pairs of a condition together, (block,)."""
     by_block: dict[tuple[str, int], float] = {}
     for record, one, other in pairs:
         blocks, numbers = np.unique(record.blocks(FINER), return_inverse=True)
         for block, product in zip(blocks.tolist(), np.bincount(numbers, (one * other).sum(axis=0)).tolist()):
             by_block[record.condition, block] = by_block.get((record.condition, block), 0.0) + product
-    total = np.array(list(by_block.values()))
-    chance = float(np.sqrt(np.sum(total**2)))
-    return float(total.sum()), float(total.sum() / chance) if chance > 0 else 0.0
+    return np.array(list(by_block.values()))
 
 
 def _pairs(frame: Frame, series: Mapping[int, np.ndarray]) -> Iterator[tuple[Record, np.ndarray, np.ndarray]]:

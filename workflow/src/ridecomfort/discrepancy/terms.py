@@ -192,7 +192,7 @@ def on_spring(
     """A part of the sprung mass that moves on a spring of its own where the body has the acceleration ``base`` (typically ``typical``);
     ``frequencies``: the typical one, the least and the largest (Hz); ``known``: what the ``base`` needs to remember."""
     frequency = shape_setting("frequency", "Hz", *frequencies, "frequency at which it swings")
-    damping = shape_setting("damping_ratio", "1", 0.1, 0.02, 0.5, "share of critical damping")
+    damping = shape_setting(DAMPING_RATIO, "1", 0.1, 0.02, 0.5, "share of critical damping")
     turns = f"{2 * pi:.4f} * frequency"
     against = f"({turns})**2 * way + 2.0 * damping_ratio * {turns} * rate"
     usual = 2 * pi * frequency.typical
@@ -232,12 +232,15 @@ def following(
 def swinging(base: str, typical: float, expression: str, unit: str, result: str, parts: tuple[str, ...], beside: str = "") -> Term:
     """What follows ``base`` (typically ``typical``) as a mass on a spring does: ``way``, in units of it."""
     frequency = shape_setting("frequency", "Hz", 8.0, 3.0, 25.0, "frequency at which it swings")
-    damping = shape_setting("damping_ratio", "1", 0.2, 0.05, 0.8, "share of critical damping")
+    damping = shape_setting(DAMPING_RATIO, "1", 0.2, 0.05, 0.8, "share of critical damping")
     turns = f"{2 * pi:.4f} * frequency"
     slope = f"({turns})**2 * ({base} - way) - 2.0 * damping_ratio * {turns} * rate"
     states = State("way", "rate", typical), State("rate", slope, 2 * pi * frequency.typical * typical)
     return Term(expression, unit, result, parts, states, (frequency, damping), beside=beside)
 
+
+DAMPING_RATIO = "damping_ratio"
+"""What the setting is called that says how soon a term that swings at a frequency of its own comes to rest."""
 
 PERIOD = "period"
 """What the setting is called that says after which way or time a term comes back."""

@@ -20,7 +20,7 @@ SAID = {
 """What every kind of verdict says of the ``names`` of effects."""
 
 SOMETHING_ELSE = "something else"
-"""What effects are not told from of which each may as well be none."""
+"""What effects are not told from of which each may as well be none, or which a force of another form may be as well."""
 
 UNNAMED = "Nothing is missing that would have a name; what is left above the floor, the search cannot explain."
 """What the verdict "nothing" says where more is left than SMALL."""
@@ -93,6 +93,8 @@ class Verdict:
     is_beside_form: bool = False
     """Whether the effects are those that are missing beside the proposed form, and shares of what goes beside it; else of what the library
     does alone."""
+    is_like_force: bool = False
+    """Whether a force of another form explains as much as the effects."""
     is_like_error: bool = False
     """Whether an error of the measurement would help beside the effects, which stands in for something else."""
     remainder: Mapping[str, float] = field(default_factory=dict)
@@ -126,11 +128,12 @@ def are_open(effects: Sequence[Named]) -> bool:
 
 def not_told_from(said: Mapping) -> str:
     """What all effects of a verdict, as ``Verdict.json`` gives it, are not told from, in words: parameters of the vehicle beyond their bounds,
-    or, where each may as well be none, something else; empty where there is nothing."""
+    or, where each may as well be none or a force of another form explains as much, something else; empty where there is nothing."""
     beyond = said.get("beyond_bounds") or {}
     if beyond.get("is_as_good") and not beyond.get("effects"):
         return other_name([one["parameter"] for one in told_beyond(beyond)])
-    return SOMETHING_ELSE if said["verdict"] == "cluster" and all(effect.get("is_open") for effect in said["effects"]) else ""
+    is_open = said.get("is_like_force") or all(effect.get("is_open") for effect in said["effects"])
+    return SOMETHING_ELSE if said["verdict"] == "cluster" and is_open else ""
 
 
 def told_beyond(beyond: Mapping) -> list[Mapping]:
