@@ -133,6 +133,13 @@ def test_the_table_answers_every_claim_with_figures(made):
         assert any(letter.isdigit() for letter in row[3])
 
 
+def test_what_the_iri_says_of_roads_that_are_matched_to_its_classes_is_told_to_be_so_by_construction(made, paper_like):
+    matched = [row[3].endswith(claims.MATCHED) for row in made["claims"].rows]
+    assert matched == [rule in (claims.iri, claims.agreement) for rule in claims.CLAIMS]
+    scanned = replace(paper_like, sites=tuple(replace(site, standin=False) for site in paper_like.sites))
+    assert not any(claims.MATCHED in row[3] for row in claims.table(scanned, made).rows)
+
+
 def test_evidence_of_this_study_is_read_from_its_tables(made, paper_like):
     found = claims.from_tables(made, {})
     chosen = paper_like.sites[2].thresholds.sel(axis="a_y", style="PT")

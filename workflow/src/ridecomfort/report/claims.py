@@ -25,6 +25,8 @@ UNKNOWN = "cannot be said"
 SITES = catalogue.OF_THE_PAPER
 TIE = ": a tie, which a run more or less would break"
 
+MATCHED = " Stand-in roads are matched to the paper's shares of the IRI classes: what these say is so by construction."
+
 LARGE_SHARE = 10.0
 """Percent; what counts as a large share (the smallest that the paper calls so is 11.71 %)."""
 
@@ -132,6 +134,7 @@ def table(study: Study, tables: Mapping[str, Table]) -> Table:
     """The claims with the verdict of this study, its reason, and the verdict of the paper's own figures."""
     origin = {site.name: site.calibrated_on for site in study.sites if site.calibrated_on}
     ours, paper = answers(from_tables(tables, origin)), answers(from_paper())
+    matched = [MATCHED if study.standin and claim in (iri, agreement) else "" for claim in CLAIMS]
     columns = (
         Column("number", ("No.",), "d"),
         Column("claim", ("Claim of the paper",)),
@@ -140,8 +143,8 @@ def table(study: Study, tables: Mapping[str, Table]) -> Table:
         Column("paper_verdict", ("By the paper's own tables",)),
     )
     rows = tuple(
-        (number, claim, our.verdict, our.reason, its.verdict)
-        for number, (claim, our, its) in enumerate(zip(published.figures()["claims"], ours, paper), start=1)
+        (number, claim, our.verdict, our.reason + note, its.verdict)
+        for number, (claim, our, its, note) in enumerate(zip(published.figures()["claims"], ours, paper, matched), start=1)
     )
     names = ", ".join(name for name in tables if name in (*_CLASSES, "perception", "agreement") or name.startswith("opti_res_"))
     sources = (

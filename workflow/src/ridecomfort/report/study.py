@@ -198,7 +198,7 @@ def standin_note(labels: Sequence[str]) -> str | None:
         return None
     return (
         f"{STANDIN}the roads and measured drives of {', '.join(labels)} are made from seeds to match what the "
-        "paper publishes of its inputs; they are not the paper's own."
+        "paper publishes of them; they are not the paper's own."
     )
 
 
