@@ -34,6 +34,10 @@ def row(room: str) -> int:
     return next(k for k, rooms in enumerate(ORDER) if room in rooms)
 
 
+SEALED = re.compile(r"(^|[/\\])(truth|truth[/\\].*|drives\.json|road\.json)$")
+"""What names where the truth about stand-ins lies: its folder as a part of a path, or one of its files."""
+
+
 def modules():
     return sorted(path for path in PACKAGE.rglob("*.py") if path.name != "__init__.py")
 
@@ -52,6 +56,13 @@ def imports(path: Path) -> set[tuple[str, ...]]:
             names = [(*base, alias.name) for alias in node.names]
         found |= {name[1:] for name in names if name[0] == "ridecomfort" and len(name) > 1}
     return found
+
+
+def strings(path: Path) -> list[str]:
+    """What a module says in quotes, pieces of f-strings among it, but for docstrings."""
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    told = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+    return [node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in told]
 
 
 def room(path: Path) -> str:
@@ -104,3 +115,15 @@ def test_nothing_on_the_way_to_a_verdict_names_the_truth():
     for name in ("drive", "effects", "vehicle", "discrepancy"):
         for path in (PACKAGE / name).rglob("*.py"):
             assert "truth/" not in path.read_text() and "standin.yaml" not in path.read_text(), path
+
+
+def test_nothing_but_what_makes_and_scores_stand_ins_names_where_the_truth_lies():
+    """As an argument of a step, too: what a rule hands over has a name there."""
+    users = {path for path in PACKAGE.rglob("*.py") if any(map(SEALED.search, strings(path)))}
+    others = {path.relative_to(PACKAGE).as_posix() for path in users if room(path) != "standin" and not path.name.startswith("standin_")}
+    assert len(users) > 3 and others == {"study.py"}, "study.py says where a road that is to be scanned is made"
+
+
+def test_the_road_that_is_scanned_is_asked_for_by_the_rules_of_the_stand_ins_alone():
+    files = [*PACKAGE.rglob("*.py"), REPOSITORY / "Snakefile", *(REPOSITORY / "workflow" / "rules").glob("*.smk")]
+    assert [path.name for path in files if "true_road" in path.read_text(encoding="utf-8")] == ["study.py", "standin.smk"]

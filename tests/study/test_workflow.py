@@ -26,7 +26,8 @@ def test_lint_is_clean(project):
 
 
 def test_the_truth_is_sealed(repository):
-    users = [path.name for path in (repository / "workflow" / "rules").glob("*.smk") if "truth" in path.read_text()]
+    files = [repository / "Snakefile", *(repository / "workflow" / "rules").glob("*.smk")]
+    users = [path.name for path in files if "truth" in path.read_text()]
     assert users == ["standin.smk"]
 
 
