@@ -9,6 +9,7 @@ import xarray as xr
 import yaml
 from scipy.signal import welch
 
+from ridecomfort.effects import library
 from ridecomfort.standin import drives, instrument
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import CALIBRATED, SIGNALS, STANDARD_GRAVITY
@@ -84,6 +85,23 @@ def test_the_hidden_car_is_inside_the_bounds_of_the_paper_and_not_the_nominal_on
             assert car[weighed] == vehicle[weighed]
 
 
+def test_what_is_hidden_has_the_size_that_is_asked_for(settings, vehicle):
+    """Effects a share of what is typical within its interval, what nobody is sure of its spread about the nominal value."""
+    block = settings["measurement"]
+    cars = [drives.hidden_car(seed, block, vehicle) for seed in range(40)]
+    off = [np.log(car[name] / vehicle[name]) for car, _ in cars for name in block["unsure"]["parameters"]]
+    assert np.std(off) == pytest.approx(block["unsure"]["spread"], rel=0.15)
+    for number, entry in enumerate(block["effects"]):
+        shares = []
+        for _, effects in cars:
+            name, sizes = list(effects.items())[number]
+            assert name in entry["among"]
+            own = [one for one in library.find()[name].effect.parameters if one.typical != one.neutral]
+            shares.append([(sizes[one.name] - one.neutral) / (one.typical - one.neutral) for one in own])
+        low, high = entry["size"]
+        assert low <= np.min(shares) < low + 0.2 * (high - low) and high - 0.2 * (high - low) < np.max(shares) <= high
+
+
 def test_the_same_car_drives_on_every_site(settings, vehicle):
     one = drives.hidden_car(settings["seed"], settings["measurement"], vehicle)
     assert one == drives.hidden_car(settings["seed"], settings["measurement"], vehicle)
@@ -133,6 +151,86 @@ def test_noise_has_the_density_of_the_data_sheet(settings):
         assert floor == pytest.approx(sensors[sensor]["density"] * unit, rel=0.03)
 
 
+def test_no_error_of_driver_and_instrument_is_nil(settings):
+    def numbers(block):
+        return [one for value in block.values() for one in (numbers(value) if isinstance(value, dict) else [value])]
+
+    block = settings["measurement"]
+    names = ("speed_deviation", "speed_wander", "lateral_deviation", "lateral_wander", "mounting_deg", "instrument")
+    assert min(numbers({name: block[name] for name in names})) > 0 and block["unsure"]["spread"] > 0
+
+
+def test_records_differ_in_bias_scale_and_clock_by_what_is_asked(settings):
+    """A hundred short records of a car at 10 m/s without noise."""
+    asked = settings["measurement"]["instrument"]
+    biased = {kind: QUIET[kind] | {"bias": asked[kind]["bias"]} for kind in ("accelerometer", "gyroscope")}
+    all_of_them = {**QUIET, **biased, "clock_offset": asked["clock_offset"], "speed": {"noise": 0, "scale": asked["speed"]["scale"]}}
+    drive, rng, rows = at_rest(1.0, v_x=lambda t: 10.0 + 0.0 * t), np.random.default_rng(5), []
+    for _ in range(100):
+        quantities, errors = instrument.record(rng, drive, 100.0, all_of_them, np.zeros(3))
+        rows.append([quantities[name].mean() for name in (*SIGNALS, "v_x")] + [errors["clock_offset"]])
+    spread = np.std(rows, axis=0)
+    assert spread[:3] == pytest.approx(asked["accelerometer"]["bias"] * 9.80665e-6, rel=0.2)
+    assert spread[3:6] == pytest.approx(np.radians(asked["gyroscope"]["bias"]), rel=0.2)
+    assert spread[6] == pytest.approx(10.0 * asked["speed"]["scale"], rel=0.2)
+    assert spread[7] == pytest.approx(asked["clock_offset"], rel=0.2)
+
+
+def test_a_bias_wanders_by_its_instability_over_its_time(settings):
+    asked = settings["measurement"]["instrument"]
+    wandering = {kind: QUIET[kind] | {"instability": asked[kind]["instability"], "time": 1.0} for kind in ("accelerometer", "gyroscope")}
+    quantities, _ = instrument.record(np.random.default_rng(6), at_rest(300.0), 100.0, {**QUIET, **wandering}, np.zeros(3))
+    for names, size in (
+        (SIGNALS[:3], asked["accelerometer"]["instability"] * 9.80665e-6),
+        (SIGNALS[3:], np.radians(asked["gyroscope"]["instability"])),
+    ):
+        drift = np.stack([quantities[name] for name in names])
+        drift -= drift.mean(axis=1, keepdims=True)
+        assert np.sqrt(np.mean(drift**2)) == pytest.approx(size, rel=0.15)
+        assert np.mean(drift[:, 100:] * drift[:, :-100]) / np.mean(drift**2) == pytest.approx(np.exp(-1.0), abs=0.15)
+
+
+def test_a_recorded_speed_has_the_noise_that_is_asked(settings):
+    noise = settings["measurement"]["instrument"]["speed"]["noise"]
+    noisy = {**QUIET, "speed": {"noise": noise, "scale": 0}}
+    quantities, _ = instrument.record(np.random.default_rng(7), at_rest(60.0), 100.0, noisy, np.zeros(3))
+    assert quantities["v_x"].std() == pytest.approx(noise, rel=0.05)
+    assert abs(np.corrcoef(quantities["v_x"][1:], quantities["v_x"][:-1])[0, 1]) < 0.05
+
+
+def test_a_driver_keeps_to_his_speed_and_path_as_closely_as_is_asked(settings):
+    block, u = settings["measurement"], np.arange(0.0, 50000.0, 2.0)
+    usual = np.full(len(u), 20.0)
+    speed, path, drawn = drives.how_driven(np.random.default_rng(8), u, usual, {"role": "fit", "lateral_position": 0.5}, block)
+    for found, mean, size in (
+        (speed, 20.0 + drawn["speed_deviation"], block["speed_wander"]),
+        (path, drawn["lateral_position"], block["lateral_wander"]),
+    ):
+        wander = found.values - mean
+        assert wander.std() == pytest.approx(size, rel=0.15)
+        apart = round(block["wander_length"] / 2.0)
+        assert np.corrcoef(wander[apart:], wander[:-apart])[0, 1] == pytest.approx(np.exp(-0.5), abs=0.1)
+    many = [drives.how_driven(np.random.default_rng(seed), u[:2], usual[:2], {"role": "fit"}, block)[2] for seed in range(200)]
+    for name, size in (("speed_deviation", block["speed_deviation"]), ("lateral_position", block["lateral_deviation"])):
+        assert np.std([drawn[name] for drawn in many]) == pytest.approx(size, rel=0.15)
+
+
+def test_the_instrument_of_a_site_is_mounted_as_askew_as_is_asked_and_reads_gravity_so(short, entries, vehicle, monkeypatch):
+    monkeypatch.setattr(drives.simulate, "run", lambda *course, **demand: at_rest(0.5))
+    monkeypatch.setattr(drives.simulate, "prepare", lambda road, interpolation: road)
+    u = np.arange(0.0, 400.0)
+    road = xr.Dataset({"curvature": ("u", np.zeros(len(u)))}, {"u": u})
+    askew = []
+    for seed in range(30):
+        alone = {**short, "seed": seed, "measurement": short["measurement"] | {"instrument": QUIET}}
+        ((record,), truth) = drives.make_drives("ts2", alone, road, vehicle, entries[:1])
+        askew.append(truth["mounting_rad"])
+        across = record["acceleration_x [m/s2]"].mean(), record["acceleration_y [m/s2]"].mean()
+        roll, pitch, _ = truth["mounting_rad"]
+        assert across == pytest.approx((-pitch * STANDARD_GRAVITY, roll * STANDARD_GRAVITY), abs=1e-5)
+    assert np.std(askew) == pytest.approx(np.radians(short["measurement"]["mounting_deg"]), rel=0.2)
+
+
 def test_a_clock_offset_delays_the_inertial_signals_against_the_position():
     drive = at_rest(20.0, a_z=lambda t: np.sin(8.0 * t), s=lambda t: 10.0 * t, v_x=lambda t: 10.0 + 0.0 * t)
     late = {**QUIET, "clock_offset": 0.02}
@@ -171,14 +269,14 @@ def test_the_sensor_is_placed_from_the_front_axle_and_the_wheel_centres(vehicle)
     assert z + vehicle["cg_height"] == pytest.approx(1.15 + vehicle["tyre_radius"], abs=0.03), "tyres give a little"
 
 
-def test_the_sensor_sits_at_its_place_in_the_car_that_is_driven(short, entries, vehicle, monkeypatch):
+def test_the_hidden_car_is_driven_with_its_effects_and_the_sensor_at_its_place_in_it(short, entries, vehicle, monkeypatch):
     """What is hidden, as where its centre of gravity lies, does not take the instrument along."""
-    car, _ = drives.hidden_car(short["seed"], short["measurement"], vehicle)
+    car, hidden = drives.hidden_car(short["seed"], short["measurement"], vehicle)
     assert abs(car["cg_height"] - vehicle["cg_height"]) > 0.001
     places = []
 
-    def run(course, driven, *, sensor, **demand):
-        places.append((driven, sensor))
+    def run(course, driven, *, sensor, effects, **demand):
+        places.append((driven, sensor, effects))
         raise InterruptedError
 
     monkeypatch.setattr(drives.simulate, "run", run)
@@ -187,8 +285,9 @@ def test_the_sensor_sits_at_its_place_in_the_car_that_is_driven(short, entries, 
     road = xr.Dataset({"curvature": ("u", np.zeros(len(u)))}, {"u": u})
     with pytest.raises(InterruptedError):
         drives.make_drives("ts2", short, road, vehicle, entries)
-    ((driven, sensor),) = places
+    ((driven, sensor, effects),) = places
     assert driven.values == car.values and sensor == drives.sensor_place(car, entries[0]["sensor"])
+    assert effects == hidden and len(hidden) == 2
 
 
 def test_lever_arm_of_the_truth_is_that_of_the_instrument(driven):
