@@ -1,4 +1,4 @@
-"""Natural frequencies and frequency response against an independent linear half-car."""
+"""Natural frequencies and frequency response against an independent linear half-car, and of roll against a closed form."""
 
 from __future__ import annotations
 
@@ -85,3 +85,26 @@ def test_undamped_natural_frequencies_are_the_eigenvalues(car):
         near = np.abs(frequencies - natural) < 0.02 * natural
         peak = frequencies[near][np.argmax(power[near])]
         assert peak == pytest.approx(natural, rel=0.006)
+
+
+def test_undamped_roll_has_the_frequency_of_the_body_on_springs_bars_and_tyres(car):
+    """Springs and bars in series with the tyres, less what the weight of the leaning body takes off. On ice the body rolls about its own centre;
+    the wheels are so light that what they take part is a third of a percent."""
+    free = car.replace(damping_front=0.0, damping_rear=0.0, tyre_radial_damping=0.0, unsprung_mass_front=6.0, unsprung_mass_rear=6.0)
+    half = np.array([car["track_front"], car["track_rear"]]) / 2
+    springs = 2 * half**2 * [car["spring_stiffness_front"], car["spring_stiffness_rear"]]
+    springs += [car["anti_roll_stiffness_front"], car["anti_roll_stiffness_rear"]]
+    tyres = 2 * half**2 * car["tyre_radial_stiffness"]
+    rear = car["cg_to_front_axle"] / car["wheelbase"]
+    arms = car["cg_height"] - np.array([car["roll_centre_height_front"], car["roll_centre_height_rear"]])
+    weight = car["sprung_mass"] * 9.80665 * np.array([1 - rear, rear])
+    stiffness = np.sum(springs * tyres / (springs + tyres) - weight * arms)
+
+    def one_side_up(u, v):
+        return np.where((u > 10) & (u < 12), 0.01 * np.sin(np.pi * (u - 10) / 2) ** 2, 0.0) * v
+
+    drive = simulate.run(road(620.0, height=one_side_up), free, speed=20.0, friction=1e-9).isel(time=slice(200, None))
+    frequencies = np.fft.rfftfreq(16 * drive.time.size, 0.01)
+    amplitude = np.abs(np.fft.rfft(drive["roll_rate"].values * np.hanning(drive.time.size), 16 * drive.time.size))
+    found = frequencies[np.argmax(np.where(frequencies < 5.0, amplitude, 0.0))]
+    assert found == pytest.approx(np.sqrt(stiffness / car["roll_inertia"]) / (2 * np.pi), rel=0.01)

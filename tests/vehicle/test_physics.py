@@ -1,4 +1,4 @@
-"""Statics, energy and cornering of the vehicle against closed forms."""
+"""Statics, energy, cornering, steering and traction of the vehicle against closed forms."""
 
 from __future__ import annotations
 
@@ -132,3 +132,50 @@ def test_load_transfer_in_a_bend_balances_the_moment_about_the_road(car, roll_ce
     lean = car["sprung_mass"] * G * np.mean(wheels.arm) * drive["roll"][-1]
     inertia = side * (car["sprung_mass"] * car["cg_height"] + wheels.wheel_mass.sum() * wheels.radius)
     assert -moment == pytest.approx(inertia + lean, rel=0.005)
+
+
+def test_yaw_answers_to_steering_as_that_of_the_single_track_model(car):
+    """Frequency response of the yaw rate to the angle of the front wheels, and of the speed sideways, of a car that hardly rolls
+    (Mitschke and Wallentowitz 2014, Dynamik der Kraftfahrzeuge: M (dv/dt + V r) and I dr/dt of the forces at the axles)."""
+    upright = {"cg_height": 0.2} | {f"roll_centre_height_{axle}": 0.0 for axle in ("front", "rear")}
+    upright |= {f"anti_roll_stiffness_{axle}": 300000.0 for axle in ("front", "rear")}
+    speed, frequencies, u = 20.0, (0.5, 1.0), np.arange(0.0, 150.05, 0.1)
+    bends = 5e-4 * sum(np.sin(2 * np.pi * frequency / speed * u) for frequency in frequencies)
+    drive = watched(car.replace(**upright), road(150.0, curvature=bends), speed)
+
+    place = np.array([car["cg_to_front_axle"], car["cg_to_front_axle"] - car["wheelbase"]])
+    wheels = 2 * np.array([car["unsprung_mass_front"], car["unsprung_mass_rear"]])
+    half = np.array([car["track_front"], car["track_rear"]]) / 2
+    mass, inertia = car["sprung_mass"] + wheels.sum(), car["yaw_inertia"] + np.sum(wheels * (place**2 + half**2))
+    load = G * (car["sprung_mass"] * np.abs(place[::-1]) / car["wheelbase"] + wheels)
+    stiffness = car["cornering_stiffness"] / car["tyre_reference_load"] * load
+    damping = np.array([[stiffness.sum(), stiffness @ place], [stiffness @ place, stiffness @ place**2]]) / speed
+    damping[0, 1] += mass * speed
+
+    time = 0.002 * np.arange(len(drive["angle"]))
+    waves = [np.exp(2j * np.pi * frequency * time) for frequency in frequencies]
+    basis = np.stack([part for wave in waves for part in (wave.real, -wave.imag)] + [np.ones(len(time))], axis=1)
+    signals = np.stack([drive["angle"], drive["speeds"][:, 1], drive["speeds"][:, 2]], axis=1)
+    parts = np.linalg.lstsq(basis[time > 2.0], signals[time > 2.0], rcond=None)[0]
+    for number, frequency in enumerate(frequencies):
+        angle, aside, yaw_rate = parts[2 * number] + 1j * parts[2 * number + 1]
+        balance = 2j * np.pi * frequency * np.diag([mass, inertia]) + damping
+        expected = np.linalg.solve(balance, stiffness[0] * np.array([1.0, place[0]]))
+        assert abs(yaw_rate / angle - expected[1]) < 0.02 * abs(expected[1])
+        assert abs(aside / angle - expected[0]) < 0.03 * abs(expected[0])
+
+
+@pytest.mark.parametrize(("start", "end", "front"), [(10.0, 14.0, "drive_share_front"), (18.0, 10.0, "brake_share_front")])
+def test_axles_drive_and_brake_by_their_shares(car, start, end, front):
+    """What is asked for beside that goes into the spin of the wheels."""
+    ground = road(80.0)
+    drive = watched(car, ground, np.linspace(start, end, ground.u.size))
+    now = len(drive["force_x"]) // 2
+    acceleration, force = drive["acceleration"][now, 0], drive["force_x"][now]
+    total = car["sprung_mass"] + 2 * car["unsprung_mass_front"] + 2 * car["unsprung_mass_rear"]
+    spinning = 2 * car["wheel_spin_inertia"] / car["tyre_radius"] ** 2 * acceleration
+    assert acceleration * (end - start) > 0 and abs(acceleration) > 0.5
+    assert force.sum() == pytest.approx(total * acceleration, rel=0.01)
+    asked = force.sum() + 2 * spinning
+    assert force[:2].sum() + spinning == pytest.approx(car[front] * asked, abs=0.01 * abs(asked))
+    assert force[0] == pytest.approx(force[1]) and force[2] == pytest.approx(force[3])
