@@ -29,9 +29,10 @@ VISIBLE = 0.8
 
 
 def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
-    """What a verdict got right, as a row of trials.csv."""
-    found = [effect.name for effect in verdict.effects]
-    likely = set(found).union(*(effect.like for effect in verdict.effects))
+    """What a verdict got right, as a row of trials.csv. Where it calls the data suspect it names no effect of the vehicle, whatever it lists."""
+    named = [effect for effect in verdict.effects if verdict.verdict != "suspect" or effect.is_of_measurement]
+    found, names = ([effect.name for effect in effects] for effects in (verdict.effects, named))
+    likely = set(names).union(*(effect.like for effect in named))
     sizes = [
         size["interval"][0] <= truth["effects"][effect.name][size["parameter"]] <= size["interval"][1]
         for effect in verdict.effects
@@ -40,8 +41,8 @@ def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
     ]
     return {
         "verdict": verdict.verdict, "found": "+".join(found), "likely": "+".join(sorted(likely)),
-        "first_right": bool(found) and found[0] in draw.right, "in_cluster": bool(likely & draw.right),
-        "wrong_named": verdict.verdict == "named" and not set(found) <= draw.there, "exact": set(found) == set(draw.right),
+        "first_right": bool(names) and names[0] in draw.right, "in_cluster": bool(likely & draw.right),
+        "wrong_named": verdict.verdict == "named" and not set(found) <= draw.there, "exact": set(names) == set(draw.right),
         "covered": sum(sizes), "sizes": len(sizes), "share": verdict.share, "held_out_share": verdict.held_out_share,
         "p_value": float(table["p_value"][0].min()), **{name: float(table[name]) for name in SHARED},
     }  # fmt: skip
