@@ -15,8 +15,6 @@ from collections.abc import Collection, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
-import numpy as np
-
 from ridecomfort import discrepancy
 from ridecomfort.discrepancy.places import PLACES
 from ridecomfort.effects import library
@@ -55,16 +53,12 @@ def one(job: tuple[str, int, int], alone: bool = False) -> dict | None:
     seconds = time.process_time() - start
     row = {"kind": kind, "seed": seed, "number": number, "hidden": "+".join(draw.hidden), "kappa": draw.kappa}
     row |= {"reached": trial.truth["reached"], **score.score(draw, trial.truth, table, verdict)}
-    row |= {"place_right": "", "form_share": "", "wrong": len(draw.wrong), "told": score.told(draw, car, verdict)}
+    row |= {"wrong": len(draw.wrong), "told": score.told(draw, car, verdict)}
     ports = {place.port: name for name, place in PLACES.items()}
     place = ports.get(known[draw.hidden[0]].effect.port) if kind.startswith("outside") else None
     fall = lambda first, last: score.against_oracle(trial, true, trials.SHAPES, first, last)
     reached = table["held_out_mean_square"].values
-    if place:
-        states = proposal.selection.states if proposal else ()
-        share = fall(*(state.held_out_squares for state in (states[0], states[-1]))) if states else fall(reached[0], reached[0])
-        # Where who knows the truth gains nothing held out, no form can be judged by what it does there.
-        row |= {"place_right": bool(proposal) and proposal.place == place, "form_share": share if np.isfinite(share) else ""}
+    row |= score.form(place, proposal, reached[0], fall)
     oracle = fall(reached[0], reached[-1]) if draw.hidden and kind != "messy" and not draw.wrong else float("nan")
     return {**row, "against_oracle": oracle, "cpu_seconds": seconds, "reasons": "; ".join(verdict.reasons)}
 

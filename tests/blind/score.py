@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from scipy.stats import binomtest
@@ -16,7 +16,8 @@ from ridecomfort.errors import InputError
 from .kinds import KAPPAS, SUSPECT, Draw
 
 FORM = 0.8
-"""Share of what the true effect removes of the error held out from which on a form counts as that of the effect."""
+"""Share of what the true effect removes of the error held out from which on a form counts as that of the effect, up to one over it: what removes
+more than that takes up something else."""
 
 CLOSE = 0.05
 """Share of its true value within which a parameter counts as told."""
@@ -55,6 +56,24 @@ def told(draw: Draw, car, verdict) -> int:
     return sum(one.parameter in true and abs(one.value / true[one.parameter] - 1.0) < CLOSE for one in beyond)
 
 
+def form(place: str | None, proposal, opened: np.ndarray, fall: Callable) -> dict:
+    """What a ``proposal`` (``Discovery``, or None) got right of a force at ``place`` (None: at a port that no form has), as more of a row:
+    ``place`` is the proposed one, ``form_share`` what its terms alone remove of the error held out, ``together_share`` that with effects of
+    the library beside them, each against the truth. ``opened``: mean squares (record, channel) that no proposal leaves; ``fall``: of
+    ``against_oracle``, by those before and after. Empty where a share or a place cannot be judged."""
+    row = {"place": proposal.place if proposal else "", "place_right": "", "form_share": "", "together_share": ""}
+    if place is None:
+        return row
+    accepted, squares = [], [opened]
+    if proposal:
+        accepted, squares = proposal.selection.accepted, [state.held_out_squares for state in proposal.selection.states] or squares
+    falls = [before - after for before, after in zip(squares, squares[1:])]
+    own = [gone for name, gone in zip(accepted, falls) if ":" in name]  # terms are called by place and term, effects by a name alone
+    shares = {key: fall(squares[0], squares[0] - sum(gone)) for key, gone in (("form_share", own), ("together_share", falls))}
+    # Where who knows the truth gains nothing held out, no form can be judged by what it does there.
+    return row | {"place_right": row["place"] == place} | {key: share for key, share in shares.items() if np.isfinite(share)}
+
+
 def against_oracle(trial, vehicle, effects_folder, first, last) -> float:
     """Fall of the held-out error, mean squares (record, channel) from ``first`` to ``last``, relative to that of who knows the effects and
     all parameters; nan where there is none."""
@@ -81,30 +100,32 @@ def level(reached: float) -> float:
 
 
 def summary(rows: Sequence[Mapping]) -> list[str]:
-    """Lines of a Markdown table: each figure with what it should be, its 95 % interval (Wilson) and the number of trials."""
+    """Lines of a Markdown table: each figure with what it should be, its 95 % interval (Wilson) and the number of trials that it is counted
+    over, of all of their kinds where some are left out."""
     lines = ["| figure | aim | reached (95 % interval) | trials |", "|---|---|---|---|"]
 
-    def line(what, chosen, hit, aim=""):
-        chosen = list(chosen)
+    def line(what, chosen, hit, aim="", among=()):
         hits = sum(bool(hit(row)) for row in chosen)
         if chosen:
             lower, upper = binomtest(hits, len(chosen)).proportion_ci(method="wilson")
             share = f"{100 * hits / len(chosen):.0f} % ({100 * lower:.0f}-{100 * upper:.0f} %)"
-        lines.append(f"| {what} | {aim} | {share if chosen else '-'} | {len(chosen)} |")
+        count = f"{len(chosen)} of {len(among)}" if len(among) > len(chosen) else f"{len(chosen)}"
+        lines.append(f"| {what} | {aim} | {share if chosen else '-'} | {count} |")
 
     of = lambda *kinds: [row for row in rows if row["kind"] in kinds]
-    reached = {id(row): level(row["reached"]) for row in rows if row["hidden"]}
-    seen = [row for row in rows if reached.get(id(row))]
-    strong = [row for row in seen if reached[id(row)] >= 0.3]
-    single = lambda kind, chosen: [row for row in chosen if row["kind"] == kind]
+    reached = {id(row): level(row["reached"]) if row["hidden"] else 0.0 for row in rows}
+    strong = lambda chosen: [row for row in chosen if reached[id(row)] >= 0.3]
+
+    def strong_line(what, chosen, hit, aim=""):
+        line(what, strong(chosen), hit, aim, chosen)
+
     alone = ("clean", "messy", "another shape", "another setting")
     for kind in alone:
         aim = {"clean": "95 %", "messy": "85 %"}.get(kind, "")
-        line(f"first name right, {kind}, kappa >= 0.3", single(kind, strong), lambda row: row["first_right"], aim)
-    one = [row for row in strong if row["kind"] in alone]
-    line("true effect named or in the named cluster, kappa >= 0.3", one, lambda row: row["in_cluster"], "97 %")
+        strong_line(f"first name right, {kind}, kappa >= 0.3", of(kind), lambda row: row["first_right"], aim)
+    strong_line("true effect named or in the named cluster, kappa >= 0.3", of(*alone), lambda row: row["in_cluster"], "97 %")
     for kappa in KAPPAS:
-        at = [row for row in single("clean", seen) if reached[id(row)] == kappa]
+        at = [row for row in of("clean") if reached[id(row)] == kappa]
         line(f"found, clean, kappa {kappa:g}", at, lambda row: row["in_cluster"], "90 %" if kappa >= 0.1 else "")
     nulls = ("nothing", "path error", "clock error, aligned", "another interpolation", "brisk foot", "brisk foot, clean speed")
     for kind in nulls:
@@ -113,36 +134,54 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
         line(f"p of the whole library below {100 * LEVEL:.0f} %: {kind}", of(kind), lambda row: row["p_value"] < LEVEL, "3-8 %")
     line(f"p of the whole library below {100 * LEVEL:.0f} %: all of these", of(*nulls), lambda row: row["p_value"] < LEVEL, "3-8 %")
     line("wrong effect named with confidence", rows, lambda row: row["wrong_named"], "at most 3 %")
-    with_library = single("outside, beside the library", strong)
-    for kind in ("outside", "outside, messy", "outside, beside the library", "outside, beside a wrong file"):
-        said = f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3'
-        line(said, single(kind, strong), lambda row: row["verdict"] == "outside", "80 %")
-    placed = [row for kind in ("outside", "outside, messy") for row in single(kind, strong) if row["form_share"] != ""]
-    line("place of such an effect right (strut, tyre, contact, links, body, steering, structure)", placed, lambda row: row["place_right"])
-    formed = lambda row: row["form_share"] >= FORM
-    line(f"its proposed form removes {100 * FORM:.0f} % of what the true one does, held out", placed, formed, "70 %")
-    line("effect of the library beside such a force named, and no other", with_library, lambda row: row["exact"])
-    both = [row for row in with_library if row["form_share"] != ""]
-    line(f"both together remove {100 * FORM:.0f} % of what the true ones do, held out", both, formed)
-    wrong = single("outside, beside a wrong file", strong)
-    line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %, beside such a force", wrong, lambda row: row["told"] == row["wrong"])
-    theirs = [row for row in wrong if row["form_share"] != ""]
-    line(f"its form removes {100 * FORM:.0f} % of what is left to who knows file and force, held out", theirs, formed)
-    line("exact set of 2 effects, each at kappa >= 0.3", single("two", strong), lambda row: row["exact"], "85 %")
-    line("exact set of 3 effects, each at kappa >= 0.3", single("three", strong), lambda row: row["exact"], "70 %")
-    beside = [row for row in of("wrong file") if row["hidden"] and reached[id(row)] >= 0.3]
-    line("what is missing named, and nothing else, beside a wrong file of the vehicle, kappa >= 0.3", beside, lambda row: row["exact"])
+    is_outside = lambda row: row["verdict"] == "outside"
+    is_placed = lambda row: is_outside(row) and row["place"]
+    with_library, beside_wrong = of("outside, beside the library"), of("outside, beside a wrong file")
+    for kind in ("outside", "outside, messy", "outside, beside the library"):
+        strong_line(f'"outside the library" said when it is, {kind[9:] or "clean"}, kappa >= 0.3', of(kind), is_outside, "80 %")
+    strong_line('"outside the library" said when it is, with a place, beside a wrong file, kappa >= 0.3', beside_wrong, is_placed, "80 %")
     without = [row for row in of("wrong file") if not row["hidden"]]
+    line('"outside the library" said where nothing but the vehicle\'s file is wrong', without, is_outside)
+    line("the same, with a place", without, is_placed)
+    outside = of("outside", "outside, messy")
+    placed = [row for row in strong(outside) if row["place_right"] != ""]
+    what = "place of such an effect right (strut, tyre, contact, links, body, steering, structure)"
+    line(what, placed, lambda row: row["place_right"], among=outside)
+    to = f"{100 * FORM:.0f} to {100 / FORM:.0f} %"
+    is_right = lambda share: share != "" and FORM <= share <= 1.0 / FORM
+    is_formed = lambda row: is_right(row["form_share"])
+    judged = [row for row in placed if row["form_share"] != ""]
+    line(f"its proposed form alone removes {to} of what the true one does, held out", judged, is_formed, "70 %", outside)
+    line('the same where "outside" is said', [row for row in judged if is_outside(row)], is_formed, among=judged)
+    line("effect of the library beside such a force named, and no other", strong(with_library), lambda row: row["exact"], among=with_library)
+    both = [row for row in strong(with_library) if row["together_share"] != ""]
+    what = f"both together remove {to} of what the true ones do, held out"
+    line(what, both, lambda row: is_right(row["together_share"]), among=with_library)
+    has_told = lambda row: row["told"] == row["wrong"]
+    strong_line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %, beside such a force", beside_wrong, has_told)
+    theirs = [row for row in strong(beside_wrong) if row["form_share"] != ""]
+    line(f"its form removes {to} of what is left to who knows file and force, held out", theirs, is_formed, among=beside_wrong)
+    every = strong([*outside, *with_library, *beside_wrong])
+    nowhere = [row for row in every if row["place_right"] == ""]
+    unseen = [row for row in every if row["place_right"] != "" and row["form_share"] == ""]
+    lines.append(f"| force at a port that no form has (left out of places and forms) | | {len(nowhere)} | {len(every)} |")
+    lines.append(f"| force that changes nothing held out (left out of forms) | | {len(unseen)} | {len(every)} |")
+    strong_line("exact set of 2 effects, each at kappa >= 0.3", of("two"), lambda row: row["exact"], "85 %")
+    strong_line("exact set of 3 effects, each at kappa >= 0.3", of("three"), lambda row: row["exact"], "70 %")
+    beside = [row for row in of("wrong file") if row["hidden"]]
+    strong_line("what is missing named, and nothing else, beside a wrong file of the vehicle, kappa >= 0.3", beside, lambda row: row["exact"])
     line("no effect named where nothing but the vehicle's file is wrong", without, lambda row: not row["found"])
-    line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %", of("wrong file"), lambda row: row["told"] == row["wrong"])
+    line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %", of("wrong file"), has_told)
+    is_suspect = lambda row: row["verdict"] == "suspect"
     for kind in SUSPECT:
-        line(f"suspect data flagged: {kind}", of(kind), lambda row: row["verdict"] == "suspect", "90 %")
-    flagged = lambda row: row["verdict"] == "suspect" and row["first_right"]
-    line("suspect data flagged, by name: another error of the measurement, kappa >= 0.3", single("measurement", strong), flagged)
-    for what, chosen in (("messy", single("messy", seen)), ("others", [row for row in seen if row["kind"] != "messy"])):
+        line(f"suspect data flagged: {kind}", of(kind), is_suspect, "90 %")
+    flagged = lambda row: is_suspect(row) and row["first_right"]
+    strong_line("suspect data flagged, by name: another error of the measurement, kappa >= 0.3", of("measurement"), flagged)
+    seen = [row for row in rows if reached[id(row)]]
+    for what, chosen in (("messy", [row for row in seen if row["kind"] == "messy"]), ("others", [row for row in seen if row["kind"] != "messy"])):
         covered, sizes = (sum(row[key] for row in chosen) for key in ("covered", "sizes"))
         lines.append(f"| 90 % interval of a size covers the truth, {what} | 80-95 % | {100 * covered / max(sizes, 1):.0f} % | {sizes} sizes |")
-    falls = [row["against_oracle"] for row in one if row["in_cluster"] and np.isfinite(row["against_oracle"])]
+    falls = [row["against_oracle"] for row in strong(of(*alone)) if np.isfinite(row["against_oracle"])]
     if falls:
         median, tenth = np.median(falls), np.quantile(falls, 0.1)
         found = f"{median:.2f} ({tenth:.2f}) | {len(falls)}"
