@@ -101,6 +101,12 @@ def test_of_a_trial_without_repeats_the_search_is_given_one_drive_beside_that_he
     assert densities["drive_1"]["gyroscope"] * np.sqrt(50.0) == pytest.approx(trials.GYROSCOPE)
 
 
+def test_the_truth_says_how_large_the_background_is(car_file):
+    truth = trials.make(6, parameters.read(car_file), {}, background=["top_mount", "tyre_runout"]).truth
+    assert truth["background"] == {name: pytest.approx(trials.BACKGROUND, rel=0.2) for name in ("top_mount", "tyre_runout")}
+    assert truth["reached"] == 0.0
+
+
 def test_a_road_that_is_interpolated_otherwise_is_no_missing_effect(car_file):
     car = parameters.read(car_file)
     trial = trials.make(104, car, {}, 1.0, interpolation="linear")

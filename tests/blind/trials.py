@@ -105,7 +105,7 @@ def make(
     in the worst channel and the band that ride is judged in (``Remains``). ``effects`` give the direction: sizes are scaled from
     neutral, within what is plausible; shapes of ``tests/blind/shapes`` may be among them. ``clock`` (s) and ``gain`` spoil the
     record, ``scanner`` (m rms) the road that is handed over, ``path_error`` (m rms) the recorded path; each effect of
-    the ``background`` is there at a kappa of BACKGROUND. ``aligned``: drives are handed over as alignment leaves them.
+    the ``background`` is there at a kappa of BACKGROUND, if a plausible size comes up to it (``truth``). ``aligned``: drives are handed over as alignment leaves them.
     ``interpolation``: of the true road between its points, where the one that is handed over is cubic. ``foot`` (m/s2 rms): how briskly
     the pedals are moved, each drive otherwise. ``speed_noise`` (m/s rms at RATE): of the recorded speed.
     """
@@ -152,6 +152,7 @@ def make(
         drives = [align.align(record, scanned, car, simulate=simulate.run) for record in drives]
     truth = {"effects": sizes, "car": hidden, "kappa": kappa, "reached": min(reached[: len(effects)], default=0.0)}
     return Trial({"trial": (road, drives)}, truth)
+    truth["background"] = dict(zip(background, reached[len(effects) :]))
 
 
 def alone(trial: Trial) -> tuple[dict[str, tuple], dict]:
