@@ -38,7 +38,7 @@ def make(seed: int, vehicle, measurement: Mapping, foot: float = 0.0) -> Trial:
     """Repeats on a bent, rough road of 700 m by a car whose calibrated parameters are drawn.
 
     ``measurement`` is that block of config/standin.yaml: intervals of the parameters, the driver, the instrument. ``foot`` (m/s2 rms): how
-    briskly he moves the pedals beside that.
+    briskly he moves the pedals beside that (``by_foot``).
     """
     rng = np.random.default_rng(seed)
     road = a_road(rng)
