@@ -107,6 +107,13 @@ def test_the_truth_says_how_large_the_background_is(car_file):
     assert truth["reached"] == 0.0
 
 
+@pytest.mark.parametrize("name", ["tyre_enveloping", "tyre_progression"])
+def test_what_is_faint_comes_up_to_no_kappa_that_counts(car_file, name):
+    assert name in kinds.FAINT
+    truth = trials.make(12, parameters.read(car_file), {name: library.find()[name].effect.values()}, 3.0).truth
+    assert 0.0 < score.level(truth["reached"]) < 0.3
+
+
 def test_a_road_that_is_interpolated_otherwise_is_no_missing_effect(car_file):
     car = parameters.read(car_file)
     trial = trials.make(104, car, {}, 1.0, interpolation="linear")

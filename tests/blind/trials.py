@@ -106,7 +106,8 @@ def make(
     in the worst channel and the band that ride is judged in (``Remains``). ``effects`` give the direction: sizes are scaled from
     neutral, within what is plausible; shapes of ``tests/blind/shapes`` may be among them. ``clock`` (s) and ``gain`` spoil the
     record, ``scanner`` (m rms) the road that is handed over, ``path_error`` (m rms) the recorded path; each effect of
-    the ``background`` is there at a kappa of BACKGROUND, if a plausible size comes up to it (``truth``). ``aligned``: drives are handed over as alignment leaves them.
+    the ``background`` is there at a kappa of BACKGROUND, if a plausible size comes up to it (``truth`` says how far). ``aligned``: drives are
+    handed over as alignment leaves them.
     ``interpolation``: of the true road between its points, where the one that is handed over is cubic. ``foot`` (m/s2 rms): how briskly
     the pedals are moved, each drive otherwise (``by_foot``). ``speed_noise`` (m/s rms at RATE): of the recorded speed.
     """
