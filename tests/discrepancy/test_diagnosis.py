@@ -274,7 +274,11 @@ def test_parameters_are_told_beside_effects_only_where_there_are_any_and_for_the
 
 
 def test_where_they_are_all_that_is_missing_it_is_no_effect_of_the_library():
-    assert with_parameters(NOTHING, beyond(is_first=True)).verdict == "outside"
+    alone = with_parameters(NOTHING, beyond(is_first=True))
+    assert alone.verdict == "outside"
+    assert alone.words().startswith("No effect of the library is missing: parameters of the vehicle lie far from its file.")
+    for other in (alone.words("force = ..."), replace(alone, is_left=True).words()):
+        assert other.startswith("Something is missing that is not in the library.")
     first = with_parameters(replace(NOTHING, verdict="named", effects=(FOUND,), held_out_share=0.6), beyond(is_first=True))
     assert first.verdict == "named" and first.reasons[-1].endswith("other shares are of what they leave")
 

@@ -22,6 +22,9 @@ SAID = {
 SOMETHING_ELSE = "something else"
 """What effects are not told from of which each may as well be none, or which a force of another form may be as well."""
 
+FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
+"""What the verdict "outside" says where those are all that was found."""
+
 UNNAMED = "Nothing is missing that would have a name; what is left above the floor, the search cannot explain."
 """What the verdict "nothing" says where more is left than SMALL."""
 
@@ -108,11 +111,11 @@ class Verdict:
         """Plain numbers, text and lists; null where a number is not known."""
         return plain(asdict(self))
 
-    def words(self) -> str:
-        """The verdict as a few sentences."""
+    def words(self, form: str = "") -> str:
+        """The verdict as a few sentences; ``form``: that of the force that is proposed, if any."""
         told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
         names = [" or ".join((effect.name, *effect.like)) for effect in told]
-        return " ".join([first_sentence(self.json(), names), *map(sentence, self.reasons)])
+        return " ".join([first_sentence({**self.json(), "proposal": {"form": form}}, names), *map(sentence, self.reasons)])
 
 
 def kind_of(effects: Sequence[Named]) -> str:
@@ -141,6 +144,18 @@ def told_beyond(beyond: Mapping) -> list[Mapping]:
     return [*beyond["parameters"], *beyond.get("less_sure", ())]
 
 
+def is_vehicle_first(said: Mapping) -> bool:
+    """Whether the search of a verdict, as ``Verdict.json`` gives it, began with parameters of the vehicle put right that lie beyond their bounds."""
+    return bool((said.get("beyond_bounds") or {}).get("is_first"))
+
+
+def is_file_alone(said: Mapping) -> bool:
+    """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form, and
+    no error that repeats share and that is worth explaining."""
+    is_all = not (said["effects"] or (said.get("proposal") or {}).get("form") or said.get("is_left"))
+    return is_vehicle_first(said) and said["verdict"] == "outside" and is_all
+
+
 def first_sentence(said: Mapping, names: Sequence[str]) -> str:
     """What a verdict, as ``Verdict.json`` gives it, begins with; ``names`` of its effects, each with what it is not told from."""
     kind, remainder, at_first = said["verdict"], said.get("remainder") or {}, said.get("at_first") or {}
@@ -148,6 +163,8 @@ def first_sentence(said: Mapping, names: Sequence[str]) -> str:
         return UNNAMED
     if kind == "nothing" and said.get("of_moments"):
         return BESIDE_MOMENTS.format(signals=", ".join(said["of_moments"]))
+    if is_file_alone(said):
+        return FILE_ALONE
     other = not_told_from(said)
     told = ", ".join(names) + (f" or {other}" if other else "")
     first = SAID[kind].format(names=f": {told}" if kind == "suspect" and told else told)

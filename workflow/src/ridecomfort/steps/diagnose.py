@@ -43,7 +43,7 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     content = {"sites": config["sites"], "vehicle_digest": digest(vehicle), "digests": digests, **found.json()}
     for old in Path(verdict).parent.glob(f"{DISCOVERED}*.py"):  # of drives or of a model before
         old.unlink()
-    conclusions = [found.words()]
+    conclusions = [found.words(proposal.form if proposal is not None else "")]
     if proposal is not None:
         content["proposal"] = proposal.json()
         if proposal.source:

@@ -8,7 +8,7 @@ from pathlib import Path
 from ...discrepancy.balance import ENOUGH, LITTLE
 from ...discrepancy.confirm import EQUAL
 from ...discrepancy.explain import NIL
-from ...discrepancy.verdict import SMALL, at_most, is_of_little, told_beyond
+from ...discrepancy.verdict import SMALL, at_most, is_file_alone, is_of_little, is_vehicle_first, told_beyond
 from ...effects import library
 from ...schema import as_written
 from ...vehicle.parameters import PARAMETERS
@@ -102,19 +102,6 @@ def next_step(found: Diagnosis) -> str:
 def _entry(name: str, held: Mapping[str, float]) -> str:
     """An effect as it stands in the configuration, with the sizes that are ``held``."""
     return f"{{{name}: {{{', '.join(f'{size}: {value:g}' for size, value in held.items())}}}}}" if held else name
-
-
-def is_vehicle_first(verdict: Mapping) -> bool:
-    """Whether the search began with parameters of the vehicle put right that lie beyond their bounds."""
-    return bool((verdict.get("beyond_bounds") or {}).get("is_first"))
-
-
-def is_file_alone(verdict: Mapping) -> bool:
-    """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form, and
-    no error that repeats share and that is worth explaining."""
-    proposal = verdict.get("proposal") or {}
-    is_all = not (verdict["effects"] or proposal.get("form") or verdict.get("is_left"))
-    return is_vehicle_first(verdict) and verdict["verdict"] == "outside" and is_all
 
 
 def library_helps(verdict: Mapping) -> bool:

@@ -13,7 +13,7 @@ from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.terms import SIDE
-from ...discrepancy.verdict import first_sentence, percent, sentence
+from ...discrepancy.verdict import first_sentence, is_vehicle_first, percent, sentence
 from ...effects.contract import PORTS
 from ...identifiability import AT_BOUND
 from ...study import BASE, JOIN
@@ -25,9 +25,6 @@ from . import advice
 
 SUSPECT = "The data are suspect: what stands here explains their error as they are, and may be what is wrong with them."
 """What is said of effects that were found on such data."""
-
-FILE_ALONE = "No effect of the library is missing: parameters of the vehicle lie far from its file."
-"""What is said where those are all that was found."""
 
 NAMING = ("named", "cluster", "suspect")
 """Verdicts that tell of each effect what it comes to."""
@@ -73,7 +70,7 @@ def verdict(found: Diagnosis) -> Table:
     told = [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
     names = [_alike(effect) for effect in told]
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
-    first = FILE_ALONE if advice.is_file_alone(said) else first_sentence(said, names)
+    first = first_sentence(said, names)
     rows = [("verdict", f"{first} ({said['verdict']})")]
     rows += [(words(effect["name"]), _found(effect)) for effect in told if said["verdict"] in NAMING]
     if said["verdict"] == "suspect":
@@ -249,7 +246,7 @@ def evidence(found: Diagnosis) -> Table:
         "is told above the floor as known in the round: for what an accepted effect removes, and its size, in the end see the missing effects. "
         f"{OF_LITTLE} "
         "Accepted is what the next round searches beside; the verdict says whether it is named in the end.",
-        *([RIGHTED] if advice.is_vehicle_first(found.verdict) else []),
+        *([RIGHTED] if is_vehicle_first(found.verdict) else []),
     )
     return _table(found, "evidence", columns, rows, _evidence_sources(found), notes, breaks[1:])
 
