@@ -11,12 +11,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from scipy.ndimage import median_filter
 
 from ..errors import InputError
 from ..vehicle.parameters import PARAMETERS
 from ..vocabulary import DRIVE, SIGNALS, STANDARD_GRAVITY, VARIABLES, describe
-from . import faults, sampling
+from . import distance, faults, sampling
 
 REASONABLE = {
     "v_x": (-5.0, 90.0),
@@ -39,16 +38,6 @@ FEWEST = 3
 
 FASTEST = {"roll_rate": 0.5, "pitch_rate": 0.5, "yaw_rate": 1.5}
 """rad/s (rms); what turns faster all along a drive is in degrees a second, not a road vehicle."""
-
-JUMP, FASTER = 3.0, 0.2
-"""m, and share of what the recorded speed drives, by which the distance may change otherwise from one sample to the next: the fix of a
-receiver jumps by a metre or two."""
-
-LONGEST_HOLD = 1.1
-"""s for which a faster table usually holds a place until the next is known, at most: receivers tell one a second or more."""
-
-AROUND = 9
-"""Steps of a distance without a speed beside it, the median of which is what it goes on by."""
 
 SAME_RATE = 1e-4
 """Relative difference up to which rates are the same, each told from the times of its drive."""
@@ -75,7 +64,7 @@ def from_arrays(
     ``quantities`` maps a name of ``vocabulary.DRIVE`` to (time in s, values); all six
     ``SIGNALS`` and at least one of ``v_x`` and ``s`` are needed. The stretch that all
     of them cover is brought to ``rate`` (Hz): inertial signals through an anti-alias
-    filter, all through the same, speed and place linearly; a place that is held until the next is known (``_unheld``) between its changes.
+    filter, all through the same, speed and place linearly; a place that is held until the next is known (``distance.unheld``) between its changes.
     ``s`` that is missing is integrated from ``v_x``
     beginning at ``distance_start`` (m), which is the way driven until ``align`` makes a place on the road of it, ``v_x`` that is missing is the
     derivative of ``s``, low-passed where that jitters beyond reason.
@@ -111,10 +100,10 @@ def from_arrays(
         _check_values(quantity, time, values, file=file)
         arrays[quantity] = time, values
     if "s" in arrays and "v_x" in arrays:
-        _check_way(*arrays["s"], *arrays["v_x"], file=file)
+        distance.check_beside_speed(*arrays["s"], *arrays["v_x"], file=file)
     elif "s" in arrays:
-        _check_way_alone(*arrays["s"], file=file)
-    arrays, held = _unheld(arrays)
+        distance.check_alone(*arrays["s"], file=file)
+    arrays, held = distance.unheld(arrays)
     first = max(time[0] for time, _ in arrays.values())
     last = min(time[-1] for time, _ in arrays.values())
     start, interval, _ = sampling.uniform_clock(arrays["a_z"][0])
@@ -134,7 +123,7 @@ def from_arrays(
         columns["s"] = distance_start + sampling.integral(columns["v_x"], time)
         treatment.append("s integrated from v_x")
     if "v_x" not in columns:
-        columns["v_x"], said = _speed(columns["s"], time, rate, file=file)
+        columns["v_x"], said = distance.speed_of(columns["s"], time, rate, REASONABLE["v_x"], file=file)
         treatment.append(said)
     if "e" not in columns:
         columns["e"] = np.full(count, np.nan)
@@ -155,27 +144,6 @@ def from_arrays(
         faults="; ".join(faults.found({name: arrays[name] for name in SIGNALS})),
     )
     return check(describe(drive), file=file)
-
-
-def _unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> tuple[dict, list[str]]:
-    """The same with a place that a faster table holds until the next is known, as that of a receiver, linear between the values where it changes,
-    which are those of their time, and what was done; ``s`` from its first change to its last.
-
-    Values that lie whole steps apart were rounded: where one changes it is half a step off.
-    """
-    result, done = dict(arrays), []
-    for name in ("s", "e"):
-        time, values = arrays.get(name, (np.empty(0), np.empty(0)))
-        known = 1 + np.flatnonzero(np.diff(values))
-        if len(known) < 3 or np.median(np.diff(known)) < 2 or (hold := np.median(np.diff(time[known]))) > LONGEST_HOLD:
-            continue
-        steps = (values[known] - values[0]) / np.median(np.abs(np.diff(values[known])))
-        if np.allclose(steps, np.round(steps), rtol=0.0, atol=0.01):
-            continue
-        kept = slice(known[0], known[-1] + 1) if name == "s" else slice(None)
-        result[name] = time[kept], np.interp(time[kept], time[known], values[known])
-        done.append(f"{name}, held for {hold:.3g} s at a time, interpolated between its changes")
-    return result, done
 
 
 def _inertial(signals: Mapping[str, tuple[np.ndarray, np.ndarray]], time: np.ndarray, rate: float, *, file) -> tuple[dict, list[str], float]:
@@ -242,63 +210,6 @@ def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> N
             f"(expected {lower:g} to {upper:g}; is its unit right?)",
             file=file,
             place=name,
-        )
-
-
-def _speed(place: np.ndarray, time: np.ndarray, rate: float, *, file) -> tuple[np.ndarray, str]:
-    """Speed (m/s, (time,)) that a distance rises by, and how it was made; InputError where it is none of a vehicle on a road."""
-    from .slow import smooth  # here: it takes a while, and the library of effects is read at every start
-
-    speed, said = np.gradient(place, 1 / rate), "v_x differentiated from s"
-    lower, upper = REASONABLE["v_x"]
-    if speed.min() < lower or speed.max() > upper:
-        speed, said = np.gradient(smooth(place, rate), 1 / rate), f"{said}, low-passed"
-    bad = np.flatnonzero((speed < lower) | (speed > upper))
-    if bad.size:
-        i = bad[0]
-        raise InputError(
-            f"changes by {speed[i]:.4g} m/s at {round(time[i], 6) + 0.0:.6g} s (expected {lower:g} to {upper:g}; are the units of s and of its time right?)",
-            file=file, place="s",
-        )  # fmt: skip
-    return speed, said
-
-
-def _check_way_alone(time: np.ndarray, place: np.ndarray, *, file) -> None:
-    """InputError where a distance without a speed beside it falls, or jumps otherwise than it goes on around."""
-    if place[-1] < place[0]:
-        raise InputError(
-            f"falls from {place[0]:.1f} to {place[-1]:.1f} m: driven against the reference line, which is not supported (expected s that rises)",
-            file=file, place="s",
-        )  # fmt: skip
-    known = np.flatnonzero(np.concatenate([[True], np.diff(place) != 0.0]))
-    if len(known) > AROUND:
-        speed = median_filter(np.diff(place[known]) / np.diff(time[known]), AROUND)
-        _check_way(time, place, time[known], np.concatenate([speed[:1], speed]), is_recorded=False, file=file)
-
-
-def _check_way(time: np.ndarray, place: np.ndarray, clock: np.ndarray, speed: np.ndarray, *, is_recorded: bool = True, file) -> None:
-    """InputError where the distance jumps from one value to the next as no drive at the speed goes, recorded or that of the distance around.
-
-    One that is held until the next is known, as that of a receiver in a faster table, changes at some samples only.
-    """
-    inside = (time >= clock[0]) & (time <= clock[-1])  # beyond, no speed is known
-    if np.count_nonzero(inside) < 2:
-        return
-    before, time, place = int(np.argmax(inside)), time[inside], place[inside]
-    driven = np.interp(time, clock, sampling.integral(speed, clock))
-    known = np.flatnonzero(np.concatenate([[True], np.diff(place) != 0.0]))
-    step, expected = np.diff(place[known]), np.diff(driven[known])
-    if np.ptp(driven) > JUMP and (moves := expected > 0.0).any():
-        expected = expected * np.median(step[moves] / expected[moves])  # v_x may be in another unit: alignment says so
-    bad = np.flatnonzero(np.abs(step - expected) > JUMP + FASTER * np.abs(expected))
-    if bad.size:
-        i = known[bad[0] + 1]
-        told, instead = ("v_x drives", ", or leave s out, which is then integrated from v_x") if is_recorded else ("it goes on by", "")
-        raise InputError(
-            f"sample {before + i + 1} ({time[i]:.6g} s) lies {step[bad[0]]:+.4g} m from the value before it, while {told} {expected[bad[0]]:.4g} m "
-            f"(expected within {JUMP:g} m of that; cut the record there{instead})",
-            file=file,
-            place="s",
         )
 
 
