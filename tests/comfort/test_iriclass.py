@@ -10,18 +10,6 @@ from ridecomfort.comfort import iri, iriclass
 from ridecomfort.errors import InputError
 
 
-def test_tracks_interpolate_across_the_road_and_name_holes():
-    u, v = np.arange(0, 50, 0.5), np.array([-1.0, 0.0, 1.0])
-    heights = 0.01 * u[:, None] + 0.1 * v
-    road = xr.Dataset({"elevation": (("u", "v"), heights)}, {"u": u, "v": v})
-    assert np.allclose(iriclass.tracks(road, (-0.75, 1.0)), 0.01 * u + [[-0.075], [0.1]])
-    with pytest.raises(InputError, match="outside the road"):
-        iriclass.tracks(road, (-2.0,))
-    heights[20, 0] = np.nan
-    with pytest.raises(InputError, match="u = 10 m"):
-        iriclass.tracks(road, (-0.5,))
-
-
 def study(runs: int = 40):
     rng = np.random.default_rng(3)
     u = np.arange(0, 400, 0.1)
@@ -31,12 +19,6 @@ def study(runs: int = 40):
     speed = (15.0 + 5 * rng.standard_normal((runs, 1)) + 0.01 * s).astype(np.float32)
     shard = xr.Dataset({"v_x": (("run", "s"), speed)}, {"run": np.arange(runs), "s": s})
     return road, shard
-
-
-@pytest.mark.parametrize("offset", [-0.75, 0.75])
-def test_a_track_on_the_first_or_last_line_of_a_road_needs_none_beside_it(offset):
-    road = xr.Dataset({"elevation": (("u", "v"), np.tile([1.0, np.nan, 2.0], (5, 1)))}, {"u": np.arange(5.0), "v": [-0.75, 0.0, 0.75]})
-    assert (iriclass.tracks(road, [offset]) == (1.0 if offset < 0 else 2.0)).all()
 
 
 def test_evaluate_counts_whole_windows_by_plain_loops():

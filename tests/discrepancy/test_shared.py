@@ -189,9 +189,9 @@ def test_how_surely_more_than_half_is_left_says_nothing_of_how_surely_anything_i
     noise = [0.3 * rng.standard_normal((2, 6000)) for _ in range(2)]
     first = {k: error + noise[k] for k in range(2)}
     left = lambda share: {k: np.sqrt(share) * error + noise[k] for k in range(2)}
-    assert shared.shared_error(frame, first).z > 9.0
-    assert abs(shared.left_z(frame, first, left(0.5), 0.5)) < 2.33
-    assert shared.left_z(frame, first, left(0.6), 0.5) > 2.33 and shared.left_z(frame, first, left(0.4), 0.5) < -2.33
+    before = shared_error(frame, first)
+    z = lambda share: shared_error(frame, left(share)).left_z(before, 0.5)
+    assert before.z > 9.0 and abs(z(0.5)) < 2.33 and z(0.6) > 2.33 and z(0.4) < -2.33
 
 
 def test_without_repeats_nothing_is_known_to_be_shared():

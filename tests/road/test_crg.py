@@ -8,9 +8,8 @@ import numpy as np
 import pycrg
 import pytest
 
-from ridecomfort.comfort import iriclass
 from ridecomfort.errors import InputError
-from ridecomfort.road import crg, surface
+from ridecomfort.road import crg, surface, wheeltracks
 
 from tests.road.crg_files import small
 
@@ -272,7 +271,7 @@ def test_smoothing_zones_are_those_of_asams_library_in_what_a_vehicle_drives_on_
         expected = asam.uv_to_z_many(road.u.values[:, None], road.v.values)
     assert float(expected[10, 2]) == pytest.approx(0.5, abs=0.01) and float(expected[150, 2]) == pytest.approx(5.0, abs=0.05)
     np.testing.assert_allclose(elevation, expected, atol=1e-9)
-    np.testing.assert_allclose(iriclass.tracks(road, [-1.0, 0.5]), [expected[:, 1], 0.5 * (expected[:, 2] + expected[:, 3])], atol=1e-9)
+    np.testing.assert_allclose(wheeltracks.tracks(road, [-1.0, 0.5]), [expected[:, 1], 0.5 * (expected[:, 2] + expected[:, 3])], atol=1e-9)
 
 
 def test_long_sections_at_uneven_positions_become_an_equidistant_grid(tmp_path):

@@ -7,8 +7,8 @@ import pytest
 import yaml
 
 from ridecomfort import store
-from ridecomfort.comfort import iri, iriclass
-from ridecomfort.road import crg
+from ridecomfort.comfort import iri
+from ridecomfort.road import crg, wheeltracks
 from ridecomfort.steps import standin_scan
 
 from .conftest import new_project
@@ -44,7 +44,7 @@ def test_a_scan_becomes_the_road_that_is_driven(scanned):
     )
     true = crg.read(scanned.folder / "road.crg")
     assert float(road.u[-1]) == pytest.approx(float(true.u[-1]) - 4.0, abs=0.5)
-    roughness = [iri.iri(iriclass.tracks(each.isel(u=slice(20, -20))), 0.1).mean() for each in (road, true)]
+    roughness = [iri.iri(wheeltracks.tracks(each.isel(u=slice(20, -20))), 0.1).mean() for each in (road, true)]
     assert roughness[0] == pytest.approx(roughness[1], rel=0.03)
     assert inspection.attrs["cells_filled"] + inspection.attrs["cells_repaired"] == int((before.treated > 0).sum()) > 0
     assert np.isfinite(inspection["unevenness"].sel(stage="repaired")).all()

@@ -10,12 +10,12 @@ from scipy import signal
 
 from .. import simulate
 from ..errors import InputError
-from ..road import clean, defects, roughness, smoothing
+from ..road import clean, defects, roughness, smoothing, wheeltracks
 from ..road.prepare import Prepared
 from ..vehicle import driver
 from ..vehicle.parameters import Vehicle
 from ..vocabulary import describe
-from . import iri, iriclass
+from . import iri
 
 STAGES = ("measured", "repaired", "smoothed")
 """Of a road on its way into the study; whether the study smooths it or not, all three are looked at."""
@@ -31,7 +31,7 @@ def inspect(
     speed: Mapping[str, float],
     step: float,
     rate: float,
-    tracks: Sequence[float] = iriclass.WHEEL_TRACKS,
+    tracks: Sequence[float] = wheeltracks.WHEEL_TRACKS,
     lateral: float = 0.0,
 ) -> xr.Dataset:
     """Roughness, IRI and defects of a road (`prepare.prepare` with smoothing), and a drive with and without smoothing.
@@ -68,7 +68,7 @@ def _roughness(road: xr.Dataset, tracks: Sequence[float]) -> xr.Dataset:
         )
     spacing = float(road.u[-1] - road.u[0]) / (road.sizes["u"] - 1)
     try:
-        values = iri.iri(iriclass.tracks(road, tracks), spacing)
+        values = iri.iri(wheeltracks.tracks(road, tracks), spacing)
     except InputError:
         values = np.full(len(tracks), np.nan)
     found["iri_track"] = ("track", values)

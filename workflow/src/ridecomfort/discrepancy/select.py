@@ -26,7 +26,7 @@ from .probe import Job, Raw
 from .refit import Fit
 from .rung import Rung, awake, begin, climb, final_fit
 from .selection import Round, Selection, State, Trial, removed
-from .shared import Shared, left_z, shared_error
+from .shared import Shared, shared_error
 from .tries import LEAST_MOVED, own_sizes
 
 EFFECTS = 6
@@ -247,5 +247,4 @@ class _Search:
         is faster than a driver the share that is gone and the z, too."""
         left, before = shared_error(self.rung.frame, last.residuals), shared_error(self.rung.frame, first.residuals)
         gone = lambda now, then: 1.0 - now / then if then > 0 else float("nan")
-        more = left_z(self.rung.frame, first.residuals, last.residuals, 1.0 - ENOUGH)
-        return left, gone(left.power, before.power), before.z, more, gone(left.faster, before.faster), before.faster_z
+        return left, gone(left.power, before.power), before.z, left.left_z(before, 1.0 - ENOUGH), gone(left.faster, before.faster), before.faster_z

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.signal.windows import tukey
@@ -76,6 +76,12 @@ class Shared:
     band: Band | None
     faster: float = float("nan")
     faster_z: float = float("nan")
+    by_block: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    """The power by parts of blocks."""
+
+    def left_z(self, first: Shared, share: float) -> float:
+        """How surely more than this share of what they shared at ``first`` is shared, as a z; nil where no drive was repeated."""
+        return _z(self.by_block - share * first.by_block)
 
     def __str__(self) -> str:
         return f"{100 * self.share:.0f} % of what is left, all frequencies weighing alike (z = {self.z:.1f}), most surely {self.band}"
@@ -87,7 +93,8 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     pairs = _white_pairs(frame, cleaned)
     if not pairs:
         return Shared(float("nan"), float("nan"), float("nan"), None)
-    total, z = _in_common(pairs)
+    by_block = _by_block(pairs)
+    total = float(by_block.sum())
     power = sum(np.sqrt(np.sum(one**2) * np.sum(other**2)) for _, one, other in pairs)
     faster = [(record, *(band(part, record.rate, (OF_DRIVER, np.inf)) for part in both)) for record, *both in pairs]
     # Equally loud all along the road: were rough places the same ones in all repeats, neighbouring frequencies would not be independent.
@@ -97,7 +104,7 @@ def shared_error(frame: Frame, residuals: Mapping[int, np.ndarray]) -> Shared:
     if surest.z > PLACED:
         places = _places(pairs, frame.experiment.channels.index(surest.signal), (surest.lower, surest.upper))
         surest = replace(surest, places=places)
-    return Shared(float(total / power), z, total, surest, *_in_common(faster))
+    return Shared(float(total / power), _z(by_block), total, surest, *_in_common(faster), by_block)
 
 
 def shared_power(frame: Frame, residuals: Mapping[int, np.ndarray]) -> tuple[float, float]:
@@ -108,13 +115,6 @@ def shared_power(frame: Frame, residuals: Mapping[int, np.ndarray]) -> tuple[flo
 def _white_pairs(frame: Frame, cleaned: Mapping[int, np.ndarray]) -> list[tuple[Record, np.ndarray, np.ndarray]]:
     """``_pairs`` of residuals less their nuisances, made white."""
     return list(_pairs(frame, {index: frame.whitening[index](part) for index, part in cleaned.items()}))
-
-
-def left_z(frame: Frame, first: Mapping[int, np.ndarray], last: Mapping[int, np.ndarray], share: float) -> float:
-    """How surely repeats share more than this share of what they did of the ``first`` residuals in the ``last``, as a z; nil where no drive was
-    repeated."""
-    was, now = (_by_block(_white_pairs(frame, frame.all_cleaned({index: part[index] for index in frame.indices}))) for part in (first, last))
-    return _z(now - share * was)
 
 
 def _in_common(pairs: Sequence[tuple[Record, np.ndarray, np.ndarray]]) -> tuple[float, float]:

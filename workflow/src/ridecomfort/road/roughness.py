@@ -9,7 +9,7 @@ import xarray as xr
 from scipy import signal
 
 from ..vocabulary import describe
-from . import edges, surface
+from . import wheeltracks
 
 REFERENCE_WAVENUMBER = 0.1
 """cycles/m at which the class of a road is read (ISO 8608, 5.1.2)."""
@@ -22,9 +22,6 @@ CLASS_B_UPPER = 128e-6
 (ISO 8608, annex C)."""
 
 CLASSES = "ABCDEFGH"
-
-TRACKS = (-0.75, 0.75)
-"""m to the left of the reference line: the wheel tracks of a passenger car."""
 
 SEGMENT = 200.0
 """m; length of the segments that spectra are averaged over. Resolves 0.005 cycles/m."""
@@ -108,31 +105,17 @@ def road_class(unevenness: float) -> str:
     return CLASSES[int(np.clip(steps, 0, len(CLASSES) - 1))]
 
 
-def analyse(road: xr.Dataset, *, tracks: Sequence[float] = TRACKS, segment: float = SEGMENT) -> xr.Dataset:
+def analyse(road: xr.Dataset, *, tracks: Sequence[float] = wheeltracks.WHEEL_TRACKS, segment: float = SEGMENT) -> xr.Dataset:
     """Spectra, class and coherence of the wheel tracks of a road.
 
     Returns a dataset with ``displacement_psd`` (v, wavenumber), ``smoothed_psd``
     (v, band), ``unevenness`` (v), ``waviness`` (v), ``class`` (v) and ``coherence``
-    (wavenumber) of the first and the last track. Raises ValueError where a track lies
-    beside the road or crosses a hole, or the road is too short.
+    (wavenumber) of the first and the last track. Raises InputError where a track
+    leaves the road or runs over a hole, ValueError where the road is too short.
     """
     u = road.u.values
     spacing = (u[-1] - u[0]) / (len(u) - 1)
-    tracks = np.asarray(tracks, dtype=float)
-    right, left = float(road.v[0]), float(road.v[-1])
-    inside = ~edges.outside(road.elevation.transpose("u", "v").values)
-    v = np.where(inside, road.v.values, np.nan)
-    ends = np.fmin.reduce(v, axis=1, initial=np.inf), np.fmax.reduce(v, axis=1, initial=-np.inf)
-    for track in tracks:
-        # Heights are held there: a spectrum of them would be that of another place.
-        if not right <= track <= left:
-            raise ValueError(f"wheel track at {track:g} m lies outside the road, {right:g} to {left:g} m")
-        beside = (track < ends[0]) | (track > ends[1])
-        if beside.any():
-            raise ValueError(f"wheel track at {track:g} m leaves the road at u = {u[beside.argmax()]:g} m")
-    profiles = surface.height(road, u, tracks[:, None], interpolation="linear")
-    if not np.isfinite(profiles).all():
-        raise ValueError("a wheel track crosses a hole")
+    profiles = wheeltracks.tracks(road, tracks)
     wavenumber, density = spectrum(profiles, spacing, segment=segment)
     centre, smoothed = smooth(wavenumber, density)
     unevenness, waviness = fit(centre, smoothed)
@@ -147,7 +130,7 @@ def analyse(road: xr.Dataset, *, tracks: Sequence[float] = TRACKS, segment: floa
                 "class": ("v", [road_class(value) for value in unevenness]),
                 "coherence": ("wavenumber", common[1:]),
             },
-            coords={"v": tracks, "wavenumber": wavenumber[1:], "band": centre},
+            coords={"v": np.asarray(tracks, dtype=float), "wavenumber": wavenumber[1:], "band": centre},
             attrs={"standard": "ISO 8608:2016", "segment": segment},
         )
     )

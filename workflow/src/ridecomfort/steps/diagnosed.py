@@ -11,9 +11,7 @@ def main(results, config, output, workers):
     written.tables(diagnosed.tables(diagnosis), output / "tables")
     written.figures(diagnosed.figures(diagnosis), output / "figures", int(workers))
     if not all(config["diagnosed"].values()):  # of real drives nothing hidden is known: a score that lies there is an earlier study's
-        for path in (output / "tables").glob("*.*"):
-            if path.name.split(".")[0] in catalogue.SCORE_TABLES:
-                path.unlink()
+        study_results.drop(output / "tables", lambda name: name in catalogue.SCORE_TABLES)
 
 
 if __name__ == "__main__":

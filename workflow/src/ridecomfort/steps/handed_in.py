@@ -29,7 +29,7 @@ def _at_centre_of_gravity(path, rate):
     drive = readers.read(path, rate=rate, gravity=False, measured=False)
     if not drive.attrs["place_measured"]:
         raise InputError("is missing (expected the distance along the reference line, which v_x does not tell)", file=path, place="s")
-    s = drive["s"].values.astype(np.float32)
+    s = drive["s"].values.astype(np.float32)  # as it is stored: what falls by less than its rounding stands
     back = np.flatnonzero(np.diff(s) < 0)
     if back.size:
         i = back[0]

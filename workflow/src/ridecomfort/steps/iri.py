@@ -3,13 +3,14 @@
 from ridecomfort import store
 from ridecomfort.comfort import iriclass
 from ridecomfort.errors import InputError
+from ridecomfort.road import wheeltracks
 from ridecomfort.steps.command import Command
 
 
 def main(shards, road, config, output):
     settings, surface = config["iri"], store.read(road, ["elevation"])
     try:
-        iriclass.tracks(surface, settings["wheel_tracks"])
+        wheeltracks.tracks(surface, settings["wheel_tracks"])
     except InputError as problem:
         raise InputError(f"{problem} (comfort: iri: wheel_tracks in config/study.yaml)", file=road) from None
     found = iriclass.evaluate(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -108,8 +108,13 @@ def _told_before(results: Path, switched_on: Sequence[str], verdict: Mapping) ->
 
 def drop_others(folder: Path, sites: dict) -> None:
     """Delete the tables or figures that an earlier study of other sites left in the folder."""
+    drop(folder, lambda name: of_another_study(name, sites))
+
+
+def drop(folder: Path, is_old: Callable[[str], bool]) -> None:
+    """Delete the tables or figures of a folder whose names are those of an earlier study."""
     for path in folder.glob("*.*"):
-        if of_another_study(path.name.split(".")[0], sites):
+        if is_old(path.name.split(".")[0]):
             path.unlink()
 
 

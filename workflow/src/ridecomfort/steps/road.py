@@ -3,9 +3,9 @@
 import sys
 
 from ridecomfort import store
-from ridecomfort.comfort import iri, iriclass
+from ridecomfort.comfort import iri
 from ridecomfort.errors import InputError
-from ridecomfort.road import prepare
+from ridecomfort.road import prepare, wheeltracks
 from ridecomfort.steps.command import Command
 
 
@@ -25,12 +25,12 @@ def _smoothed(prepared) -> str:
     """What smoothing did to the IRI of the usual wheel tracks; nothing where one of them is not on the road."""
     states = prepared.repaired, prepared.smoothed
     try:
-        profiles = [iriclass.tracks(state) for state in states]
+        profiles = [wheeltracks.tracks(state) for state in states]
     except InputError:
         return ""
     spacing = float(prepared.used.u[1] - prepared.used.u[0])
     before, after = (iri.iri(each, spacing).mean() for each in profiles)
-    places = " and ".join(f"{track:g}" for track in iriclass.WHEEL_TRACKS)
+    places = " and ".join(f"{track:g}" for track in wheeltracks.WHEEL_TRACKS)
     return f"smoothing took the IRI of the wheel tracks at {places} m from {before:.3f} to {after:.3f} m/km"
 
 
