@@ -285,3 +285,13 @@ def _of_rounds(one, ranking, rounds):
     others = ranking.drop_dims("effect").isel(round=[0])
     both = xr.merge([one, others])
     return both.isel(round=[0] * rounds).assign_coords(round=np.arange(1, rounds + 1))
+
+
+def test_a_round_in_which_nothing_was_refitted_says_so_and_has_no_axis_without_a_mark():
+    ranking = made_up.ranking()
+    ranking["passed_over"] = ranking["passed_over"].where(ranking["round"] < 2, "")
+    drawn = evidence.evidence(replace(made_up.diagnosis(), ranking=ranking))
+    first, last = drawn.axes[1], drawn.axes[3]
+    assert [text.get_text() for text in last.texts if text.get_text()] == [evidence.NONE_REFITTED]
+    assert not last.lines and not last.get_xlabel() and first.get_xlabel() == "error removed [%]"
+    assert evidence.NONE_REFITTED not in [text.get_text() for text in first.texts]

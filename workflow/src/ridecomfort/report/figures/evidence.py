@@ -19,6 +19,9 @@ from ..study import Diagnosis
 from ..table import MISSING
 from ..tables.diagnosis import NO_FORMS, STRONGEST, outcomes, refits
 
+NONE_REFITTED = "none was refitted"
+"""What stands in place of refits in a round without."""
+
 LEAST = 1.0
 """Percent to both sides of zero that shares are drawn over at least: what removes nothing must look like nothing."""
 
@@ -94,7 +97,8 @@ def _drawn(ranking: xr.Dataset, none: str) -> Figure:
             axes.tick_params(axis="y", length=0)
     panels[0][1].set_title("refits: fitted / held out" if is_checked else "refits: on fitted drives")
     panels[-1][0].set_xlabel("gain of 2 ln L, square-root scale [-]")
-    panels[-1][1].set_xlabel("error removed [%]")
+    refitted = [right for _, right in panels if right.xaxis.get_tick_params()["labelbottom"]]
+    (refitted or [panels[-1][1]])[-1].set_xlabel("error removed [%]")
     handles = [
         Patch(color=ACCEPTED, label="accepted into the next round"),
         Patch(color=SIGNIFICANT, label=f"significant over all (p ≤ {LEVEL:g})"),
@@ -144,6 +148,12 @@ def _refits(axes: Axes, one: xr.Dataset, names: Sequence[str], is_checked: bool)
         came[name] = f"{said} %  {came[name]}" if np.isfinite(told).any() else came[name]
     for place, name in enumerate(names):
         axes.text(1.06, place, came[name], transform=axes.get_yaxis_transform(), va="center", fontsize=6)
+    if not axes.lines:
+        said = "" if any(came[name] for name in names) else NONE_REFITTED
+        axes.text(0.5, 0.5, said, transform=axes.transAxes, ha="center", va="center", fontsize=6)
+        axes.tick_params(axis="x", bottom=False, labelbottom=False)
+        axes.spines[:].set_visible(False)
+        return
     axes.set_xlim(min(axes.get_xlim()[0], -LEAST), max(axes.get_xlim()[1], LEAST))
     axes.axvline(0.0, color=style.FLOOR, linewidth=0.7)
 
