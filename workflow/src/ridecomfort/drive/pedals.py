@@ -97,7 +97,7 @@ def missing_speed(again, simulated, by_speed: np.ndarray, band: tuple[float, flo
     says (``by_speed``), within it as the accelerometer does."""
     rate = rate_of(again.time)
     gained = np.cumsum(missing_acceleration(again, simulated)) / rate
-    return driven(smooth(by_speed, rate, band[0]) + _faster(gained, rate, band[0]), rate, band)
+    return driven(gained + smooth(by_speed - gained, rate, band[0]), rate, band)
 
 
 def driven(missing: np.ndarray, rate: float, band: tuple[float, float]) -> np.ndarray:
@@ -114,14 +114,14 @@ def missing_acceleration(again, simulated) -> np.ndarray:
     rate = rate_of(again.time)
     fading = _fading(again.compared, rate)
     difference = (again.measured() - simulated.signals) * fading
-    roll_rate, pitch_rate, yaw_rate = (difference[SIGNALS.index(name)] for name in ("roll_rate", "pitch_rate", "yaw_rate"))
+    rates = difference[[SIGNALS.index(name) for name in ("roll_rate", "pitch_rate", "yaw_rate")]]
     along = difference[SIGNALS.index("a_x")]
     if again.drive.attrs.get("gravity", 0):
-        turned = [_faster(np.cumsum(part) / rate, rate, LEAST) for part in (roll_rate, pitch_rate)]
+        turned = _faster(np.cumsum(rates[:2], axis=-1) / rate, rate, LEAST)
         true = upward(simulated.roll + turned[0], simulated.pitch + turned[1])
         along = along + STANDARD_GRAVITY * (again.up[0] - true[0]) * fading
     _, left, above = again.demand["sensor"]
-    return along - above * np.gradient(pitch_rate, 1.0 / rate) + left * np.gradient(yaw_rate, 1.0 / rate)
+    return along - above * np.gradient(rates[1], 1.0 / rate) + left * np.gradient(rates[2], 1.0 / rate)
 
 
 def band(again, simulated) -> tuple[float, float] | None:

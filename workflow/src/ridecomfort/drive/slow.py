@@ -18,8 +18,8 @@ SPEED_WINDOW, SPEED_NOISE = 10.0, (2.0, 0.1)
 
 
 def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH, order: int = 2) -> np.ndarray:
-    """Low-passed without delay (Butterworth, forwards and backwards)."""
-    return sosfiltfilt(_low_pass(bandwidth, rate, order), values, padlen=min(len(values) - 1, int(3 * rate / bandwidth)))
+    """Low-passed along the last axis without delay (Butterworth, forwards and backwards)."""
+    return sosfiltfilt(_low_pass(bandwidth, rate, order), values, padlen=min(np.shape(values)[-1] - 1, int(3 * rate / bandwidth)))
 
 
 @lru_cache(maxsize=256)  # asked for after every simulated drive
