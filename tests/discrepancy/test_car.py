@@ -11,7 +11,7 @@ import xarray as xr
 from ridecomfort import simulate
 from ridecomfort.calibrated import with_values
 from ridecomfort.discrepancy import experiment as exp
-from ridecomfort.discrepancy import nuisances, opening, probe
+from ridecomfort.discrepancy import floor, nuisances, opening, probe
 from ridecomfort.drive.replay import ASTRAY, CLOSE, slowly
 from ridecomfort.drive.sampling import rate_of
 from ridecomfort.drive.slow import smooth
@@ -87,6 +87,15 @@ def test_drives_on_other_stretches_are_no_repeats_of_one_another(made):
     assert len({record.condition for record in cars.records}) == 2
     whole = opening.car([opening.Site("trial", road, [drive, drive])], made.vehicle, library_names=["crosswind"])
     assert len({record.condition for record in whole.records}) == 1
+
+
+@pytest.mark.parametrize("fitted, held_out", [(1, 2), (2, 1)])
+def test_repeats_on_another_site_are_kept_where_they_alone_tell_the_floor(made, fitted, held_out):
+    drive, road = made.replays[0].drive, made.replays[0].road
+    sites = [opening.Site("one", road, [drive] * fitted), opening.Site("other", road, [drive, drive])]
+    car = opening.car(sites, made.vehicle, library_names=["crosswind"])
+    assert [record.role for record in car.records] == ["fit"] * fitted + ["check"] * held_out
+    assert [len(own) for own in floor.repeats(car, range(len(car.records))).values()] == [2]
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ def rank(
     """Rank the effects that the model may lack, and judge what the evidence carries.
 
     ``measured``: mapping of site to (road, aligned drives); drives of role "fit" on the sites ``fitted_on`` (by
-    default the first) are fitted, the others of those sites and one of each speed of other sites decide. ``calibration`` and
+    default the first) are fitted, all others decide (``opening.car``). ``calibration`` and
     ``effects`` are those of the model; ``uncertain``: share by which parameters that are not calibrated may be wrong
     (default ``opening.UNCERTAIN``). ``among`` narrows the library to these names. ``most``: effects to look for. ``workers``: processes, by
     default one for each core. ``noise_density``: of instruments by site and drive, the floor where no drive

@@ -90,8 +90,8 @@ def car(
 ) -> Car:
     """The experiment of these drives. ``vehicle`` and ``effects`` are the calibrated ones.
 
-    Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, the others of those sites and, of drives that
-    repeat one another, one on the other sites are held out. One of less than SHORTEST is set aside.
+    Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, all others held out: where those sites tell the floor by
+    drives that repeat one another, one of such on the other sites. One of less than SHORTEST is set aside.
     ``bounds``: of the parameters that are calibrated (default tab:constraints). ``uncertain``: share by which further
     parameters of the vehicle may be wrong (default UNCERTAIN). ``noise_density``: of the instruments by site and drive, as for
     ``explain.explain``. ``library_names``: the effects to look
@@ -100,8 +100,8 @@ def car(
     """
     effects = {name: dict(sizes or {}) for name, sizes in (effects or {}).items()}
     fitted_on = list(fitted_on) if fitted_on else [sites[0].name]
-    sites = [site if site.name in fitted_on else replace(site, drives=_not_repeated(site.drives)) for site in sites]
-
+    if any(len(_not_repeated(site.drives)) < len(site.drives) for site in sites if site.name in fitted_on):
+        sites = [site if site.name in fitted_on else replace(site, drives=_not_repeated(site.drives)) for site in sites]
     options = {"effects_folder": effects_folder, **(options or {})}
 
     def tuned(job: tuple[Site, xr.Dataset]) -> Replay:
