@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import onemass, select
+from ridecomfort.discrepancy import floor, onemass, select
 
 RATE = 1e7 / 2**14
 STARTS = (40587, 49279, 57972, 66664, 75354, 84046, 92739, 101430, 110123, 118814)
@@ -20,6 +20,21 @@ def silverbox(shared):
     volts = volts - volts[127600:128300].mean(axis=0)
     cuts = [slice(start, start + LENGTH) for start in STARTS] + [ARROW]
     return [volts[cut, 0] for cut in cuts], [volts[cut, 1] for cut in cuts]
+
+
+def multisine(random) -> np.ndarray:
+    """From 1 to 200 Hz, 20 mV rms."""
+    frequency = np.fft.rfftfreq(LENGTH // 2, 1.0 / RATE)
+    phases = np.exp(2j * np.pi * random.random(frequency.size))
+    series = np.fft.irfft(((frequency > 1.0) & (frequency < 200.0)) * phases, LENGTH // 2)
+    return 0.02 * series / series.std()
+
+
+def test_records_repeat_one_another_where_their_inputs_are_the_same():
+    random = np.random.default_rng(0)
+    one, other = multisine(random), multisine(random)
+    mass = onemass.OneMass([one, other, one], [one, other, one], RATE, ["fit", "fit", "check"], ["a", "b", "a again"], (1.0, 250.0))
+    assert floor.repeats(mass, range(3)) == {"a": [0, 2]}
 
 
 def test_the_cubic_spring_of_the_silverbox_is_named(silverbox):

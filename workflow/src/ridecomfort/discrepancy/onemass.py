@@ -81,9 +81,11 @@ class OneMass:
     candidates: Sequence[Candidate] = field(init=False)
 
     def __post_init__(self):
+        # Records repeat one another where their inputs are the same.
+        first = lambda own: next(name for name, other in zip(self.names, self.inputs) if np.array_equal(other, own))
         self.records = [
-            Record(name, role, name, role, self.rate, self.band, np.arange(len(output)) / self.rate, BLOCK)
-            for name, role, output in zip(self.names, self.roles, self.outputs)
+            Record(name, role, name, first(own), self.rate, self.band, np.arange(len(output)) / self.rate, BLOCK)
+            for name, role, own, output in zip(self.names, self.roles, self.inputs, self.outputs)
         ]
         self._forces = [_fine(values) for values in self.inputs]
         start = self._linear()
