@@ -113,6 +113,28 @@ def test_false_alarms_over_many_slow_columns_are_as_rare_as_promised_at_small_le
         assert np.sum(found <= level) <= binom.ppf(0.999, trials, level)
 
 
+def test_false_alarms_are_as_rare_where_drives_differ_in_length():
+    """The flanks of a chance peak count on either side of the place, in every drive's own circle."""
+    rng, trials, counts = np.random.default_rng(9), 600, (1000, SAMPLES, SAMPLES)
+    slow = lambda: gaussian_filter1d(np.stack([a_column(rng, (400,)) for _ in range(40)]), 4.0, axis=-1)
+    part = lambda columns: [columns[..., :count] for count in counts]
+    found = np.array([p_of([rng.standard_normal((CHANNELS, count)) for count in counts], part(slow())).min() for _ in range(trials)])
+    for level in (0.05, 0.005):
+        assert np.sum(found <= level) <= binom.ppf(0.999, trials, level)
+
+
+def test_a_record_moves_both_ways_in_its_own_circle():
+    rng = np.random.default_rng(10)
+    residuals = [rng.standard_normal((CHANNELS, count)) for count in (SAMPLES, SAMPLES + 30)]
+    columns = [np.pad(a_column(rng), ((0, 0), (0, part.shape[1] - SAMPLES)))[None] for part in residuals]
+    marks = [np.any(rows != 0, axis=1) for rows in columns]
+    like = event.likeness(residuals, columns, marks, np.zeros(1))[0]
+    product = sum(np.sum(np.roll(rows[0], -5, axis=1) * own) for rows, own in zip(columns, residuals))
+    power = sum(np.sum(rows**2) for rows in columns)
+    within = sum(np.sum(own[:, np.roll(inside[0], -5)] ** 2) for own, inside in zip(residuals, marks))
+    assert like.size == SAMPLES and like[-5] == pytest.approx(product**2 / (power * within))
+
+
 def test_what_is_missing_stands_out_beside_another_that_does_the_same_a_moment_later():
     """As the stops of both axles do."""
     rng = np.random.default_rng(8)

@@ -81,16 +81,17 @@ def likeness(
     """Share of the error within its window that each column explains when it is moved along the records, (column, shift).
 
     ``residual`` holds (channel, sample) of every record, ``columns`` (column, channel, sample), ``marks`` the
-    samples (column, sample) where the columns have their power. Columns move round in a circle, by
-    as many samples in all records, as far as the shortest one is long. Where only positive amounts are
+    samples (column, sample) where the columns have their power. Columns move round in a circle, each record in its own, by
+    as many samples in all records, forwards and (the last half) backwards, as far as the shortest one is long. Where only positive amounts are
     physical (``sign`` 1) others explain nothing.
     """
     shifts = min(part.shape[-1] for part in residual)
+    both_ways = np.r_[: (shifts + 1) // 2, -(shifts // 2) : 0]
     product, within, power = 0.0, 0.0, 0.0
     for own, rows, inside in zip(residual, columns, marks):
         marked = rows * inside[:, None, :]
-        product = product + _moved(marked, own)[:, :shifts]
-        within = within + _moved(inside[:, None, :].astype(float), np.sum(own**2, axis=0)[None])[:, :shifts]
+        product = product + _moved(marked, own)[:, both_ways]
+        within = within + _moved(inside[:, None, :].astype(float), np.sum(own**2, axis=0)[None])[:, both_ways]
         power = power + np.sum(marked**2, axis=(1, 2))
     product = np.where((sign[:, None] > 0) & (product > 0), 0.0, product)
     return product**2 / np.maximum(power[:, None] * within, 1e-300)
