@@ -92,8 +92,8 @@ def off_file(selection: Selection, told: Collection[str] = ()) -> OffFile | None
     measured = {index: frame.experiment.measured(index) for index in frame.indices}
     with_file, with_own = (floor.squares(frame.experiment, frame.all_cleaned(those)) for those in (residuals, fit.residuals))
     more, known = (with_file - with_own).mean(axis=0), selection.floor_squares.mean(axis=0)
-    left = more / floor.squares(frame.experiment, measured).mean(axis=0)
-    of_floor = np.divide(more, known, out=np.zeros_like(more), where=known > 0)
+    share_of = lambda whole: np.divide(more, whole, out=np.zeros_like(more), where=whole > 0)
+    left, of_floor = share_of(floor.squares(frame.experiment, measured).mean(axis=0)), share_of(known)
     if not (np.max(left) >= LEAST_LEFT or np.max(of_floor) >= LEAST_OF_FLOOR):
         return None
     channels = frame.experiment.channels
