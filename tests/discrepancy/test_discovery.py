@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import select
+from ridecomfort.discrepancy.balance import total_shares
 from ridecomfort.discrepancy.car import LONGEST
 from ridecomfort.discrepancy.discovery import Discovery, heard_as, may_follow, proposed, terms_of
 from ridecomfort.discrepancy.experiment import Candidate
@@ -406,6 +407,26 @@ def test_a_term_that_only_stood_in_for_others_is_not_in_the_form_and_yet_counts_
     turn = selection.rounds[selection.accepted.index("strut:deflection_cube")]
     assert one.p_value == turn.p_value[turn.names.index("strut:deflection_cube")]
     assert proposed(replace(selection, needless=frozenset(selection.accepted)), "found", ()).place == ""
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_form_has_the_share_of_an_effect_of_the_library_that_stood_in_for_it(seed):
+    """The effect does nearly what two terms, which are missing, do together: it comes first, takes most, and is left out in the end."""
+    model = Linear(seed, {"effect_1.size": 2.0, "effect_2.size": 2.0})
+    for columns in model.columns[2:]:  # those of all repeats are one
+        columns["effect_0.size"] = columns["effect_0.size"] + columns["effect_1.size"] + columns["effect_2.size"]
+    terms = {"effect_1": "velocity_size", "effect_2": "deflection_cube"}
+    keys = {f"{name}.size": f"unknown_strut_{term}.{term}_front" for name, term in terms.items()}
+    model.truth = {keys[key]: value for key, value in model.truth.items()}
+    model.columns = [{keys.get(name, name): column for name, column in own.items()} for own in model.columns]
+    of_library, *own = model.candidates[:3]
+    own = (replace(one, name=f"strut:{terms[one.name]}", sizes=(replace(one.sizes[0], key=keys[one.sizes[0].key]),)) for one in own)
+    model.candidates = (of_library, *own)
+    selection = select.select(model, {"stiffness": 0.0}, most=3)
+    assert selection.accepted[0] == "effect_0" and selection.needless == {"effect_0"} and len(selection.kept) == 2
+    found = proposed(selection, "found", (of_library,))
+    assert found.names_beside() == [] and (found.share, found.held_out_share) == pytest.approx(total_shares(selection))
+    assert min(found.share, found.held_out_share) > 0.9
 
 
 @pytest.mark.parametrize(("port", "names"), [("suspension", []), ("aero", ["effect_4"])])

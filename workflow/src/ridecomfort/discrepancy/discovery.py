@@ -33,7 +33,7 @@ from .probe import Job, Raw
 from .ranking import dataset
 from .rung import Rung, begin
 from .select import search
-from .selection import Selection, shares
+from .selection import Selection, shares_of
 from .terms import DAMPING_RATIO, FIRM, LINEAR, ORDER, PERIOD, TURNING, Term
 from .turns import Line
 from .verdict import Named, plain
@@ -179,8 +179,7 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     by_place = {
         place: max((gain for own, gain in zip(first.names, first.gain) if _place(own) == place), default=0.0) for place in PLACES
     }
-    ours = [name for name in selection.accepted if _is_term(name)]
-    needed = [name for name in ours if name not in selection.needless]
+    needed = [name for name in selection.kept if _is_term(name)]
     if not needed:
         return Discovery(name, "", "", {}, {}, "", float("nan"), float("nan"), 1.0, "", by_place, selection)
     place, terms, shaped = _place(needed[0]), {}, {}
@@ -191,8 +190,8 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
         own = {setting.name: setting.typical for setting in settings(place, term)}
         shaped[term] = {name: selection.final.values.get(_key(place, term, name), typical) for name, typical in own.items()}
     form = in_words(place, terms, shaped)
-    effects = _beside(selection, known, PLACES[place].port, ours)
-    share, held_out = np.add(_removed(selection, ours), _removed(selection, [effect.name for effect in effects])).tolist()
+    effects = _beside(selection, known, PLACES[place].port, needed)
+    share, held_out = np.add(_removed(selection, needed), _removed(selection, [effect.name for effect in effects])).tolist()
     turn = selection.rounds[selection.accepted.index(needed[0])]
     p_value = float(turn.p_value[turn.names.index(needed[0])])
     sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {told(place, terms)}."
@@ -225,8 +224,7 @@ def _beside(selection: Selection, known: Sequence[Candidate], port: str, terms: 
 
 def _removed(selection: Selection, names: Sequence[str]) -> tuple[float, float]:
     """Share of the explainable error that went when these were accepted, on fitted and on held-out drives (nan without)."""
-    own = [shares(selection, *selection.states[k : k + 2]) for k, name in enumerate(selection.accepted) if name in names]
-    fitted, held_out = np.sum(own, axis=0) if own else (0.0, 0.0)
+    fitted, held_out = np.sum([shares_of(selection, name) for name in names], axis=0) if names else (0.0, 0.0)
     return float(fitted), float(held_out)
 
 

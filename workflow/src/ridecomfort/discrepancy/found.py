@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from .allowance import Allowance
 from .experiment import Candidate, Size
-from .selection import Round, Selection, shares
+from .selection import Round, Selection, shares_of
 from .tries import LEAST_MOVED
 from .verdict import Named
 
@@ -34,11 +34,10 @@ def _named(selection: Selection, number: int, by_name: Mapping[str, Candidate]) 
         for size in by_name[winner.name].shaping
         if size.key not in selection.intervals
     ]
-    before, after = selection.states[number : number + 2]
     like = tuple(name for name in turn.cluster if name in by_name)
     return Named(
         winner.name, tuple(sizes), by_name[winner.name].sentence, float(turn.p_value[place]),
-        *shares(selection, before, after), float(turn.absorbed[place]), like, turn.differ_on, by_name[winner.name].instrument, tuple(held),
+        *shares_of(selection, winner.name), float(turn.absorbed[place]), like, turn.differ_on, by_name[winner.name].instrument, tuple(held),
         _is_open(selection, by_name[winner.name]),
     )  # fmt: skip
 

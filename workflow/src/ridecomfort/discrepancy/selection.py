@@ -131,6 +131,11 @@ class Selection:
     """Whether any drive was repeated, fitted or held out; ``has_repeats``: whether a fitted one was by another, so that it is known what
     repeats share."""
 
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """Names of the accepted effects that the last fit does not do without, in the order in which they were found."""
+        return tuple(name for name in self.accepted if name not in self.needless)
+
     def told(self, key: str) -> tuple[float, float]:
         """The interval of a size with what it has to allow for."""
         return self.allowed.get(key, Allowance()).widened(self.intervals[key])
@@ -142,6 +147,18 @@ def shares(selection: Selection, before: State, after: State, *others: Selection
     given = selection, *others
     floors = (np.minimum.reduce([getattr(one, name) for one in given]) for name in ("floor_squares", "held_out_floor_squares"))
     return removed(selection.states[0], before, after, *floors)
+
+
+def shares_of(selection: Selection, name: str) -> tuple[float, float]:
+    """Share of the explainable error that went when an effect was accepted, on fitted and on held-out drives (nan without). What went with needless
+    ones right before it counts as its own, as of any that come after the last: those of all that are kept add up to what the last model removes."""
+    before = selection.accepted.index(name)
+    after = before + 1
+    if name in selection.kept:
+        after = len(selection.accepted) if name == selection.kept[-1] else after
+        while before and selection.accepted[before - 1] in selection.needless:
+            before -= 1
+    return shares(selection, selection.states[before], selection.states[after])
 
 
 def removed(

@@ -50,7 +50,7 @@ class Named:
     """An effect that was found: its sizes with units and 90 % intervals, and the evidence for it.
 
     ``share`` of the explainable error that it removed when it was added, on fitted and on held-out drives (nan
-    without); ``absorbed``: share of its response that calibration had taken up; ``like``: what it cannot be told from,
+    without; ``selection.shares_of``); ``absorbed``: share of its response that calibration had taken up; ``like``: what it cannot be told from,
     ``differ_on``: the drive on which each of those differs most from it.
     """
 
