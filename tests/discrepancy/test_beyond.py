@@ -131,9 +131,9 @@ def test_a_spring_that_ends_at_a_bound_is_told_where_fitted_drives_tell_it(value
 def test_a_wrong_file_is_told_of_which_fewer_effects_leave_half_and_beside_those_that_leave_no_less(monkeypatch, alone, kept, whole, told_as):
     """Two effects remove 95 %. Parameters, put right, remove ``alone``, and with the ``kept`` effects ``whole``: beside one that does nearly
     all, a wrong damper is but some percent, most of which a knee of the dampers takes; which of the two it is, drives leave open."""
-    before = SimpleNamespace(accepted=("roll_centre_height", "damper_knee"), states=(0.0, 0.75, 0.95), frame=SimpleNamespace(experiment=None))
+    before = SimpleNamespace(kept=("roll_centre_height", "damper_knee"), states=(0.0, 0.75, 0.95), frame=SimpleNamespace(experiment=None))
     after = SimpleNamespace(
-        accepted=before.accepted[:kept], states=(alone, whole), frame=before.frame, final=SimpleNamespace(values={}), intervals={}
+        kept=before.kept[:kept], states=(alone, whole), frame=before.frame, final=SimpleNamespace(values={}), intervals={}
     )
     damping = beyond.Beyond("damping_rear", "N s/m", 2230.0, (1895.5, 2564.5), (631.8, 7693.5), 1193.0, (1182.0, 1204.0))
     monkeypatch.setattr(beyond, "shares", lambda selection, first, last, *others: (last - first, last - first))
@@ -159,9 +159,9 @@ def test_parameters_that_do_alone_as_much_by_no_more_numbers_are_not_told_from_a
     stiff, beyond what is published. What is accepted after that, and is little, changes nothing."""
     loss = SimpleNamespace(name="tyre_pressure_loss", sizes=(None,) * sizes)
     frame = SimpleNamespace(experiment=SimpleNamespace(candidates=(loss,)))
-    before = SimpleNamespace(accepted=(loss.name,), states=((0.0, 0.0), (0.694, 0.576)), frame=frame)
+    before = SimpleNamespace(kept=(loss.name,), states=((0.0, 0.0), (0.694, 0.576)), frame=frame)
     after = SimpleNamespace(
-        accepted=("damper_asymmetry",), states=((alone, held_out), (alone, held_out)), frame=frame, final=SimpleNamespace(values={}), intervals={}
+        kept=("damper_asymmetry",), states=((alone, held_out), (alone, held_out)), frame=frame, final=SimpleNamespace(values={}), intervals={}
     )
     stiffness = beyond.Beyond("tyre_radial_stiffness", "N/m", 320000.0, (250000.0, 400000.0), (83333.0, 1.2e6), 142000.0, (138000.0, 146000.0))
     monkeypatch.setattr(beyond, "shares", lambda selection, first, last, *others: tuple(np.subtract(last, first)))
@@ -182,10 +182,19 @@ def test_parameters_that_do_alone_as_much_by_no_more_numbers_are_not_told_from_a
 
 def test_other_effects_are_no_other_explanation(monkeypatch):
     """They would be another search's verdict; what is told is that parameters do as much as the effects that are dropped."""
-    before = SimpleNamespace(accepted=("roll_centre_height", "damper_knee"), states=(0.0, 0.95), frame=SimpleNamespace(experiment=None))
-    after = SimpleNamespace(accepted=("crosswind",), states=(-0.1, 0.95))
+    before = SimpleNamespace(kept=("roll_centre_height", "damper_knee"), states=(0.0, 0.95), frame=SimpleNamespace(experiment=None))
+    after = SimpleNamespace(kept=("crosswind",), states=(-0.1, 0.95))
     monkeypatch.setattr(beyond, "shares", lambda selection, first, last, *others: (last - first, last - first))
     assert beyond.searched(before, after) is None
+
+
+def test_the_same_effects_without_one_that_the_last_fit_does_without_are_no_fewer(monkeypatch):
+    names = ("tyre_pressure_loss", "roll_centre_height", "damper_knee")
+    frame = SimpleNamespace(experiment=SimpleNamespace(candidates=[SimpleNamespace(name=name, sizes=(None,) * 2) for name in names]))
+    before = SimpleNamespace(accepted=names, kept=names[1:], states=(0.0, 0.95), frame=frame)
+    after = SimpleNamespace(accepted=names[1:], kept=names[1:], states=(-0.1, 0.99), frame=frame)
+    monkeypatch.setattr(beyond, "shares", lambda selection, first, last, *others: (last - first, last - first))
+    assert beyond.searched(before, after) is None and beyond._numbers(before) == 4
 
 
 def test_what_lies_beyond_but_not_surely_is_told_apart_if_it_does_as_much():

@@ -37,6 +37,8 @@ def test_an_effect_that_stood_in_for_two_others_is_not_named_beside_them_and_doe
     np.testing.assert_allclose(widths, [np.ptp(without.intervals[f"effect_{k}.size"]) for k in (1, 2)], rtol=0.1)
     assert {effect.name for effect in found.effects} == {"effect_1", "effect_2"}
     assert "effect_0 helped when it was found, but what was found with it does as well without it" in found.reasons
+    by = ", ".join(selection.kept)
+    assert any(reason.endswith(f"of the explainable error is removed on the fitted drives, by {by}") for reason in found.reasons)
     shares = [sum(getattr(effect, key) for effect in found.effects) for key in ("share", "held_out_share")]
     assert shares == pytest.approx([found.share, found.held_out_share]) and min(shares) > 0.9
 

@@ -26,14 +26,14 @@ def is_all_but_nil(remainder: Mapping[str, float]) -> bool:
 
 
 def with_remainder(
-    verdict: Verdict, remainder: Mapping[str, float], at_first: Mapping[str, float], accepted: Sequence[str] = ()
+    verdict: Verdict, remainder: Mapping[str, float], at_first: Mapping[str, float], kept: Sequence[str] = ()
 ) -> Verdict:
-    """A verdict that says what share of the power of each signal is left by the effects that were ``accepted``, and was ``at_first``, before
-    anything was found."""
+    """A verdict that says what share of the power of each signal is left by the effects that were ``kept``, those of the last model, and was
+    ``at_first``, before anything was found."""
     largest = sorted(remainder, key=lambda name: -remainder[name])[:TOLD]
     told = [f"{100 * remainder[name]:.1f} % of the power of {name}" for name in largest if remainder[name] >= LEAST_TOLD]
     left = " and ".join([", ".join(told[:-1]), told[-1]]) if len(told) > 1 else "".join(told)
-    names = ", ".join(accepted)
+    names = ", ".join(kept)
     words = f"left above the floor{f' with {names}' if names else ''}: {left}" if told else f"less than {100 * LEAST_TOLD:g} % of the power of any signal is left above the floor"
     reasons = verdict.reasons if verdict.verdict == "suspect" else (*verdict.reasons, words)
     return replace(verdict, reasons=reasons, remainder=dict(remainder), at_first=dict(at_first))

@@ -221,7 +221,7 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     effects = shares(before, before.states[0], before.states[-1], after)
     whole = shares(before, before.states[0], after.states[-1], after)
     leaves = lambda ours, most: not any(1.0 - own > most * (1.0 - theirs) for own, theirs in zip(ours, effects))
-    is_fewer = len(after.accepted) < len(before.accepted)
+    is_fewer = len(after.kept) < len(before.kept)
     is_better = _is_enough(alone) and (_is_enough(gained) or leaves(alone, LEFT)) or is_fewer and leaves(whole, CLOSER)
     found = lambda gone, **kind: _beyond(before.frame.experiment, after.frame.experiment, after.final, after.intervals, *gone, **kind)  # noqa: E731
     if is_better:
@@ -230,15 +230,15 @@ def searched(before: Selection, after: Selection) -> BeyondBounds | None:
     another = found(alone) if _is_enough(alone) and no_less(alone) else None
     if another is not None and len(another.names()) <= _numbers(before):
         return replace(another, is_instead=True, is_as_good=True)
-    is_part = bool(after.accepted) and set(after.accepted) < set(before.accepted)
+    is_part = bool(after.kept) and set(after.kept) < set(before.kept)
     as_good = found(whole) if is_part and no_less(whole) else None
-    return replace(as_good, is_instead=True, is_as_good=True, effects=after.accepted) if as_good is not None else None
+    return replace(as_good, is_instead=True, is_as_good=True, effects=after.kept) if as_good is not None else None
 
 
 def _numbers(selection: Selection) -> int:
-    """How many sizes the accepted effects of a selection have."""
-    accepted = (candidate for candidate in selection.frame.experiment.candidates if candidate.name in selection.accepted)
-    return sum(len(candidate.sizes) for candidate in accepted)
+    """How many sizes the effects of the last model of a selection have."""
+    kept = (candidate for candidate in selection.frame.experiment.candidates if candidate.name in selection.kept)
+    return sum(len(candidate.sizes) for candidate in kept)
 
 
 def still_beyond(before: Selection, after: Selection) -> BeyondBounds | None:

@@ -62,7 +62,7 @@ def judge(
             reasons.append(f"{names} would help, but {removes} too little to be what is missing: {percent(balance.share)} of the explainable error{held_out}")
         effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
     elif not is_vain:
-        reasons += reasoning.removed_by(balance, found) if found else reasoning.none_accepted(selection)
+        reasons += reasoning.removed_by(balance, selection.kept) if found else reasoning.none_accepted(selection)
         if found and balance.is_all_that_matters:
             reasons.append(f"that is {percent(1.0 - material_left)} of what repeats share and is worth explaining: {reasoning.OF_DRIVER}")
         if found and balance.is_most_of_fast:

@@ -83,7 +83,7 @@ def ranked(
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered, left)
-    verdict = with_remainder(verdict, *_left_by(selection, measured, (-1, 0)), selection.accepted)
+    verdict = with_remainder(verdict, *_left_by(selection, measured, (-1, 0)), selection.kept)
     verdict = replace(verdict, reasons=(*verdict.reasons, *_of_foot(experiment), *experiment.set_aside))
     table = dataset(experiment, selection).assign(smoothness=((), smoothness, {"units": "1"}))
     table.attrs["road"] = "" if is_slow(selection) else said_of_road

@@ -28,11 +28,10 @@ NEARLY, STAYS = 0.9, 0.5
 its gain in the score test that the other has once that effect is there, from which on it is missing, too, and does not stand in for it."""
 
 
-def removed_by(balance: Balance, found: Sequence[Named]) -> list[str]:
-    """How much of the explainable error the effects that were found remove, in words."""
-    names = ", ".join(effect.name for effect in found)
+def removed_by(balance: Balance, kept: Sequence[str]) -> list[str]:
+    """How much of the explainable error the effects of these names, all of the last model, remove, in words."""
     held_out = [f"{percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
-    return [f"{percent(balance.share)} of the explainable error is removed on the fitted drives, by {names}", *held_out]
+    return [f"{percent(balance.share)} of the explainable error is removed on the fitted drives, by {', '.join(kept)}", *held_out]
 
 
 def in_vain(found: Sequence[Named]) -> str:
