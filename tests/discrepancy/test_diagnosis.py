@@ -277,7 +277,10 @@ def test_where_they_are_all_that_is_missing_it_is_no_effect_of_the_library():
     alone = with_parameters(NOTHING, beyond(is_first=True))
     assert alone.verdict == "outside"
     assert alone.words().startswith("No effect of the library is missing: parameters of the vehicle lie far from its file.")
-    for other in (alone.words("force = ..."), replace(alone, is_left=True).words()):
+    remaining = lambda share: with_parameters(with_remainder(NOTHING, {"a_x": 0.01, "a_z": share}, {}), beyond(is_first=True)).words()
+    assert remaining(0.019).startswith("No effect of the library is missing")
+    turning = with_parameters(heard(NOTHING, "an error of a_z comes back every 1.95 m of way", False), beyond(is_first=True))
+    for other in (alone.words("force = ..."), replace(alone, is_left=True).words(), remaining(0.021), turning.words()):
         assert other.startswith("Something is missing that is not in the library.")
     first = with_parameters(replace(NOTHING, verdict="named", effects=(FOUND,), held_out_share=0.6), beyond(is_first=True))
     assert first.verdict == "named" and first.reasons[-1].endswith("other shares are of what they leave")
@@ -287,6 +290,7 @@ def test_an_effect_beside_them_that_drives_held_out_hardly_confirm_may_be_what_t
     named = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.49, held_out_share=0.09)
     said = with_parameters(named, beyond(is_first=True))
     assert said.verdict == "outside" and not said.effects and said.reasons[-1].startswith("friction may be what these leave")
+    assert said.words().startswith("Something is missing that is not in the library.")
     unknown = replace(named, held_out_share=float("nan"))
     for other in (with_parameters(named, beyond()), with_parameters(unknown, beyond(is_first=True))):
         assert other.verdict == "named" and other.effects == (FOUND,)

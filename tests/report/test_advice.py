@@ -142,6 +142,9 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     named = diagnosed.tables(made_up.diagnosis({**made_up.VERDICT, "beyond_bounds": beyond}))["verdict"]
     assert [row["what"] for row in rows(named)][-2:] == ["the vehicle", "next, after the vehicle"]
     assert rows(named)[-1]["in_words"].startswith("This was found with the vehicle put right as above, so that both may be done in one go. ")
+    small = {**made_up.nothing(), "verdict": "outside", "beyond_bounds": beyond, "remainder": {"a_z": 0.01}}
+    last = rows(diagnosed.tables(made_up.diagnosis(small))["verdict"])[-1]["in_words"]
+    assert last == "Nothing is to be switched on. What is left is no more than 1.0 % of the power of any signal: the loop may end here."
     suspect = diagnosed.tables(made_up.diagnosis({**made_up.nothing(), "verdict": "suspect", "beyond_bounds": beyond}))["verdict"]
     assert not any("the vehicle" in row["what"] for row in rows(suspect)) and rows(suspect)[-1]["in_words"].startswith("Put the data right first")
     friction = beyond | {"parameters": [{**bar, "parameter": "tyre_friction", "value": 0.9, "wider": [0.5, 1.5]}]}
@@ -149,8 +152,8 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
     assert "unless they are there (and take tyre_friction out of diagnosis: uncertain, if it stands there)" in said
     # Beside an error that nothing explains, a few percent that go with the file are not all that is missing.
     little = beyond | {"share": 0.06, "held_out_share": 0.06}
-    for is_first, is_left in ((False, False), (True, True)):
-        beside = {**made_up.nothing(), "verdict": "outside", "beyond_bounds": {**little, "is_first": is_first}, "is_left": is_left}
+    for is_first, more in ((False, {}), (True, {"is_left": True}), (True, {"may_be_more": True}), (True, {"remainder": {"a_z": 0.3}})):
+        beside = {**made_up.nothing(), "verdict": "outside", "beyond_bounds": {**little, "is_first": is_first}, **more}
         said = words(diagnosed.tables(made_up.diagnosis(beside))["verdict"])
         assert said.startswith("verdict Something is missing that is not in the library. (outside)") and "Nothing is to be switched on" not in said
 

@@ -199,7 +199,7 @@ def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
         return verdict
     is_silent = verdict.verdict == "nothing" or verdict.verdict == "suspect" and is_road_alone
     is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL
-    return with_reason(verdict, "outside" if is_silent or is_doubtful else verdict.verdict, turns)
+    return replace(with_reason(verdict, "outside" if is_silent or is_doubtful else verdict.verdict, turns), may_be_more=True)
 
 
 def humming(before: Verdict, verdict: Verdict, unit: str, proposal: Discovery) -> Verdict:

@@ -106,6 +106,9 @@ class Verdict:
     """The same of the model that was diagnosed, before anything was found."""
     of_moments: tuple[str, ...] = ()
     """Signals of which half of what repeats differ by lies within moments (``bursts``)."""
+    may_be_more: bool = False
+    """Whether more than parameters of the vehicle may be missing: an error comes back with the way or the time, or drives held out hardly confirm an
+    effect beside them."""
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
@@ -150,9 +153,10 @@ def is_vehicle_first(said: Mapping) -> bool:
 
 
 def is_file_alone(said: Mapping) -> bool:
-    """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form, and
-    no error that repeats share and that is worth explaining."""
-    is_all = not (said["effects"] or (said.get("proposal") or {}).get("form") or said.get("is_left"))
+    """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form, no error
+    that repeats share and that is worth explaining, no more than SMALL of any signal, and no sign of anything else."""
+    is_more = said["effects"] or (said.get("proposal") or {}).get("form") or said.get("is_left") or said.get("may_be_more")
+    is_all = not is_more and max((said.get("remainder") or {}).values(), default=0.0) < SMALL
     return is_vehicle_first(said) and said["verdict"] == "outside" and is_all
 
 

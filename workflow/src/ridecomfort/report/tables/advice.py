@@ -172,7 +172,7 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     """The better of the proposed form and the effects that help comes first."""
     said = found.verdict
     if is_file_alone(said):
-        return NEXT["nothing"]
+        return f"{NEXT['nothing']} {_left(said)}"
     go_on = GO_ON.format(keys=named)
     may_end = _may_end(said, said, *([proposal] if proposal.get("form") else []))
     if not proposal.get("form"):
