@@ -59,7 +59,7 @@ def one(job: tuple[str, int, int], alone: bool = False) -> dict | None:
     place = ports.get(known[draw.hidden[0]].effect.port) if kind.startswith("outside") else None
     fall = lambda first, last: score.against_oracle(trial, true, trials.SHAPES, first, last)
     reached = table["held_out_mean_square"].values
-    row |= score.form(place, proposal, reached[0], fall)
+    row |= score.form(place, proposal if verdict.verdict == "outside" else None, reached[0], fall)
     oracle = fall(reached[0], reached[-1]) if draw.hidden and kind != "messy" and not draw.wrong else float("nan")
     return {**row, "against_oracle": oracle, "cpu_seconds": seconds, "reasons": "; ".join(verdict.reasons)}
 

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
+from ridecomfort.discrepancy import diagnosis
 from ridecomfort.discrepancy.beyond import AtBound, Beyond, BeyondBounds
-from ridecomfort.discrepancy.diagnosis import _beside_the_file
+from ridecomfort.discrepancy.diagnosis import _beside_the_file, _outcome
 from ridecomfort.discrepancy.discovery import Discovery
+from ridecomfort.discrepancy.explain import REPEATS
 from ridecomfort.discrepancy.amended import with_bounds, with_parameters, with_remainder
 from ridecomfort.discrepancy.off_file import Held, OffFile
 from ridecomfort.discrepancy.reconsider import beside_a_force, heard, humming, is_doubtful, named_all_the_same, reconsidered
-from ridecomfort.discrepancy.righted import Outcome
+from ridecomfort.discrepancy.righted import Outcome, Ranked
 from ridecomfort.discrepancy.verdict import Named, Verdict
 
 NOTHING = Verdict("nothing", (), ("the floor is known from repeats",), 0.0, 0.0)
@@ -113,6 +116,20 @@ def test_of_a_doubtful_name_it_is_said_where_a_force_explains_as_much():
     assert found.words().startswith("Missing: friction or something else; the data do not tell those apart.")
     for weaker in (replace(SURE, share=0.58, held_out_share=0.48), replace(SURE, share=0.62, held_out_share=0.52, p_value=0.03)):
         assert reconsidered(named, weaker) is named
+
+
+def test_a_form_that_explains_as_much_as_a_name_is_proposed_beside_it_and_decides_nothing_else(monkeypatch):
+    named = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.6, held_out_share=0.5)
+    table = SimpleNamespace(attrs={"turns": "", "suspected": "", "floor": REPEATS, "road": ""})
+    search = Ranked(table, named, SimpleNamespace(probed={}), None)
+    monkeypatch.setattr(diagnosis, "with_forms", lambda table, evidence: table)
+    monkeypatch.setattr(diagnosis, "surely_fits_better", lambda proposal, selection: False)
+    monkeypatch.setattr(diagnosis, "total_shares", lambda selection: (0.6, 0.5))
+    for share, is_proposed in ((0.62, True), (0.58, False)):
+        form = replace(SURE, share=share, held_out_share=share - 0.1)
+        monkeypatch.setattr(diagnosis, "discovered", lambda rung, form=form, **settings: form)
+        found = _outcome(search, SimpleNamespace(candidates=()), "discovered", {})
+        assert found.verdict.is_like_force is is_proposed and found.proposed is (form if is_proposed else None) and found.sure is None
 
 
 def test_a_name_that_leaves_an_error_for_certain_gives_way_to_a_force_that_is_a_little_better_but_to_none_that_is_equal():

@@ -167,6 +167,16 @@ def test_effects_each_of_which_may_as_well_be_none_are_not_told_from_something_e
         assert "something else" not in rows(diagnosed.tables(made_up.diagnosis(other))["verdict"])[0]["in_words"]
 
 
+def test_a_form_that_explains_as_much_as_the_names_of_a_cluster_is_to_be_tried_in_their_place():
+    found = {**made_up.VERDICT, "verdict": "cluster", "is_like_force": True, "proposal": PROPOSAL}
+    told = {row["what"]: row["in_words"] for row in rows(diagnosed.tables(replace(made_up.diagnosis(found), switched_on=("damper_knee",)))["verdict"])}
+    assert "or something else; the data do not tell those apart. (cluster)" in told["verdict"] and "proposed form" in told
+    assert "Switch one of each cluster on, effects: [damper_knee, suspension_friction]" in told["next"]
+    assert "Something else is the proposed form in the rows above: to try that in their place, put " in told["next"]
+    assert "discovered.py into a folder of your own" in told["next"] and "switch it on, effects: [damper_knee, discovered]." in told["next"]
+    assert "discovered" not in rows(diagnosed.tables(made_up.diagnosis({**found, "proposal": None}))["verdict"])[-1]["in_words"]
+
+
 def test_parameters_that_calibration_holds_beside_the_drives_are_to_be_calibrated_too():
     inertia = {"parameter": "roll_inertia", "unit": "kg m2", "given": 572.0, "value": 589.0, "interval": [588.0, 590.0]}
     off = {"parameters": [inertia, {**inertia, "parameter": "damping_front"}], "left": {"roll_rate": 0.002}}

@@ -32,8 +32,9 @@ def diagnose(
     measured: Mapping[str, tuple], vehicle, *, signatures: bool = False, effects_folder=None, seed: int = 0, name: str = "discovered",
     workers: int | None = None, say: Callable[[str], None] = lambda words: None, **settings,
 ) -> tuple[xr.Dataset, Verdict, Discovery | None]:  # fmt: skip
-    """The evidence, the verdict, and where that is "outside" the search for a form, else None. Wherever such a search was made its evidence
-    stands beside that of the library (``ranking.forms``). ``signatures``: with the curves of what is missing (``missing_force``).
+    """The evidence, the verdict, and where that is "outside", or a form explains as much as what is named, the search for a form, else None.
+    Wherever such a search was made its evidence stands beside that of the library (``ranking.forms``). ``signatures``: with the curves of what is
+    missing (``missing_force``).
 
     Where parameters of the vehicle beyond their bounds may explain more, a second search begins with them: it decides if it leaves nothing out,
     unless a form found within the bounds leaves less than the effects that it names, and if it leaves something out but explains more than the
@@ -56,7 +57,7 @@ def diagnose(
     else:
         outcome = outcome_of(first)
     verdict, proposal = outcome.verdict, outcome.proposed
-    if proposal is not None:
+    if proposal is not None and verdict.verdict == "outside":
         is_beside = found is not None and not (found.is_first or found.is_instead)
         if is_beside and proposal.share > verdict.share + found.share:
             found = None
@@ -67,9 +68,8 @@ def diagnose(
     table = outcome.table
     if signatures:
         say("drawing the missing force")
-        curves = missing_force(
-            experiment, outcome.rung, outcome.selection, verdict, proposal, effects_folder=effects_folder, each=each
-        )
+        force = proposal if verdict.verdict == "outside" else None
+        curves = missing_force(experiment, outcome.rung, outcome.selection, verdict, force, effects_folder=effects_folder, each=each)
         table = table.merge(curves)
     return table, with_allowances(verdict, {candidate.name for candidate in experiment.candidates}), proposal
 
@@ -112,4 +112,5 @@ def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Out
         verdict = humming(search.verdict, verdict, line.unit, proposal)
     if not (table.attrs["turns"] or table.attrs["road"]):
         verdict = named_all_the_same(verdict, proposal)
-    return Outcome(table, verdict, proposal if verdict.verdict == "outside" else None, search.selection, search.rung)
+    is_told = verdict.verdict == "outside" or verdict.is_like_force
+    return Outcome(table, verdict, proposal if is_told else None, search.selection, search.rung)

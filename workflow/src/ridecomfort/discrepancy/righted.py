@@ -52,8 +52,8 @@ class Ranked:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Evidence and verdict of a search in the light of a force of any form, which is ``proposed`` where the verdict is "outside"; the
-    ``selection`` is that of the library."""
+    """Evidence and verdict of a search in the light of a force of any form, which is ``proposed`` where the verdict is "outside" or
+    ``is_like_force``; the ``selection`` is that of the library."""
 
     table: xr.Dataset
     verdict: Verdict
@@ -64,8 +64,9 @@ class Outcome:
 
     @property
     def sure(self) -> Discovery | None:
-        """What is proposed, if it is more than chance."""
-        return self.proposed if self.proposed is not None and is_sure(self.proposed) else None
+        """What is proposed in place of what the library has, if it is more than chance."""
+        is_instead = self.proposed is not None and self.verdict.verdict == "outside"
+        return self.proposed if is_instead and is_sure(self.proposed) else None
 
     @property
     def stands_on(self) -> Selection:

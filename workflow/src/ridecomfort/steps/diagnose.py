@@ -1,7 +1,7 @@
 """Find the physical effects that the model lacks, from all drives of one calibration; write the evidence and the verdict.
 
-Where something is missing that no effect of the library explains, the form that is proposed for it is written
-beside the verdict as an effect file, ``discovered.py`` (``discovered_2.py`` where there is an effect of that name), to be read,
+Where something is missing that no effect of the library explains, or a form explains as much as these do, the form that is proposed for it is
+written beside the verdict as an effect file, ``discovered.py`` (``discovered_2.py`` where there is an effect of that name), to be read,
 kept and switched on.
 """
 

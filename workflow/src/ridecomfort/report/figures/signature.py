@@ -78,7 +78,7 @@ def signature(found: Diagnosis) -> Figure:
             axes.set_title(f"{axle} {place}" + (f"; both: {share:.0f} % of the error" if axes is panel[-1] else ""))
             axes.set_xlabel(f"{one['seen_axis'].item()} [{unit}]")
         panel[0].set_ylabel(fill(f"{one['missing_what'].item()} [{missing_unit}]", LONGEST))
-    proposal = found.verdict.get("proposal") or {}
+    proposal = (found.verdict.get("proposal") or {}) if found.verdict["verdict"] == "outside" else {}
     names = proposal.get("beside") or () if proposal.get("form") else [effect["name"] for effect in found.verdict["effects"]]
     together = " and ".join([*map(words, names), *(["the proposed form"] if proposal.get("form") else [])])
     handles = [

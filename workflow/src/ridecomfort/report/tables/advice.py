@@ -32,6 +32,12 @@ TRY_FORM = (
     "switch it on, effects: [{keys}], compare and diagnose again: beside it the rest shows better."
 )
 
+IN_PLACE = (
+    " Something else is the proposed form in the rows above: to try that in their place, put {file} into a folder of your own that effects_folder in "
+    "config/study.yaml names, and switch it on, effects: [{keys}]."
+)
+"""What is added where a form explains as much as the effects that are named."""
+
 GO_ON = (
     "Go on from what the library has, effects: [{keys}] in config/study.yaml, compare and diagnose again: beside it the rest shows "
     "better. Take out again what does not lower the error ladder on drives held out."
@@ -96,7 +102,8 @@ def next_step(found: Diagnosis) -> str:
     before += WITH_VEHICLE if is_vehicle_first(said) else ""
     before += _may_end(said, said)
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
-    return before + NEXT[said["verdict"]].format(keys=named) + caution
+    in_place = IN_PLACE.format(file=_file(found, proposal), keys=", ".join([*own, proposal["name"]])) if proposal.get("form") else ""
+    return before + NEXT[said["verdict"]].format(keys=named) + in_place + caution
 
 
 def _entry(name: str, held: Mapping[str, float]) -> str:
@@ -180,13 +187,17 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     (fitted, held_out), (fitted_of_form, held_out_of_form) = map(_shares, (said, proposal))
     if (min if may_end else max)(fitted_of_form, held_out_of_form) < LITTLE:
         return may_end + go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
-    file = Path(found.files.get("verdict", "")).parent / f"{proposal['name']}.py"
-    try_form = TRY_FORM.format(file=file, keys=", ".join([*own, *_by_share(proposal)]))
+    try_form = TRY_FORM.format(file=_file(found, proposal), keys=", ".join([*own, *_by_share(proposal)]))
     if not library_helps(said) or said.get("is_beside_form"):
         return may_end + try_form
     library_is_better = fitted > fitted_of_form - EQUAL and held_out > held_out_of_form - AS_GOOD
     first, second = (go_on, try_form) if library_is_better else (try_form, go_on)
     return f"{may_end}{first} The second choice: {second[:1].lower()}{second[1:]}"
+
+
+def _file(found: Diagnosis, proposal: Mapping) -> Path:
+    """That of a proposed form."""
+    return Path(found.files.get("verdict", "")).parent / f"{proposal['name']}.py"
 
 
 def _by_share(proposal: Mapping) -> list[str]:
