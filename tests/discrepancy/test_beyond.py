@@ -178,6 +178,8 @@ def test_parameters_that_do_alone_as_much_by_no_more_numbers_are_not_told_from_a
     assert found.verdict == "cluster" and found.words().startswith(
         "Missing: tyre_pressure_loss or tyre_radial_stiffness beyond its bounds; the data do not tell those apart. "
     )
+    # Data are suspect for what hums: those parameters are another explanation of the effect, not of that.
+    assert with_parameters(Verdict("suspect", (effect,), (), 0.694, 0.576), told).words().startswith("The data are suspect. ")
 
 
 def test_other_effects_are_no_other_explanation(monkeypatch):

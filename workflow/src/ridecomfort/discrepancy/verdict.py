@@ -133,10 +133,10 @@ def are_open(effects: Sequence[Named]) -> bool:
 
 
 def not_told_from(said: Mapping) -> str:
-    """What all effects of a verdict, as ``Verdict.json`` gives it, are not told from, in words: parameters of the vehicle beyond their bounds,
-    or, where each may as well be none or a force of another form explains as much, something else; empty where there is nothing."""
+    """What all effects that a verdict names, as ``Verdict.json`` gives it, are not told from, in words: parameters of the vehicle beyond their
+    bounds, or, where each may as well be none or a force of another form explains as much, something else; empty where there is nothing."""
     beyond = said.get("beyond_bounds") or {}
-    if beyond.get("is_as_good") and not beyond.get("effects"):
+    if said["verdict"] in ("named", "cluster") and beyond.get("is_as_good") and not beyond.get("effects"):
         return other_name([one["parameter"] for one in told_beyond(beyond)])
     is_open = said.get("is_like_force") or all(effect.get("is_open") for effect in said["effects"])
     return SOMETHING_ELSE if said["verdict"] == "cluster" and is_open else ""
