@@ -23,6 +23,13 @@ def test_a_size_that_ends_beyond_what_is_plausible_is_a_reason_more():
     assert said.startswith("effect_2 ends at a size of ") and "to 0.5)" in said
 
 
+def test_where_nothing_that_was_looked_among_has_a_size_no_candidate_was_tested():
+    model = Linear(1, {})
+    model.candidates = ()
+    _, found = judged(model)
+    assert found.verdict == "nothing" and "no candidate was tested: no effect that was looked among has a size to fit" in found.reasons
+
+
 @pytest.mark.parametrize(("part", "is_told"), [(0.95, True), (0.8, False)])
 def test_what_would_have_done_nearly_as_much_is_told(part, is_told):
     model = Linear(1, {"effect_2.size": 1.5})

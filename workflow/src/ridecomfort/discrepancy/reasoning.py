@@ -45,7 +45,7 @@ def none_accepted(selection: Selection) -> list[str]:
     first = selection.rounds[0] if selection.rounds else None
     if first is None or not first.names:
         is_asked = bool(selection.frame.experiment.candidates)
-        return ["no candidate changes what these drives tell" if is_asked else "no candidate was tested: the library that was looked among is empty"]
+        return ["no candidate changes what these drives tell" if is_asked else "no candidate was tested: no effect that was looked among has a size to fit"]
     best = float(np.min(first.p_value))
     if best > LEVEL:
         return [f"the smallest p-value over the whole library, of {len(first.names)} candidates that were tested, is {best:.2g}"]
