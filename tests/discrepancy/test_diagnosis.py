@@ -31,6 +31,7 @@ def test_a_sure_force_of_some_form_makes_outside_of_nothing():
     found = reconsidered(NOTHING, SURE)
     assert found.verdict == "outside" and "tyre" in found.reasons[-1]
     assert found.reasons[:-1] == NOTHING.reasons
+    assert beside_a_force(found, SURE).reasons == found.reasons, "it is said once, and explains more than nothing"
 
 
 def test_but_not_where_it_explains_no_more_than_effects_that_were_too_little_to_be_named():

@@ -228,8 +228,8 @@ def beside_a_force(verdict: Verdict, proposal: Discovery) -> Verdict:
         return verdict
     alone = ", ".join(effect.name for effect in verdict.effects)
     reasons = (f"the library alone comes up to {alone}", *verdict.reasons) if alone else verdict.reasons
-    said = f"{_said_of(proposal)} explains more: {_explained(proposal)}"
-    reasons = reasons if said in reasons else (*reasons, said)
+    said = _said_of(proposal)
+    reasons = reasons if any(reason.startswith(said) for reason in reasons) else (*reasons, f"{said} explains more: {_explained(proposal)}")
     share, held_out = (sum((getattr(effect, key) for effect in proposal.beside), 0.0) for key in ("share", "held_out_share"))
     return replace(verdict, effects=proposal.beside, reasons=reasons, share=share, held_out_share=held_out, is_beside_form=bool(proposal.beside))
 
