@@ -161,8 +161,13 @@ def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_conf
 def test_effects_each_of_which_may_as_well_be_none_are_not_told_from_something_else():
     effects = [{**effect, "like": [], "is_open": True} for effect in made_up.VERDICT["effects"]]
     said = {**made_up.VERDICT, "verdict": "cluster", "effects": effects}
-    first = rows(diagnosed.tables(made_up.diagnosis(said))["verdict"])[0]["in_words"]
+    told = rows(diagnosed.tables(made_up.diagnosis(said))["verdict"])
+    first = told[0]["in_words"]
     assert first.endswith(" or something else; the data do not tell those apart. (cluster)"), first
+    assert told[-1]["in_words"].startswith("Switch on what may be missing, effects: [suspension_friction]"), "there is no other to try"
+    like = {**said, "effects": [{**effects[0], "like": ["top_mount"]}, *effects[1:]]}
+    for other in (like, {**said, "beyond_bounds": {"is_as_good": True, "is_instead": True, "parameters": []}}):
+        assert advice.next_step(made_up.diagnosis(other)).startswith("Switch one of each cluster on")
     for other in ({**said, "verdict": "suspect"}, {**said, "effects": [{**effects[0], "is_open": False}, *effects[1:]]}):
         assert "something else" not in rows(diagnosed.tables(made_up.diagnosis(other))["verdict"])[0]["in_words"]
 

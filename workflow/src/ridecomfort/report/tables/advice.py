@@ -32,6 +32,12 @@ TRY_FORM = (
     "switch it on, effects: [{keys}], compare and diagnose again: beside it the rest shows better."
 )
 
+OPEN = (
+    "Switch on what may be missing, effects: [{keys}] in config/study.yaml, and compare again; keep it if the error ladder falls on drives held out. Another "
+    "drive, or fewer parameters that are calibrated along, may tell whether it is that."
+)
+"""What to do where each of the effects of a cluster may as well be none, and nothing is known that may stand in their place."""
+
 IN_PLACE = (
     " Something else is the proposed form in the rows above: to try that in their place, put {file} into a folder of your own that effects_folder in "
     "config/study.yaml names, and switch it on, effects: [{keys}]."
@@ -103,7 +109,9 @@ def next_step(found: Diagnosis) -> str:
     before += _may_end(said, said)
     caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
     in_place = IN_PLACE.format(file=_file(found, proposal), keys=", ".join([*own, proposal["name"]])) if proposal.get("form") else ""
-    return before + NEXT[said["verdict"]].format(keys=named) + in_place + caution
+    has_others = in_place or any(effect.get("like") for effect in said["effects"]) or (said.get("beyond_bounds") or {}).get("is_as_good")
+    then = NEXT[said["verdict"]] if said["verdict"] == "named" or has_others else OPEN
+    return before + then.format(keys=named) + in_place + caution
 
 
 def _entry(name: str, held: Mapping[str, float]) -> str:
