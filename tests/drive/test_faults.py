@@ -55,6 +55,58 @@ def test_values_that_are_held_are_told_with_the_first_place_once_for_all_signals
     assert said == f"{', '.join(SIGNALS)}: a value is held for up to 12 samples in 3 places, the first at 10.00 s: was the record interrupted?"
 
 
+def frozen(*names):
+    """Spoils signals of these names by holding them from 30 to 34 s, as an instrument that hangs while the clock goes on."""
+
+    def spoil(name, values):
+        if name in names:
+            values[3000:3401] = values[3000]
+        return values
+
+    return spoil
+
+
+@pytest.mark.parametrize("step", [0.0, 0.001])
+@pytest.mark.parametrize("names", [SIGNALS, SIGNALS[4:5]])
+def test_one_long_hold_is_told_with_its_time(names, step):
+    (said,) = faults.found(signals(frozen(*names), step))
+    assert said.startswith(f"{', '.join(names)}: a value is held for 401 samples, 30.00 to 34.00 s: did the instrument freeze")
+
+
+def test_a_short_hold_is_told_of_all_six_signals_at_once_and_not_of_one():
+    short = lambda *names: lambda name, values: np.where((TIME > 30.0) & (TIME < 30.15) & (name in names), values[3000], values)
+    (said,) = faults.found(signals(short(*SIGNALS)))
+    assert said.startswith(f"{', '.join(SIGNALS)}: a value is held for 15 samples, 30.00 to 30.14 s")
+    assert faults.found(signals(short(*SIGNALS[:5]))) == []
+
+
+def test_a_hold_that_lasts_to_the_end_is_told():
+    dead = lambda name, values: np.where(TIME > 50.0, values[5000], values)
+    assert any("to 59.99 s: did the instrument freeze" in words for words in faults.found(signals(dead)))
+
+
+def test_all_signals_are_held_at_once_whatever_their_clocks():
+    held = signals(frozen(*SIGNALS))
+    held |= {name: (TIME + 0.003, held[name][1]) for name in SIGNALS[3:]}
+    (said,) = faults.found(held)
+    assert said.startswith(f"{', '.join(SIGNALS)}: a value is held for 401 samples, 30.00 to 34.00 s")
+
+
+@pytest.mark.parametrize("known", ["v_x", "s"])
+def test_a_parked_vehicle_may_feel_the_same_for_long(known):
+    stops = (TIME % 20.0 > 10.0) & (TIME % 20.0 < 15.0)
+    speed = np.where(stops, 0.0, 10.0)
+    moved = {"v_x": speed, "s": np.cumsum(speed) * 0.01}[known]
+    stands = signals(lambda name, values: np.where(stops, 0.0, values), 0.001)
+    assert faults.found(stands | {known: (TIME, moved)}) == []
+    assert faults.found(stands | {known: (TIME, TIME * 10.0 if known == "s" else np.full(TIME.size, 10.0))})
+
+
+def test_a_smooth_signal_in_steps_is_not_held_where_it_turns():
+    slow = lambda name, values: (4.0 + SIGNALS.index(name)) * np.sin(2.0 * np.pi * 0.3 * TIME + SIGNALS.index(name))
+    assert faults.found(signals(slow, 0.01)) == []
+
+
 @pytest.mark.parametrize("times", [2, 5])
 def test_a_slow_signal_in_a_fast_table_is_told(times):
     slow = lambda name, values: np.repeat(values[::times], times)[: values.size] if "rate" in name else values

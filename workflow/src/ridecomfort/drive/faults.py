@@ -6,7 +6,8 @@ that is neither noise nor the vehicle's.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,6 +23,16 @@ AWAY = 1.0
 HELD, STRETCHES = 5, 3
 """Samples in a row that are equal where a value is held, and how often that happens at least."""
 
+FROZEN, LONG = 0.1, 0.5
+"""s from which on a value that is held once is told, too: where all six signals are, and where one is."""
+
+BESIDE = 3
+"""Changes before and behind a value that is held that must not be COARSE either (median): a signal that comes to rest slowly, as at the
+crest of a bend or in a vehicle that is parked, is held by its steps."""
+
+STANDING = 0.5
+"""m/s, the mean speed up to which a vehicle stands: what it feels may be the same then."""
+
 COARSE = 5.0
 """Steps by which a signal that changes does so at least (median): where they are coarser, equal and lone values say nothing."""
 
@@ -33,18 +44,30 @@ ALONE, FARTHER, SPIKES = 20.0, 4.0, 3
 away from these; and how many there are at least."""
 
 
-def found(signals: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
-    """What speaks against the inertial ``signals`` of a record, in words; each is (time in s, values in SI units) as recorded."""
-    said: dict[str, list[str]] = {}
-    for name in SIGNALS:
-        time, values = (np.asarray(part, dtype=float) for part in signals[name])
-        changes, (levels, counts) = np.abs(np.diff(values)), np.unique(values, return_counts=True)
-        if np.any(changes > 0) and np.median(changes[changes > 0]) > COARSE * np.median(np.diff(levels)):
-            ends = ("largest", levels[::-1], counts[::-1]), ("smallest", levels, counts)
-            stays = [words for end in ends if (words := _at_limit(name, values, *end))] or [_told_again(values) or _held(time, values)]
-            for words in (*stays, _alone(time, values)):
-                said.setdefault(words, []).append(name)
+def found(quantities: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
+    """What speaks against the inertial signals among the ``quantities`` of a record, in words; each is (time in s, values in SI units) as
+    recorded. Where ``v_x`` or ``s`` is among them, too, nothing is held while the vehicle stands."""
+    signals = {name: tuple(np.asarray(part, dtype=float) for part in quantities[name]) for name in SIGNALS}
+    steps = {name: step for name, (_, values) in signals.items() if (step := _step(values))}
+    again = {name: _told_again(signals[name][1]) for name in steps}
+    frozen = [] if any(again.values()) else _frozen(signals, steps, quantities)
+    said: dict[str, list[str]] = {_in_words(frozen): list(SIGNALS)} if frozen else {}
+    for name, step in steps.items():
+        time, values = signals[name]
+        levels, counts = np.unique(values, return_counts=True)
+        ends = ("largest", levels[::-1], counts[::-1]), ("smallest", levels, counts)
+        stays = [words for end in ends if (words := _at_limit(name, values, *end))]
+        stays = stays or [again[name] or _held(_holds(time, values, np.diff(values) == 0.0, step, quantities), frozen)]
+        for words in (*stays, _alone(time, values)):
+            said.setdefault(words, []).append(name)
     return [f"{', '.join(names)}: {words}" for words, names in said.items() if words]
+
+
+def _step(values: np.ndarray) -> float:
+    """The step that a signal is told in where it changes by more than COARSE of them, else 0."""
+    changes = np.abs(np.diff(values))
+    step = float(np.median(np.diff(np.unique(values)))) if np.any(changes > 0) else 0.0
+    return step if step and np.median(changes[changes > 0]) > COARSE * step else 0.0
 
 
 def _at_limit(name: str, values: np.ndarray, which: str, levels: np.ndarray, counts: np.ndarray) -> str:
@@ -65,15 +88,62 @@ def _told_again(values: np.ndarray) -> str:
     return f"every value stands {times} times in a row: told faster than recorded (expected a table of the instrument's own rate)"
 
 
-def _held(time: np.ndarray, values: np.ndarray) -> str:
-    """Where a value is held as if nothing came from the instrument."""
-    equal = np.concatenate([[False], np.diff(values) == 0.0, [False]])
-    begin, end = (np.flatnonzero(np.diff(equal.astype(int)) == step) for step in (1, -1))
-    is_long = end - begin >= HELD - 1
-    if is_long.sum() < STRETCHES:
-        return ""
-    longest, first = int((end - begin)[is_long].max()) + 1, time[begin[is_long][0]]
-    return f"a value is held for up to {longest} samples in {is_long.sum()} places, the first at {first:.2f} s: was the record interrupted?"
+@dataclass(frozen=True)
+class _Hold:
+    """A stretch of a record, from ``begin`` to ``end`` in s, in so many ``samples`` of which nothing changes."""
+
+    begin: float
+    end: float
+    samples: int
+
+
+def _holds(time: np.ndarray, values: np.ndarray, equal: np.ndarray, step: float, quantities: Mapping) -> list[_Hold]:
+    """Where HELD samples and more are ``equal`` (samples - 1,) to the one before though the vehicle moves and the signal was changing by more
+    than COARSE of its ``step`` until then, and does so from then on."""
+    sides = np.diff(np.concatenate([[False], equal, [False]]).astype(int))
+    holds, changes = [], np.abs(np.diff(values))
+    for begin, end in zip(np.flatnonzero(sides == 1), np.flatnonzero(sides == -1)):
+        hold = _Hold(float(time[begin]), float(time[end]), int(end - begin) + 1)
+        before, behind = (beside[beside > 0] for beside in (changes[max(begin - BESIDE, 0) : begin], changes[end : end + BESIDE]))
+        is_quick = [beside.size > 0 and np.median(beside) > COARSE * step for beside in (before, behind)]
+        if hold.samples >= HELD and is_quick[0] and (is_quick[1] or end == changes.size) and _moves(quantities, hold):
+            holds.append(hold)
+    return holds
+
+
+def _moves(quantities: Mapping, hold: _Hold) -> bool:
+    """Whether a vehicle moves meanwhile; taken for granted where nothing tells."""
+    time = np.linspace(hold.begin, hold.end, hold.samples)
+    if "v_x" in quantities:
+        return abs(float(np.interp(time, *quantities["v_x"]).mean())) > STANDING
+    return "s" not in quantities or np.ptp(np.interp(time, *quantities["s"])) > STANDING * (hold.end - hold.begin)
+
+
+def _frozen(signals: Mapping, steps: Mapping[str, float], quantities: Mapping) -> list[_Hold]:
+    """Where all six signals are held at once for FROZEN, by any of those with ``steps``."""
+    for name, step in steps.items():
+        time, values = signals[name]
+        middle = 0.5 * (time[1:] + time[:-1])
+        here = lambda clock, own: (np.diff(own) == 0.0)[np.clip(np.searchsorted(clock, middle) - 1, 0, own.size - 2)]
+        equal = np.all([here(*signal) for signal in signals.values()], axis=0)
+        holds = [hold for hold in _holds(time, values, equal, step, quantities) if hold.end - hold.begin >= FROZEN]
+        if holds:
+            return holds
+    return []
+
+
+def _held(holds: Sequence[_Hold], frozen: Sequence[_Hold]) -> str:
+    """Where a value is held as if nothing came from the instrument, beside where all are ``frozen``."""
+    own = [hold for hold in holds if not any(hold.begin <= other.end and other.begin <= hold.end for other in frozen)]
+    is_told = len(own) >= STRETCHES or any(hold.end - hold.begin >= LONG for hold in own)
+    return _in_words(own) if is_told else ""
+
+
+def _in_words(holds: Sequence[_Hold]) -> str:
+    longest = max(holds, key=lambda hold: hold.samples)
+    if len(holds) == 1:
+        return f"a value is held for {longest.samples} samples, {longest.begin:.2f} to {longest.end:.2f} s: did the instrument freeze, or was the record interrupted?"
+    return f"a value is held for up to {longest.samples} samples in {len(holds)} places, the first at {holds[0].begin:.2f} s: was the record interrupted?"
 
 
 def _alone(time: np.ndarray, values: np.ndarray) -> str:

@@ -141,7 +141,7 @@ def from_arrays(
         cut_off=float(cut_off),
         start_time=float(first),
         treatment="; ".join(treatment) or "none",
-        faults="; ".join(faults.found({name: arrays[name] for name in SIGNALS})),
+        faults="; ".join(faults.found(arrays)),
     )
     return check(describe(drive), file=file)
 
