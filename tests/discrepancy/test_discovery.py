@@ -371,6 +371,10 @@ def test_effects_that_are_missing_too_are_told_beside_the_form_and_what_all_remo
     size, *shape = found.json()["sizes"]
     assert (size["parameter"], size["unit"]) == ("velocity_size_front", "N s/m")
     assert size["interval"][0] < 1.5 < size["interval"][1] and all(one["interval"] is None for one in shape)
+    assert size["is_plausible"] and not size["is_shaping"] and all(one["is_shaping"] for one in shape)
+    assert found.json()["here"] == "firmer in compression than in rebound (front)" and f"here: {found.json()['here']}." in found.source
+    nil = replace(found, sizes=({**found.sizes[0], "interval": (-1.0, 4.0)},))
+    assert nil.json()["here"] == "" and "here:" not in nil.words()
 
 
 @pytest.mark.parametrize(("factor", "names"), [(0.999, ["effect_4"]), (1.001, []), (np.nan, ["effect_4"])])

@@ -31,6 +31,17 @@ def test_what_a_force_does_here_is_told_by_the_signs_of_its_factors():
     assert told("body", {"drag": {"": -0.3}}) == "drag of the air, a head wind; here: more resistance"
 
 
+def test_of_a_factor_that_may_be_of_either_sign_no_sense_is_told():
+    sizes = [
+        {"parameter": "velocity_saturating_front", "interval": [-143.0, 167.0]}, {"parameter": "velocity_saturating_rear", "interval": [-4232.0, -2790.0]},
+        {"parameter": "velocity_saturating_knee", "interval": None},
+    ]  # fmt: skip
+    terms = {"velocity_saturating": {"front": 12.3, "rear": -3511.0}}
+    assert senses("strut", terms, sizes) == "softer at low velocities (rear)"
+    assert told("strut", terms, sizes).endswith("; here: softer at low velocities (rear)")
+    assert senses("strut", terms, [size | {"interval": [-1.0, 1.0]} for size in sizes]) == ""
+
+
 def test_senses_are_of_forms_that_are_looked_for():
     assert all(set(senses) <= set(PLACES[place].terms) for place, senses in SENSES.items())
 

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from ridecomfort.discrepancy.form import in_words
+from ridecomfort.discrepancy.form import in_words, plausibility
+from ridecomfort.discrepancy.places import scale
 from ridecomfort.discrepancy.score import score
 from ridecomfort.discrepancy.verdict import SAID
 from ridecomfort.report import catalogue, diagnosed, table
@@ -70,6 +71,24 @@ def test_a_proposed_form_is_shown():
     with_nil = {**verdict, "proposal": verdict["proposal"] | {"sizes": held}}
     assert rows(diagnosed.tables(replace(found, verdict=with_nil))["missing_effects"])[-1]["parameter"] == row["parameter"]
     assert "discovered_2.py into a folder" in said and "effects: [discovered, discovered_2]" in said
+
+
+def test_what_shapes_a_form_has_no_interval_beyond_what_is_plausible_and_every_size_says_what_that_is():
+    own = lambda part, size, interval: {"parameter": f"velocity_saturating_{part}", "unit": "m/s", "size": size, "interval": interval} | plausibility(
+        "strut", "velocity_saturating", part, size
+    )
+    sizes = [own("front", 12.3, [-143.0, 167.0]), own("rear", -3511.0, [-4232.0, -2790.0]), own("knee", 0.08, [-0.0154, 0.176]), own("linear", 0.0, [-4.0, 3.5])]
+    verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"sizes": sizes}}
+    tables = diagnosed.tables(made_up.diagnosis(verdict))
+    (told,) = [row["in_words"] for row in rows(tables["verdict"]) if row["what"] == "its sizes"]
+    assert "knee 0.08 m/s (0.02 to 0.176), velocity saturating linear left open by these drives" in told
+    front, rear, knee, linear = rows(tables["missing_effects"])[-4:]
+    most = 1500.0 / scale("strut", "velocity_saturating")
+    assert front["plausible"] == f"yes, may be nil ({-most:.4g} to {most:.4g})" and rear["plausible"] == f"yes ({-most:.4g} to {most:.4g})"
+    assert (knee["interval_lower"], knee["plausible"]) == (0.02, "yes (0.02 to 0.5)") and linear["plausible"] == "left open (-3 to 3)"
+    assert linear["size"] is None and knee["interval_upper"] == 0.176
+    heard = own("knee", 0.08, [0.0, 1.0]) | plausibility("body", "humming_up", "period", 0.08)
+    assert "knee 0.08 m/s (0 to 1)" in words(diagnosed.tables(made_up.diagnosis(verdict | {"proposal": PROPOSAL | {"sizes": [heard]}}))["verdict"])
 
 
 def test_a_verdict_says_of_which_calibration_it_is():

@@ -22,7 +22,7 @@ from . import experiment as exp
 from .balance import LITTLE
 from .candidates import is_varied, shaping_size, towards
 from .experiment import Candidate, Size
-from .form import effect_source, in_words, typically
+from .form import effect_source, in_words, plausibility, typically
 from .found import turn_of
 from .judge import ANOTHER_SHAPE, standing
 from .made import beside
@@ -84,7 +84,7 @@ class Discovery:
     """Effects of the library that are missing, too: shares are of what goes with all together."""
     sizes: tuple[dict, ...] = ()
     """Its factors and what shapes it as in an effect file, each with ``parameter``, ``unit``, ``size`` and, where it was fitted, the 90 %
-    ``interval``."""
+    ``interval``; with ``form.plausibility``."""
     off_file: OffFile | None = None
     """Parameters of the vehicle that calibration holds, and to which the drives give other values than its file beside the force."""
     residuals: Mapping[int, np.ndarray] | None = None
@@ -98,7 +98,7 @@ class Discovery:
         removed = ", ".join(f"{100 * share:.0f} % {where}" for where, share in shares.items() if np.isfinite(share))
         removes = f"Together with {', '.join(self.names_beside())} it removes" if self.beside else "It removes"
         little = ": too little to be what is missing" if self.share < LITTLE else ""
-        return f"at the {self.place}, such as {told(self.place, self.terms)}. {removes} {removed}{little}."
+        return f"at the {self.place}, such as {told(self.place, self.terms, self.sizes)}. {removes} {removed}{little}."
 
     def names_beside(self) -> list[str]:
         """Names of the effects of the library that are missing, too."""
@@ -107,7 +107,7 @@ class Discovery:
     def json(self) -> dict:
         """What a verdict file says of it; null where a number is not known."""
         names = ("name", "place", "port", "form", "terms", "settings", "sizes", "share", "held_out_share", "p_value", "by_place")
-        more = {"such_as": such_as(self.place, self.terms), "here": senses(self.place, self.terms), "beside": self.names_beside()}
+        more = {"such_as": such_as(self.place, self.terms), "here": senses(self.place, self.terms, self.sizes), "beside": self.names_beside()}
         more["typically"] = typically(self.place, self.terms, self.settings)
         more |= {f"own_{key}": getattr(self, key) - sum(getattr(effect, key) for effect in self.beside) for key in ("share", "held_out_share")}
         return plain({name: getattr(self, name) for name in names} | more)
@@ -194,11 +194,12 @@ def proposed(selection: Selection, name: str, known: Sequence[Candidate]) -> Dis
     share, held_out = np.add(_removed(selection, needed), _removed(selection, [effect.name for effect in effects])).tolist()
     turn = selection.rounds[selection.accepted.index(needed[0])]
     p_value = float(turn.p_value[turn.names.index(needed[0])])
-    sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {told(place, terms)}."
+    sizes = tuple(size for term in terms for size in _told(selection, place, term, {**terms[term], **shaped[term]}))
+    sentence = f"Found on measured drives, not in the library: at the {place}, {form}. Such as {told(place, terms, sizes)}."
     source = effect_source(name, place, terms, sentence, shaped)
     return Discovery(
         name, place, PLACES[place].port, terms, shaped, form, share, held_out, p_value, source, by_place, selection, turn.is_large,
-        turn.winner.held_out_z, beside=tuple(effects), sizes=tuple(size for term in terms for size in _told(selection, place, term, {**terms[term], **shaped[term]})),
+        turn.winner.held_out_z, beside=tuple(effects), sizes=sizes,
     )  # fmt: skip
 
 
@@ -209,7 +210,7 @@ def _told(selection: Selection, place: str, term: str, values: Mapping[str, floa
     for part, size in values.items():
         key, unit = _key(place, term, part), units.get(part, PLACES[place].terms[term].unit)
         interval = selection.told(key) if key in selection.intervals else None
-        told.append({"parameter": parameter(term, part), "unit": unit, "size": size, "interval": interval})
+        told.append({"parameter": parameter(term, part), "unit": unit, "size": size, "interval": interval, **plausibility(place, term, part, size)})
     return told
 
 

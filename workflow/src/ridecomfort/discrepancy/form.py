@@ -38,6 +38,17 @@ def in_words(place: str, terms: Factors, shaped: Settings = {}) -> str:
     return "; ".join(f"{result} {sign(result)} {' + '.join(parts)}" for result, parts in by_result.items())
 
 
+def plausibility(place: str, term: str, part: str, value: float) -> dict:
+    """Of a factor of a term, or of what shapes it, whether it ``is_shaping``, what is ``plausible`` and whether its ``value`` is; the last two None
+    of a period or an order, which are known as they were heard."""
+    setting = next((one for one in settings(place, term) if one.name == part), None)
+    if setting is not None and setting.name in FIRM:
+        return {"is_shaping": True, "plausible": None, "is_plausible": None}
+    limit = PLACES[place].strongest / scale(place, term)
+    lower, upper = setting.plausible if setting else (-limit, limit)
+    return {"is_shaping": setting is not None, "plausible": [lower, upper], "is_plausible": bool(lower <= value <= upper)}
+
+
 RETURNED = {"force": "N", "pull": "N", "moment": "N m", "toe": "mrad", "angle": "mrad", "a": "m/s2"}
 """Unit of what a port returns, by the name of that up to its axis; shares have none."""
 

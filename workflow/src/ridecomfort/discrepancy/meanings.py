@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from .places import parameter
+
 MEANINGS: Mapping[str, Mapping[str, str]] = {
     "strut": {
         "velocity_direction": "friction of seals, bushes or leaves",
@@ -312,15 +314,18 @@ def such_as(place: str, terms: Iterable[str]) -> str:
     return "; ".join(dict.fromkeys(MEANINGS[place][term] for term in terms))
 
 
-def told(place: str, terms: Mapping[str, Mapping[str, float]]) -> str:
+def told(place: str, terms: Mapping[str, Mapping[str, float]], sizes: Iterable[Mapping] = ()) -> str:
     """What usually makes such a force, and what it does here, of what such a force may do."""
-    here = senses(place, terms)
+    here = senses(place, terms, sizes)
     return f"{such_as(place, terms)}; here: {here}" if here else such_as(place, terms)
 
 
-def senses(place: str, terms: Mapping[str, Mapping[str, float]]) -> str:
-    """What a force of these terms does with these factors by part of the car, in words; empty where the terms have none."""
-    return "; ".join(filter(None, (_sense(SENSES.get(place, {}).get(term), factors) for term, factors in terms.items())))
+def senses(place: str, terms: Mapping[str, Mapping[str, float]], sizes: Iterable[Mapping] = ()) -> str:
+    """What a force of these terms does with these factors by part of the car, in words; empty where the terms have none. A factor of which
+    ``sizes`` (``discovery.Discovery``) have an interval that contains nil may be of either sign, of which nothing is said."""
+    either = {size["parameter"] for size in sizes if size["interval"] and size["interval"][0] <= 0.0 <= size["interval"][1]}
+    sure = {term: {part: factor for part, factor in own.items() if parameter(term, part) not in either} for term, own in terms.items()}
+    return "; ".join(filter(None, (_sense(SENSES.get(place, {}).get(term), factors) for term, factors in sure.items())))
 
 
 def _sense(words: tuple[str, str] | None, factors: Mapping[str, float]) -> str:

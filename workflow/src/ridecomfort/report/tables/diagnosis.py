@@ -122,7 +122,7 @@ def _size(size: Mapping) -> str:
     """A size with its interval, in words: with as many digits as tell its ends apart."""
     if _is_left_open(size):
         return f"{words(size['parameter'])} left open by these drives"
-    numbers = (size["size"], *size["interval"])
+    numbers = (size["size"], *_interval(size))
     value, lower, upper = (f"{number:.{_digits(numbers)}g}" for number in numbers)
     amount = value if size["unit"] == "1" else f"{value} {unit(size['unit'])}"
     return f"{words(size['parameter'])} {amount} ({lower} to {upper})"
@@ -130,8 +130,30 @@ def _size(size: Mapping) -> str:
 
 def _is_left_open(size: Mapping) -> bool:
     """Whether a size may be anything that is plausible, as that of a stop that no drive meets: its value says nothing."""
-    (lower, upper), (least, most) = size.get("interval", (np.nan, np.nan)), size.get("plausible") or (np.nan, np.nan)
+    (lower, upper), (least, most) = size.get("interval") or (np.nan, np.nan), size.get("plausible") or (np.nan, np.nan)
     return lower <= least and most <= upper
+
+
+def _interval(size: Mapping) -> Sequence[float] | None:
+    """The interval of a size, if it has one; of what only shapes a force no farther than is plausible, where no other was tried."""
+    interval, plausible = size.get("interval"), size.get("plausible")
+    return np.clip(interval, *plausible).tolist() if interval and plausible and size.get("is_shaping") else interval
+
+
+def _estimate(size: Mapping) -> tuple:
+    """The value of a size, its interval and whether it is plausible, as they stand in the table; empty where it has none."""
+    if not size:
+        return None, None, None, ""
+    value, (lower, upper), plausible = size["size"], _interval(size) or (None, None), {True: "yes", False: "no", None: ""}[size.get("is_plausible")]
+    if lower is not None and lower <= 0.0 <= upper and not size.get("is_shaping"):
+        plausible = f"{plausible}, may be nil".removeprefix(", ")
+    if _is_left_open(size):
+        value, lower, upper, plausible = None, None, None, "left open"
+    if lower is None and value is not None:
+        plausible = HELD.get(size.get("is_typical"), "held")
+    if size.get("plausible"):
+        plausible += " ({:.4g} to {:.4g})".format(*size["plausible"]) + (", at its bound" if _is_at_bound(size) else "")
+    return value, lower, upper, plausible
 
 
 def _digits(numbers: Sequence[float]) -> int:
@@ -171,31 +193,17 @@ def missing_effects(found: Diagnosis) -> Table:
         shares = [_percent(effect[key]) for key in ("share", "held_out_share", "absorbed")]
         like = ", ".join(words(name) for name in effect["like"]) or "–"
         of_all = (effect["p_value"], *shares, like)
-        sizes = [*effect["sizes"], *({**one, "is_held": True} for one in effect.get("held", ()))]
-        for number, size in enumerate(sizes or [{}]):
-            lower, upper = size.get("interval", (None, None))
-            plausible = {True: "yes", False: "no", None: ""}[size.get("is_plausible")]
-            if lower is not None and lower <= 0.0 <= upper and not size.get("is_shaping"):
-                plausible += ", may be nil"
-            if _is_left_open(size):
-                size, lower, upper, plausible = size | {"size": None}, None, None, "left open"
-            if size.get("is_held"):
-                plausible = HELD[size["is_typical"]]
-            if size.get("plausible"):
-                plausible += " ({:.4g} to {:.4g})".format(*size["plausible"]) + (", at its bound" if _is_at_bound(size) else "")
-            rows.append(
-                (name, words(size.get("parameter", "")), unit(size.get("unit", "")), size.get("size"), lower, upper,
-                 plausible, *(of_all if number == 0 else (*(None,) * 4, "")))
-            )  # fmt: skip
+        for number, size in enumerate([*effect["sizes"], *effect.get("held", ())] or [{}]):
+            of_effect = of_all if number == 0 else (*(None,) * 4, "")
+            rows.append((name, words(size.get("parameter", "")), unit(size.get("unit", "")), *_estimate(size), *of_effect))
     proposal = found.verdict.get("proposal") or {}
     if proposal.get("form"):
         breaks.append(len(rows))
         of_all = (proposal["p_value"], *(_percent(proposal[f"own_{key}"]) for key in ("share", "held_out_share")), None)
         told_of_form = [size for size in proposal["sizes"] if size["interval"] or size["size"]]  # a part that is held at nil is none
         for number, size in enumerate(told_of_form):
-            told = (words(size["parameter"]), unit(size["unit"]), size["size"], *(size["interval"] or (None, None)))
             of_form = of_all if number == 0 else (None,) * 4
-            rows.append((f"{words(proposal['name'])} (proposed form)", *told, "" if size["interval"] else "held", *of_form, ""))
+            rows.append((f"{words(proposal['name'])} (proposed form)", words(size["parameter"]), unit(size["unit"]), *_estimate(size), *of_form, ""))
     if not rows:
         beside = "" if found.model == BASE else f" beside {found.model.replace(JOIN, ', ').replace('_', ' ')}"
         rows.append((f"none{beside}", *("",) * 2, *(None,) * 3, "", *(None,) * 4, ""))
