@@ -193,6 +193,21 @@ def test_parameters_that_calibration_holds_beside_the_drives_are_to_be_calibrate
     assert "the vehicle's file" not in [row["what"] for row in rows(diagnosed.tables(made_up.diagnosis())["verdict"])]
 
 
+def test_what_is_to_be_calibrated_too_is_told_ready_to_copy_with_all_that_stands_there(project):
+    off = {"parameters": [{"parameter": "damping_front"}, {"parameter": "tyre_friction"}]}
+    bar = {"parameter": "anti_roll_stiffness_rear", "unit": "N m/rad", "given": 10000.0, "bounds": [8500.0, 11500.0],
+           "wider": [2833.3, 34500.0], "value": 19900.0, "interval": [19000.0, 20800.0]}  # fmt: skip
+    beyond = {"parameters": [bar], "share": 0.27, "held_out_share": 0.16, "is_first": True}
+    for more, first in (({}, []), ({"beyond_bounds": beyond}, ["anti_roll_stiffness_rear"])):
+        found = made_up.diagnosis({**made_up.VERDICT, "off_file": off, **more})
+        found.ranking.attrs["calibrated"] = "tyre_friction, roll_inertia, damper_knee.front"
+        (said,) = [row["in_words"] for row in rows(diagnosed.tables(found)["verdict"]) if row["what"] == "the vehicle's file"]
+        written = yaml.safe_load(said.partition("study.yaml, ")[2].partition(" with those")[0])
+        names = ["tyre_friction", "roll_inertia", *first, "damping_front"]
+        assert written == {"calibration": {"parameters": names}}
+        assert configuration.load({"sites": ["own"], **written}, project).settings["calibration"]["parameters"] == names
+
+
 def test_parameters_that_are_another_explanation_come_last():
     bar = {"parameter": "anti_roll_stiffness_rear", "unit": "N m/rad", "given": 10000.0, "bounds": [8500.0, 11500.0],
            "wider": [2833.3, 34500.0], "value": 19900.0, "interval": [19000.0, 20800.0]}  # fmt: skip

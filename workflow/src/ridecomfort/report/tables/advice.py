@@ -140,11 +140,12 @@ def farther(beyond: Mapping) -> str:
     )
 
 
-def calibrated_too(off_file: Mapping) -> str:
-    """What to do where calibration holds parameters of the vehicle to which the drives give other values."""
-    names = ", ".join(one["parameter"] for one in off_file["parameters"])
+def calibrated_too(off_file: Mapping, calibrated: Sequence[str] = ()) -> str:
+    """What to do where calibration holds parameters of the vehicle to which the drives give other values, beside those that are ``calibrated``."""
+    names = [one["parameter"] for one in off_file["parameters"]]
+    whole = f", calibration: {{parameters: [{', '.join(dict.fromkeys([*calibrated, *names]))}]}} with those that stand there" if calibrated else ""
     return (
-        f"Add {names} to calibration: parameters in config/study.yaml{_no_longer_uncertain(off_file['parameters'])}, compare and diagnose again: the search "
+        f"Add {', '.join(names)} to calibration: parameters in config/study.yaml{whole}{_no_longer_uncertain(off_file['parameters'])}, compare and diagnose again: the search "
         "lets them be wrong, but calibration holds them, "
         "so that the error ladder falls less than is said here, and calibrated sizes of effects may make up for them."
     )

@@ -13,7 +13,7 @@ from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.terms import SIDE
-from ...discrepancy.verdict import first_sentence, is_vehicle_first, percent, sentence
+from ...discrepancy.verdict import first_sentence, is_vehicle_first, percent, sentence, told_beyond
 from ...effects.contract import PORTS
 from ...identifiability import AT_BOUND
 from ...study import BASE, JOIN
@@ -96,7 +96,9 @@ def verdict(found: Diagnosis) -> Table:
     if comes_first:
         rows.append(("the vehicle", advice.farther(beyond)))
     if said.get("off_file"):
-        rows.append(("the vehicle's file", advice.calibrated_too(said["off_file"])))
+        calibrated = [name for name in found.ranking.attrs.get("calibrated", "").split(", ") if name and "." not in name]  # no sizes of effects
+        calibrated += [one["parameter"] for one in told_beyond(beyond)] if calibrated and comes_first else []
+        rows.append(("the vehicle's file", advice.calibrated_too(said["off_file"], calibrated)))
     rows.append(("next, after the vehicle" if comes_first else "next", advice.next_step(found)))
     if beyond and not comes_first:
         rows.append(("or, the vehicle", advice.farther(beyond)))
