@@ -191,7 +191,7 @@ def curves() -> xr.Dataset:
 
 PROPOSAL = {
     "name": "discovered", "form": "80 N tanh(velocity / 0.005)", "place": "strut", "port": "suspension", "such_as": "friction of seals",
-    "share": 0.84, "held_out_share": 0.92, "own_share": 0.84, "own_held_out_share": 0.92, "p_value": 0.0015,
+    "terms": {"velocity_direction": {"": 80.0}}, "share": 0.84, "held_out_share": 0.92, "own_share": 0.84, "own_held_out_share": 0.92, "p_value": 0.0015,
     "sizes": [{"parameter": "velocity_direction", "unit": "N", "size": 80.0, "interval": [78.0, 82.0]}],
 }  # fmt: skip
 """A proposed form, as in a verdict."""

@@ -78,7 +78,8 @@ def test_what_shapes_a_form_has_no_interval_beyond_what_is_plausible_and_every_s
         "strut", "velocity_saturating", part, size
     )
     sizes = [own("front", 12.3, [-143.0, 167.0]), own("rear", -3511.0, [-4232.0, -2790.0]), own("knee", 0.08, [-0.0154, 0.176]), own("linear", 0.0, [-4.0, 3.5])]
-    verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"sizes": sizes}}
+    terms = {"velocity_saturating": {"front": 12.3, "rear": -3511.0}}
+    verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"sizes": sizes, "terms": terms}}
     tables = diagnosed.tables(made_up.diagnosis(verdict))
     (told,) = [row["in_words"] for row in rows(tables["verdict"]) if row["what"] == "its sizes"]
     assert "knee 0.08 m/s (0.02 to 0.176), velocity saturating linear left open by these drives" in told
@@ -100,8 +101,9 @@ def test_a_verdict_says_of_which_calibration_it_is():
 
 
 def test_a_form_is_written_in_usual_notation_and_says_what_a_side_is():
-    form = in_words("contact", {"slip_of_load": {"front": -2.4e-06}, "side_slip_of_sides": {"front": 0.0076}}, {"slip_of_load": {"linear": 0.14}})
-    verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"form": form, "place": "contact", "port": "tyre_planar"}}
+    terms = {"slip_of_load": {"front": -2.4e-06}, "side_slip_of_sides": {"front": 0.0076}}
+    form = in_words("contact", terms, {"slip_of_load": {"linear": 0.14}})
+    verdict = {**made_up.nothing(), "verdict": "outside", "proposal": PROPOSAL | {"form": form, "place": "contact", "port": "tyre_planar", "terms": terms}}
     (row,) = [row for row in rows(diagnosed.tables(made_up.diagnosis(verdict))["verdict"]) if row["what"] == "proposed form"]
     assert row["in_words"] == (
         "At the contact: slip_x → slip_x + (−2.4e−06 1/N front) (load + 1.867e+05 · slip_x); "

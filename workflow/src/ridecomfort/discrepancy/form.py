@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from .places import FORCE, PLACES, at_typical, expression, parameter, scale, settings
+from .places import FORCE, MOTION, PLACES, at_typical, expression, parameter, scale, settings
 from .terms import AXLES, CLOSE, FIRM, LINEAR, WHEELS, Term
 
 WIDTH = 3.0
@@ -60,6 +60,52 @@ SEEN = {
     "vertical_acceleration": "m/s2", "roll_acceleration": "rad/s2", "pitch_acceleration": "rad/s2", "slip_x": "", "slip_y": "", "slope": "",
 }  # fmt: skip
 """Unit of what a place sees, where it is told."""
+
+COMPRESSED = {"deflection": "deflection from rest in m, positive in compression", "velocity": "velocity in m/s, positive in compression"}
+
+APART = {"force": "force in N between body and wheel, positive pushing apart", **COMPRESSED}
+
+OTHERS = {"along": "the other strut on its side", "across": "the other strut of its axle", "opposite": "the strut opposite to it in both"}
+
+OF_BODY = {f"motion.{name}": f"{name.replace('_', ' ')} of the body in {SEEN[name]}" for name in vars(MOTION) if name in SEEN} | {
+    "motion.s": "way s in m", **{f"motion.{axle}": f"place of the {axle} axle in m ahead of the centre of gravity" for axle in AXLES}
+}
+
+NAMES: Mapping[str, Mapping[str, str]] = {
+    "strut": {**APART, "force_x": "force_x of the tyre in N", "force_y": "force_y of the tyre in N"},
+    "interconnection": APART | {f"{own}_{other}": f"{own}_{other}, the {own} of {which}" for other, which in OTHERS.items() for own in COMPRESSED},
+    "tyre": {
+        "force": "radial force in N, positive pushing the wheel up", "deflection": "deflection of the tyre in m, positive pressed",
+        "velocity": "velocity of that in m/s, positive pressed", "rest": "rest, its deflection at rest in m",
+        "rotation": "rotation, the turn of the wheel in rad", "spin": "spin of the wheel in rad/s",
+    },
+    "contact": {
+        "slip_x": "slip_x, the longitudinal slip that the tyre answers to", "slip_y": "slip_y, the tangent of the slip angle that the tyre answers to",
+        "pull": "pull, the extra force in N that pulls the axle forward", "load": "load of the tyre in N", "speed": "speed in m/s",
+        "slope": "slope of the road under the wheel against the plane under all four", "force_x": "force_x that the tyre had the step before in N",
+    },
+    "links": {
+        "recession": "recession, how far the wheel moves back per compression (m/m)", "toe": "toe, the angle in rad by which the wheel is turned to the left",
+        "scrub": "scrub, how far to the left the wheel moves per compression (m/m; beside that of its roll centre)", "deflection": COMPRESSED["deflection"],
+    },
+    "body": {f"{kind}_{axis}": f"{kind}_{axis} in {RETURNED[kind]} on the sprung mass" for kind in ("force", "moment") for axis in "xyz"} | OF_BODY,
+    "steering": {
+        "angle": "angle of the front wheels in rad, positive to the left", "speed": "speed in m/s",
+        "force_y": "force_y of both front tyres in N, positive to the left",
+    },
+    "structure": {f"a_{axis}": f"a_{axis} in m/s2 of the sensor's place against the rigid body" for axis in "xyz"}
+    | {axis: f"{axis} of the sensor in m from the centre of gravity" for axis in "xyz"} | OF_BODY,
+}  # fmt: skip
+"""What the names in the formulas of a place mean; axes are those of ISO 8855."""
+
+
+def names_in(place: str, form: str, terms: Iterable[str]) -> str:
+    """What stands in the formula ``form`` of a force of these ``terms``, in words: what it sees and makes, and what shapes it."""
+    used = re.findall(r"\b[a-z_]+(?:\.[a-z_]+)?\b", form)
+    told = [meaning for name, meaning in NAMES[place].items() if name in used]
+    shaping = [setting for term in terms for setting in settings(place, term) if setting is not LINEAR and setting.name in used]
+    told += [one.meaning if one.meaning.startswith(one.name) else f"{one.name}: {one.meaning}" for one in shaping]
+    return "; ".join(dict.fromkeys(told))
 
 
 def typically(place: str, terms: Factors, shaped: Factors = {}) -> str:

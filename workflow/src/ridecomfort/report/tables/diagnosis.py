@@ -9,12 +9,12 @@ import xarray as xr
 
 from ...discrepancy import ranking
 from ...discrepancy.balance import LITTLE
+from ...discrepancy.form import names_in
 from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.terms import SIDE
 from ...discrepancy.verdict import first_sentence, is_vehicle_first, percent, sentence, told_beyond
-from ...effects.contract import PORTS
 from ...identifiability import AT_BOUND
 from ...study import BASE, JOIN
 from .. import catalogue
@@ -83,7 +83,7 @@ def verdict(found: Diagnosis) -> Table:
     if proposal.get("form"):
         of_side = f"; {OF_SIDE}" if SIDE in proposal["form"] else ""
         rows.append(("proposed form", f"At the {proposal['place']}: {formula(proposal['form'])}{of_side}."))
-        rows.append(("in it", sentence(PORTS[proposal["port"]].meaning)))
+        rows.append(("in it", sentence(names_in(proposal["place"], proposal["form"], proposal["terms"]))))
         rows.append(("such as", sentence(proposal["such_as"])))
         rows += [(what, sentence(proposal[key])) for key, what in (("here", "here it is"), ("typically", "at typical motion")) if proposal.get(key)]
         beside = proposal.get("beside")
