@@ -267,6 +267,10 @@ def broken(column, row, value):
     return frame
 
 
+def since_1970(frame):
+    return frame.assign(**{"t [ms]": frame["t [ms]"] + 1.7e12})
+
+
 @pytest.mark.parametrize(
     ("frame", "columns", "words"),
     [
@@ -278,6 +282,7 @@ def broken(column, row, value):
         (table(), {k: v for k, v in COLUMNS.items() if k != "time"}, ("no column stands for time",)),
         (table(), COLUMNS | {"v_x": {"column": "speed [km/h]", "unit": "m/s"}}, ("'m/s' for v_x", "'speed [km/h]'")),
         (broken("t [ms]", 500, 0.0), COLUMNS, ("line 502", "strictly increasing")),
+        (since_1970(broken("t [ms]", 500, 0.0)), COLUMNS, ("line 502", "1700000000 s after 1700000004.99 s")),
     ],
 )
 def test_what_is_wrong_in_a_table_is_said_in_one_line(tmp_path, frame, columns, words):

@@ -285,6 +285,10 @@ def irregular():
     return quantities(a_y=(time, 0 * TIME))
 
 
+def since_1970(given):
+    return {name: (time + 1.7e9, values) for name, (time, values) in given.items()}
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [
@@ -300,6 +304,10 @@ def irregular():
         (spoilt("s", -1, 394.0), ("s: sample 2000", "19.99 s", "-5.6 m", "v_x drives 0.2 m", "within 3 m")),
         (quantities(s=(TIME, 20 * TIME + 5 * (TIME >= 8))), ("s: sample 801", "8 s", "+5.2 m")),
         (quantities(s=(TIME, (20 * TIME) % 100.0)), ("s: sample 501", "5 s", "-99.8 m", "v_x drives 0.2 m")),
+        (since_1970(backwards()), ("sample 701", "1700000006.49 s after 1700000006.99 s")),
+        (since_1970(irregular()), ("sample", "a step of 0.06 s follows on 1700000007.99 s")),
+        (since_1970(spoilt("a_y", 41, np.nan)), ("sample 42 (1700000000.41 s)",)),
+        (since_1970(spoilt("v_x", 41, 120.0)), ("sample 42 (1700000000.41 s)",)),
         (quantities(v_x=(TIME + 100, 20 + 0 * TIME)), ("overlap",)),
         (quantities(v_x=(np.delete(TIME, slice(300, 400)), np.full(1900, 20.0))), ("pause of 1.01 s", "2.99 s")),
     ],

@@ -54,7 +54,7 @@ def speed_of(place: np.ndarray, time: np.ndarray, rate: float, within: tuple[flo
     if bad.size:
         i = bad[0]
         raise InputError(
-            f"changes by {speed[i]:.4g} m/s at {round(time[i], 6) + 0.0:.6g} s (expected {lower:g} to {upper:g}; are the units of s and of its time right?)",
+            f"changes by {speed[i]:.4g} m/s at {sampling.stamp(time[i])} s (expected {lower:g} to {upper:g}; are the units of s and of its time right?)",
             file=file, place="s",
         )  # fmt: skip
     return speed, said
@@ -92,7 +92,7 @@ def check_beside_speed(time: np.ndarray, place: np.ndarray, clock: np.ndarray, s
         i = known[bad[0] + 1]
         told, instead = ("v_x drives", ", or leave s out, which is then integrated from v_x") if is_recorded else ("it goes on by", "")
         raise InputError(
-            f"sample {before + i + 1} ({time[i]:.6g} s) lies {step[bad[0]]:+.4g} m from the value before it, while {told} {expected[bad[0]]:.4g} m "
+            f"sample {before + i + 1} ({sampling.stamp(time[i])} s) lies {step[bad[0]]:+.4g} m from the value before it, while {told} {expected[bad[0]]:.4g} m "
             f"(expected within {JUMP:g} m of that; cut the record there{instead})",
             file=file,
             place="s",

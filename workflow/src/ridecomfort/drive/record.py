@@ -199,14 +199,14 @@ def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> N
     if bad.size:
         i = bad[0]
         raise InputError(
-            f"sample {i + 1} ({time[i]:.6g} s) holds {values[i]} (expected a number)", file=file, place=name
+            f"sample {i + 1} ({sampling.stamp(time[i])} s) holds {values[i]} (expected a number)", file=file, place=name
         )
     lower, upper = REASONABLE[name]
     bad = np.flatnonzero((values < lower) | (values > upper))
     if bad.size:
         i = bad[0]
         raise InputError(
-            f"sample {i + 1} ({time[i]:.6g} s) holds {values[i]:.6g} {VARIABLES[name].unit} "
+            f"sample {i + 1} ({sampling.stamp(time[i])} s) holds {values[i]:.6g} {VARIABLES[name].unit} "
             f"(expected {lower:g} to {upper:g}; is its unit right?)",
             file=file,
             place=name,

@@ -38,6 +38,11 @@ def rate_of(time: np.ndarray) -> float:
     return float((len(time) - 1) / (time[-1] - time[0]))
 
 
+def stamp(time: float) -> str:
+    """A time in s as it is told to a user, to the microsecond; to the millisecond where it counts from 1970."""
+    return f"{round(float(time), 6) + 0.0:.13g}"
+
+
 def integral(values: np.ndarray, over: np.ndarray) -> np.ndarray:
     """Integral of values over what they stand at, from the first on, by the trapezoidal rule."""
     return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(over))])
@@ -54,7 +59,7 @@ def check_clock(time: np.ndarray, *, file=None, place: str = "time") -> None:
     if back.size:
         i = back[0]
         raise InputError(
-            f"the clock does not advance at sample {i + 2}: {time[i + 1]:.6g} s after {time[i]:.6g} s "
+            f"the clock does not advance at sample {i + 2}: {stamp(time[i + 1])} s after {stamp(time[i])} s "
             "(expected strictly increasing time)",
             file=file,
             place=place,
@@ -78,8 +83,8 @@ def require_uniform(time: np.ndarray, *, file=None, place: str = "time") -> tupl
         gaps = np.diff(time)
         widest = int(np.argmax(np.abs(gaps - np.median(gaps))))
         raise InputError(
-            f"irregular sampling: sample {int(alone.argmax()) + 1}, at {time[alone.argmax()]:.6g} s, lies {late[alone.argmax()]:+.2g} intervals from a "
-            f"uniform clock, and a step of {gaps[widest]:.4g} s follows on {time[widest]:.6g} s where {np.median(gaps):.4g} s is usual (expected time "
+            f"irregular sampling: sample {int(alone.argmax()) + 1}, at {stamp(time[alone.argmax()])} s, lies {late[alone.argmax()]:+.2g} intervals from a "
+            f"uniform clock, and a step of {gaps[widest]:.4g} s follows on {stamp(time[widest])} s where {np.median(gaps):.4g} s is usual (expected time "
             f"stamps within {FARTHEST_STAMP:g} intervals of a uniform clock, {NEIGHBOURS} in a row within {LARGEST_JITTER:g} rms; where "
             "samples are lost, cut the record; where a computer stamped them late, write their number over the rate)",
             file=file,
@@ -242,7 +247,7 @@ def resample_slow(time, values, new_time, *, file=None, place=None) -> np.ndarra
     i = int(gaps.argmax())
     if gaps[i] > LARGEST_GAP:
         raise InputError(
-            f"a pause of {gaps[i]:.3g} s at {time[i]:.6g} s (expected none beyond {LARGEST_GAP:g} s)",
+            f"a pause of {gaps[i]:.3g} s at {stamp(time[i])} s (expected none beyond {LARGEST_GAP:g} s)",
             file=file,
             place=place,
         )

@@ -91,11 +91,13 @@ def _numbers(series: pd.Series, path, column: str) -> np.ndarray:
 
 def _check_clock(time: np.ndarray, path, column: str) -> None:
     """Raise InputError that names the line where time (s) does not advance."""
+    from ..sampling import stamp
+
     back = np.flatnonzero(np.diff(time) <= 0)
     if back.size:
         i = back[0]
         raise InputError(
-            f"line {csvtable.line_of(path, i + 1)}, column {column!r}: the clock does not advance, {time[i + 1]:.6g} s after {time[i]:.6g} s "
+            f"line {csvtable.line_of(path, i + 1)}, column {column!r}: the clock does not advance, {stamp(time[i + 1])} s after {stamp(time[i])} s "
             "(expected strictly increasing time)",
             file=path,
         )
