@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -227,6 +229,56 @@ def test_a_place_that_is_held_until_the_next_is_known_is_that_of_its_changes(hol
     assert time[0] == pytest.approx(hold, abs=0.011) and time[-1] > TIME[-1] - 1.1 * hold
 
 
+@pytest.mark.parametrize("hold", [0.1, 0.2, 1.0])
+def test_a_speed_that_is_held_until_the_next_is_known_is_that_of_its_changes(hold):
+    """Told late by half a hold, its way would be 0.6 m short in 20 s with a hold of a second."""
+    speed = lambda time: 20 + 1.2 * np.cos(0.8 * time) + 0.06 * time
+    known = hold * np.floor(TIME / hold + 1e-6)
+    drive = record.from_arrays({name: pair for name, pair in quantities(v_x=(TIME, speed(known))).items() if name != "s"})
+    time = drive["time"].values + drive.attrs["start_time"]
+    assert np.abs(drive["v_x"].values - speed(time)).max() < 0.11 * hold**2
+    driven = 20 * time + 1.5 * np.sin(0.8 * time) + 0.03 * time**2
+    assert np.abs(drive["s"].values - (driven - driven[0])).max() < 0.15 * hold**2
+    assert f"v_x, held for {hold:.3g} s at a time" in drive.attrs["treatment"] and time[0] == pytest.approx(hold, abs=0.011)
+
+
+@pytest.mark.parametrize("decimals", [9, 2])
+def test_a_speed_in_whole_kilometres_an_hour_stays_as_it_is(decimals):
+    rounded = np.round(np.round(72 + 4 * np.cos(0.8 * TIME) + 0.2 * TIME) / 3.6, decimals)
+    drive = record.from_arrays({name: pair for name, pair in quantities(v_x=(TIME, rounded)).items() if name != "s"})
+    np.testing.assert_allclose(drive["v_x"].values, rounded, rtol=0, atol=1e-9)
+    assert drive.attrs["treatment"] == "s integrated from v_x"
+
+
+def standing(*stands, rounded=False):
+    """The distance of an uneven drive, which stands still from some instants until others (s), and that of the drive."""
+    driven = 20 * TIME + 1.5 * np.sin(0.8 * TIME)
+    told = np.round(driven) if rounded else driven
+    for begin, end in stands:
+        told = np.where((TIME > begin - 0.001) & (TIME < end - 0.001), np.interp(begin, TIME, told), told)
+    return told, driven
+
+
+@pytest.mark.parametrize("is_alone", [False, True])
+@pytest.mark.parametrize(("rounded", "near"), [(False, 0.15), (True, 0.65)])
+def test_a_distance_that_stands_now_and_then_goes_on_between_where_it_does(rounded, near, is_alone):
+    told, driven = standing((0.0, 0.5), (5.0, 5.3), (9.0, 10.0), (19.8, 20.0), rounded=rounded)
+    given = alone(told) if is_alone else quantities(s=(TIME, told), v_x=(TIME, np.gradient(driven, TIME)))
+    drive = record.from_arrays(given)
+    time = drive["time"].values + drive.attrs["start_time"]
+    assert np.abs(drive["s"].values - np.interp(time, TIME, driven)).max() < near  # of a line over a second, an eighth of the acceleration
+    assert time[0] == pytest.approx(0.5, abs=0.06) and time[-1] == pytest.approx(19.8, abs=0.06)
+    assert re.search(r"cut at an end \(places: 4, the first at 0 s, for up to (0.99|1.02) s\)", drive.attrs["treatment"])
+
+
+def test_a_distance_that_stands_where_the_vehicle_does_stays_as_it_is():
+    speed = np.interp(TIME, [0, 4, 8, 12, 16, 20], [16, 16, 0, 0, 16, 16])
+    driven = sampling.integral(speed, TIME)
+    drive = record.from_arrays(quantities(s=(TIME, driven), v_x=(TIME, speed)))
+    np.testing.assert_allclose(drive["s"].values, driven, rtol=0, atol=1e-9)
+    assert drive.attrs["treatment"] == "none"
+
+
 def test_a_place_that_is_rounded_or_seldom_changes_stays_as_it_is():
     aside = np.where(TIME < 8, 0.1, np.where(TIME < 13, 0.4, np.where(TIME < 16, 0.2, 0.0)))
     given = quantities(s=(TIME, np.round(20 * TIME + 1.5 * np.sin(0.8 * TIME))), e=(TIME, aside))
@@ -304,6 +356,8 @@ def since_1970(given):
         (spoilt("s", -1, 394.0), ("s: sample 2000", "19.99 s", "-5.6 m", "v_x drives 0.2 m", "within 3 m")),
         (quantities(s=(TIME, 20 * TIME + 5 * (TIME >= 8))), ("s: sample 801", "8 s", "+5.2 m")),
         (quantities(s=(TIME, (20 * TIME) % 100.0)), ("s: sample 501", "5 s", "-99.8 m", "v_x drives 0.2 m")),
+        (quantities(s=(TIME, standing((5.0, 9.0))[0])), ("s: stands at 98.9 m from 5 to 8.99 s", "v_x drives 79.8 m", "2.1 s at most", "leave s out")),
+        (alone(standing((5.0, 9.0))[0]), ("s: stands at 98.9 m from 5 to 8.99 s", "it drives", "2.1 s at most; cut the record there)")),
         (since_1970(backwards()), ("sample 701", "1700000006.49 s after 1700000006.99 s")),
         (since_1970(irregular()), ("sample", "a step of 0.06 s follows on 1700000007.99 s")),
         (since_1970(spoilt("a_y", 41, np.nan)), ("sample 42 (1700000000.41 s)",)),

@@ -1,4 +1,5 @@
-"""A distance that was recorded along the road: what was held until the next was known, whether it goes on as a drive does, and how fast."""
+"""A distance that was recorded along the road, and what else is told slowly: what was held until the next was known, whether it goes on as a drive
+does, and how fast."""
 
 from __future__ import annotations
 
@@ -14,32 +15,84 @@ JUMP, FASTER = 3.0, 0.2
 """m, and share of what the recorded speed drives, by which the distance may change otherwise from one sample to the next: the fix of a
 receiver jumps by a metre or two."""
 
-LONGEST_HOLD = 1.1
-"""s for which a faster table usually holds a place until the next is known, at most: receivers tell one a second or more."""
+LONGEST_HOLD, LONGEST_STAND = 1.1, 2.1
+"""s for which a faster table usually holds a value until the next is known, at most: receivers tell one a second or more; and for which a distance
+may stand still once while the vehicle drives on, as where one of these is lost: over it, 0.5 m/s2 bends a line of place by 0.3 m."""
+
+STANDS, OFTEN = 1.0, 2.0
+"""m that the vehicle drives on at least while a distance stands still, and times what it usually does: one that is rounded stands for a step."""
+
+ROUNDED, ROUNDED_SPEED = 0.01, 0.05
+"""Steps within which places that lie whole steps apart do so, and changes of a speed do: what is rounded may have been converted and rounded again."""
+
+JITTER, DIFFERENTIATED = 1.0, "v_x differentiated from s"
+"""m/s by which the slope of a distance may jitter (rms) and be a speed as it is: a centimetre of noise at 100 Hz; and what is said of this speed."""
 
 AROUND = 9
 """Steps of a distance without a speed beside it, the median of which is what it goes on by."""
 
 
-def unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> tuple[dict, list[str]]:
-    """Quantities, each (time in s, values), and what was done to them: a place that a faster table holds until the next is known, as that of a
-    receiver, is linear between the values where it changes, which are those of their time; ``s`` goes from its first change to its last.
+def unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], *, file=None) -> tuple[dict, list[str]]:
+    """Quantities, each (time in s, values), and what was done to them: a place or a speed that a faster table holds until the next is known, as that
+    of a receiver, is linear between the values where it changes, which are those of their time; ``s`` and ``v_x`` go from their first change to their last.
+    A distance that stands still now and then while the vehicle drives on is linear from there to where it goes on, and cut at its ends.
 
-    Values that lie whole steps apart were rounded: where one changes it is half a step off.
+    Values that lie whole steps apart were rounded: where one changes it is half a step off. Raises InputError where a distance stands for too long.
     """
     result, done = dict(arrays), []
-    for name in ("s", "e"):
+    for name in ("s", "e", "v_x"):
         time, values = arrays.get(name, (np.empty(0), np.empty(0)))
         known = 1 + np.flatnonzero(np.diff(values))
-        if len(known) < 3 or np.median(np.diff(known)) < 2 or (hold := np.median(np.diff(time[known]))) > LONGEST_HOLD:
+        if len(known) < 3:
             continue
-        steps = (values[known] - values[0]) / np.median(np.abs(np.diff(values[known])))
-        if np.allclose(steps, np.round(steps), rtol=0.0, atol=0.01):
+        stands = _stands(time, values, known, arrays.get("v_x"), file=file) if name == "s" else []
+        if _is_held(name, time, values, known):
+            rows, kept = known, slice(None) if name == "e" else slice(known[0], known[-1] + 1)
+            done.append(f"{name}, held for {np.median(np.diff(time[known])):.3g} s at a time, interpolated between its changes")
+        elif stands:
+            rows = np.setdiff1d(np.arange(len(time)), np.concatenate([np.arange(first + (first > 0), last + 1) for first, last in stands]))
+            kept = slice(rows[0], rows[-1] + 1)
+            longest, begin = max(time[last] - time[first] for first, last in stands), time[stands[0][0]]
+            done.append(
+                "s, which stands still while the vehicle drives on, interpolated there, or cut at an end "
+                f"(places: {len(stands)}, the first at {sampling.stamp(begin)} s, for up to {longest:.3g} s)"
+            )
+        else:
             continue
-        kept = slice(known[0], known[-1] + 1) if name == "s" else slice(None)
-        result[name] = time[kept], np.interp(time[kept], time[known], values[known])
-        done.append(f"{name}, held for {hold:.3g} s at a time, interpolated between its changes")
+        result[name] = time[kept], np.interp(time[kept], time[rows], values[rows])
     return result, done
+
+
+def _is_held(name: str, time: np.ndarray, values: np.ndarray, known: np.ndarray) -> bool:
+    """Whether values that change in the rows ``known`` are held in between until the next is known, and not rounded."""
+    if np.median(np.diff(known)) < 2 or np.median(np.diff(time[known])) > LONGEST_HOLD:
+        return False
+    changes = np.diff(values[known])
+    steps = (changes if name == "v_x" else values[known] - values[0]) / np.median(np.abs(changes))
+    return not np.allclose(steps, np.round(steps), rtol=0.0, atol=ROUNDED_SPEED if name == "v_x" else ROUNDED)
+
+
+def _stands(time: np.ndarray, place: np.ndarray, known: np.ndarray, speed: tuple[np.ndarray, np.ndarray] | None, *, file) -> list[tuple[int, int]]:
+    """First and last rows between which a distance that changes in the rows ``known`` stands still longer than it usually does while the vehicle
+    drives on, by its speed (time in s, m/s), if recorded, else as by the distance. Raises InputError where it goes on after more than LONGEST_STAND."""
+    if speed is not None:
+        driven = np.interp(time, speed[0], sampling.integral(speed[1], speed[0]))
+    else:
+        pace = np.median(np.diff(place[known]) / np.diff(time[known]))
+        beyond = np.minimum(time - time[known[0]], 0.0) + np.maximum(time - time[known[-1]], 0.0)
+        driven = np.interp(time, time[known], place[known]) + pace * beyond
+    first, last = np.concatenate([[0], known]), np.concatenate([known, [len(time)]]) - 1
+    while_standing = driven[last] - driven[first]
+    far = while_standing > max(STANDS, OFTEN * np.median(while_standing))
+    for i in 1 + np.flatnonzero(far[1:-1]):
+        if time[last[i]] - time[first[i]] > LONGEST_STAND:
+            raise InputError(
+                f"stands at {place[first[i]]:.1f} m from {sampling.stamp(time[first[i]])} to {sampling.stamp(time[last[i]])} s while "
+                f"{'it' if speed is None else 'v_x'} drives {while_standing[i]:.3g} m (expected {LONGEST_STAND:g} s at most; cut the record there"
+                f"{'' if speed is None else ', or leave s out, which is then integrated from v_x'})",
+                file=file, place="s",
+            )  # fmt: skip
+    return list(zip(first[far], last[far]))
 
 
 def speed_of(place: np.ndarray, time: np.ndarray, rate: float, within: tuple[float, float], *, file) -> tuple[np.ndarray, str]:

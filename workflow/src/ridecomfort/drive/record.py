@@ -64,7 +64,7 @@ def from_arrays(
     ``quantities`` maps a name of ``vocabulary.DRIVE`` to (time in s, values); all six
     ``SIGNALS`` and at least one of ``v_x`` and ``s`` are needed. The stretch that all
     of them cover is brought to ``rate`` (Hz): inertial signals through an anti-alias
-    filter, all through the same, speed and place linearly; a place that is held until the next is known (``distance.unheld``) between its changes.
+    filter, all through the same, speed and place linearly; what is held of these until the next is known (``distance.unheld``) between its changes.
     ``s`` that is missing is integrated from ``v_x``
     beginning at ``distance_start`` (m), which is the way driven until ``align`` makes a place on the road of it, ``v_x`` that is missing is the
     derivative of ``s``, low-passed where that jitters beyond reason.
@@ -103,7 +103,7 @@ def from_arrays(
         distance.check_beside_speed(*arrays["s"], *arrays["v_x"], file=file)
     elif "s" in arrays:
         distance.check_alone(*arrays["s"], file=file)
-    arrays, held = distance.unheld(arrays)
+    arrays, held = distance.unheld(arrays, file=file)
     first = max(time[0] for time, _ in arrays.values())
     last = min(time[-1] for time, _ in arrays.values())
     start, interval, _ = sampling.uniform_clock(arrays["a_z"][0])
