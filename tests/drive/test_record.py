@@ -341,6 +341,17 @@ def since_1970(given):
     return {name: (time + 1.7e9, values) for name, (time, values) in given.items()}
 
 
+def test_speeds_and_paths_of_receivers_wheels_and_hard_braking_are_not_refused():
+    """A speed in whole km/h that flickers, one told once a second in a stop at 8 m/s2, one with noise of 0.2 m/s; a path whose fix moves by 1.5 m."""
+    rng = np.random.default_rng(2)
+    wheels = np.round(72 + 3 * np.cos(0.8 * TIME) + 0.5 * rng.standard_normal(TIME.size)) / 3.6
+    braked = np.interp(np.floor(TIME), [0, 9, 11, 20], [22, 22, 6, 6]) + 0.05 * np.sin(np.floor(TIME))
+    aside = 0.2 * np.sin(0.5 * TIME) + 1.5 * (TIME > 7) - 1.5 * (TIME > 8)
+    for changed in ({"v_x": wheels}, {"v_x": braked}, {"v_x": 20 + 0.2 * rng.standard_normal(TIME.size)}, {"e": aside}, {"e": np.interp(np.floor(TIME), [8, 11], [0, 3.5])}):
+        given = quantities(**{name: (TIME, values) for name, values in changed.items()})
+        record.from_arrays({name: pair for name, pair in given.items() if name != "s"})
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [
@@ -358,6 +369,9 @@ def since_1970(given):
         (quantities(s=(TIME, (20 * TIME) % 100.0)), ("s: sample 501", "5 s", "-99.8 m", "v_x drives 0.2 m")),
         (quantities(s=(TIME, standing((5.0, 9.0))[0])), ("s: stands at 98.9 m from 5 to 8.99 s", "v_x drives 79.8 m", "2.1 s at most", "leave s out")),
         (alone(standing((5.0, 9.0))[0]), ("s: stands at 98.9 m from 5 to 8.99 s", "it drives", "2.1 s at most; cut the record there)")),
+        (spoilt("v_x", slice(700, 705), 0.0), ("v_x: sample 701 (7 s) holds 0 m/s", "after it became 20", "2 m/s and 15 a second", "leave v_x out where s")),
+        (spoilt("v_x", 700, 60.0), ("v_x: sample 701 (7 s) holds 60 m/s",)),
+        (quantities(e=(TIME, 0.01 * TIME + 3.0 * ((TIME > 8) & (TIME < 8.1)))), ("e: sample 802 (8.01 s) holds 3.08 m", "became 0.08", "2 m and 5 a second", "or leave e out")),
         (since_1970(backwards()), ("sample 701", "1700000006.49 s after 1700000006.99 s")),
         (since_1970(irregular()), ("sample", "a step of 0.06 s follows on 1700000007.99 s")),
         (since_1970(spoilt("a_y", 41, np.nan)), ("sample 42 (1700000000.41 s)",)),

@@ -30,6 +30,10 @@ REASONABLE = {
 }
 """SI; values outside are a wrong unit or a broken sensor, not a road vehicle."""
 
+STEPS = {"v_x": (2.0, 15.0), "e": (2.0, 5.0)}
+"""SI; what a speed and a path may change by from one value to the next, at once (the fix of a receiver jumps by a metre or two) and a second
+since they last did, for as long as receivers hold a value: more is no motion of a road vehicle."""
+
 FINEST = 1e-6
 """m/s2 or rad/s; no instrument for vehicles tells values apart that lie closer together."""
 
@@ -98,6 +102,7 @@ def from_arrays(
                 file=file, place=f"time of {quantity}",
             )  # fmt: skip
         _check_values(quantity, time, values, file=file)
+        _check_steps(quantity, time, values, file=file)
         arrays[quantity] = time, values
     if "s" in arrays and "v_x" in arrays:
         distance.check_beside_speed(*arrays["s"], *arrays["v_x"], file=file)
@@ -208,6 +213,24 @@ def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> N
         raise InputError(
             f"sample {i + 1} ({sampling.stamp(time[i])} s) holds {values[i]:.6g} {VARIABLES[name].unit} "
             f"(expected {lower:g} to {upper:g}; is its unit right?)",
+            file=file,
+            place=name,
+        )
+
+
+def _check_steps(name: str, time: np.ndarray, values: np.ndarray, *, file) -> None:
+    """InputError where a speed or a path changes as that of no vehicle: values that were lost (noughts) or transmitted wrongly."""
+    at_once, a_second = STEPS.get(name, (np.inf, 0.0))
+    known = np.flatnonzero(np.concatenate([[True], np.diff(values) != 0.0]))  # others are held, or rounded
+    since = np.diff(time[known])
+    bad = np.flatnonzero(np.abs(np.diff(values[known])) > at_once + a_second * np.minimum(since, distance.LONGEST_HOLD))
+    if bad.size:
+        before, i = known[bad[0] : bad[0] + 2]
+        unit = VARIABLES[name].unit
+        raise InputError(
+            f"sample {i + 1} ({sampling.stamp(time[i])} s) holds {values[i]:.4g} {unit}, {since[bad[0]]:.3g} s after it became {values[before]:.4g} "
+            f"(expected a change of at most {at_once:g} {unit} and {a_second:g} a second; were values lost, or transmitted wrongly? "
+            f"Cut the record there, or leave {name} out{' where s is recorded' if name == 'v_x' else ''})",
             file=file,
             place=name,
         )
