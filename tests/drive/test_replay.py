@@ -9,6 +9,7 @@ import xarray as xr
 from ridecomfort import simulate
 from ridecomfort.drive.replay import fused_place, replay
 from ridecomfort.drive.sensor import TOLD_OF
+from ridecomfort.errors import InputError
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import DRIVE, SIGNALS
 from tests.blind import trials
@@ -34,6 +35,14 @@ def driven(car):
         sensor_x=x, sensor_y=y, sensor_z=z,
     )  # fmt: skip
     return course, record
+
+
+@pytest.mark.parametrize(("treatment", "told"), [("none", "0.20 m/s by v_x at 0.00 s"), ("v_x differentiated from s", "0.20 m/s by s at 0.00 s")])
+def test_a_drive_that_stands_is_refused_by_what_was_recorded_of_its_speed(driven, treatment, told):
+    course, record = driven
+    standing = record.assign(v_x=0.0 * record["v_x"] + 0.2).assign_attrs(treatment=treatment, start_time=-1e-9 - float(record["time"][0]))
+    with pytest.raises(InputError, match=f"^drive drive: {told} \\(expected above 1 m/s"):
+        replay(standing, course, simulate.run)
 
 
 def test_the_same_vehicle_repeats_its_own_record(driven, car):

@@ -67,6 +67,15 @@ def test_distances_of_a_point_ahead_are_told_on_the_screen_and_in_the_file(files
     assert "s looks like the distance of a point 0.9" in told and f"{NOTE}here: {told}" in capsys.readouterr().err
 
 
+def test_what_was_done_to_a_record_is_told_on_the_screen(files, car_file, tmp_path, capsys):
+    table = pd.read_csv(files / "fit.csv")
+    table.loc[(table["t"] > 7.0) & (table["t"] < 8.0), "s"] = np.interp(7.0, table["t"], table["s"])
+    table.to_csv(tmp_path / "stood.csv", index=False)
+    config = {"site": "here", "drives": [ENTRY | {"name": "one"}], "simulation": SIMULATION, "alignment": {"search": 0.5}}
+    measured.main(files / "road.nc", car_file, [tmp_path / "stood.csv"], config, tmp_path / "measured.nc", workers=1)
+    assert f"{NOTE}here: one: s, which stands still while the vehicle drives on, interpolated there" in capsys.readouterr().err
+
+
 def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     entries = [ENTRY | {"name": name, "role": name} for name in ("fit", "check")]
     common = {"road": files / "road.nc", "vehicle": car_file}

@@ -97,12 +97,13 @@ def _stands(time: np.ndarray, place: np.ndarray, known: np.ndarray, speed: tuple
 
 def speed_of(place: np.ndarray, time: np.ndarray, rate: float, within: tuple[float, float], *, file) -> tuple[np.ndarray, str]:
     """Speed (m/s, (time,)) that a distance rises by, and how it was made. Raises InputError where it is not ``within`` that of a vehicle on a road."""
-    from .slow import smooth  # here: it takes a while, and the library of effects is read at every start
+    from .slow import LEAST, smooth  # here: it takes a while, and the library of effects is read at every start
 
-    speed, said = np.gradient(place, 1 / rate), "v_x differentiated from s"
+    speed, said = np.gradient(place, 1 / rate), DIFFERENTIATED
     lower, upper = within
-    if speed.min() < lower or speed.max() > upper:
-        speed, said = np.gradient(smooth(place, rate), 1 / rate), f"{said}, low-passed"
+    jitter = float(np.std(speed - np.gradient(smooth(place, rate), 1 / rate)))
+    if jitter > JITTER or speed.min() < lower or speed.max() > upper:
+        speed, said = np.gradient(smooth(place, rate, LEAST), 1 / rate), f"{said}, low-passed at {LEAST:g} Hz (it jitters by {jitter:.2g} m/s)"
     bad = np.flatnonzero((speed < lower) | (speed > upper))
     if bad.size:
         i = bad[0]

@@ -71,7 +71,7 @@ def from_arrays(
     filter, all through the same, speed and place linearly; what is held of these until the next is known (``distance.unheld``) between its changes.
     ``s`` that is missing is integrated from ``v_x``
     beginning at ``distance_start`` (m), which is the way driven until ``align`` makes a place on the road of it, ``v_x`` that is missing is the
-    derivative of ``s``, low-passed where that jitters beyond reason.
+    derivative of ``s``, low-passed where that jitters (``distance.speed_of``).
     ``sensor`` is the place of the accelerometer in m from the centre of gravity.
 
     Returns a Dataset over ``time`` (s, from 0); attributes name, role, gravity,
@@ -159,16 +159,16 @@ def _inertial(signals: Mapping[str, tuple[np.ndarray, np.ndarray]], time: np.nda
 
     own = {name: brought(name) for name in signals}
     least = min(cut_off for _, _, cut_off in own.values())
-    columns, treatment = {}, []
+    columns, said = {}, {}
     for name, (clock, _) in signals.items():
         # A simulation passes one filter whatever the signal, so a faster one passes that of the slowest.
         columns[name], jitter, cut_off = own[name] if own[name][2] <= least else brought(name, least)
         if own[name][2] < 0.5 * rate:
             own_rate = (len(clock) - 1) / (clock[-1] - clock[0])
-            treatment.append(f"{name} brought from {own_rate:.4g} Hz (jitter {jitter:.2g} intervals, low-pass {cut_off:.3g} Hz)")
+            said.setdefault(f"brought from {own_rate:.4g} Hz (jitter {jitter:.2f} intervals, low-pass {cut_off:.3g} Hz)", []).append(name)
         elif cut_off < 0.5 * rate:
-            treatment.append(f"{name} low-passed at {cut_off:.3g} Hz, as the slowest")
-    return columns, treatment, least
+            said.setdefault(f"low-passed at {cut_off:.3g} Hz, as the slowest", []).append(name)
+    return columns, [f"{', '.join(names)} {words}" for words, names in said.items()], least
 
 
 def check(drive: xr.Dataset, *, file=None) -> xr.Dataset:

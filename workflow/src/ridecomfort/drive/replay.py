@@ -17,6 +17,7 @@ from ..errors import InputError
 from ..vehicle.driver import SPEED_PREVIEW_TIME, path_demand, speed_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from . import pedals
+from .distance import DIFFERENTIATED
 from .record import upward
 from .sampling import integral, rate_of, resampled, resampled_slopes
 from .sensor import displacement
@@ -344,8 +345,9 @@ def replay(
     slow = np.flatnonzero((speed < SLOWEST) | (advance < 0.3 * SLOWEST))
     if slow.size:
         i, begin = slow[0], float(drive.attrs.get("start_time", 0.0))
-        found = f"{speed[i]:.2f} m/s by v_x" if speed[i] < SLOWEST else f"{advance[i]:.2f} m/s by s, {speed[i]:.2f} m/s by v_x"
-        raise InputError(f"{found} at {begin + time[i]:.2f} s (expected above {SLOWEST:g} m/s throughout: cut the record)", place=label)
+        by_speed = f"{speed[i]:.2f} m/s by {'s' if DIFFERENTIATED in drive.attrs.get('treatment', '') else 'v_x'}"
+        found = by_speed if speed[i] < SLOWEST else f"{advance[i]:.2f} m/s by s, {by_speed}"
+        raise InputError(f"{found} at {round(begin + time[i], 2) + 0.0:.2f} s (expected above {SLOWEST:g} m/s throughout: cut the record)", place=label)
     first, last = float(surface["u"][0]), float(surface["u"][-1])
     if place[0] < first - SPACING or place[-1] > last + SPACING:
         raise InputError(

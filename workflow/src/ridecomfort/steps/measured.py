@@ -16,7 +16,8 @@ def main(road, vehicle, drives, config, output, workers):
     aligned = of_files(drives, simulate.prepare(store.read(road)), car, config, int(workers), car)
     store.write(aligned, output, title=f"Measured drives on {config['site']}", configuration=config)
     failing = [f"{name}: {faults}" for name, faults in zip(aligned["drive"].values, aligned["faults"].values) if faults]
-    for words in (*failing, *mounting.moved(aligned)):
+    treated = [f"{name}: {done}" for name, done in zip(aligned["drive"].values, aligned["treatment"].values) if done != "none"]
+    for words in (*treated, *failing, *mounting.moved(aligned)):
         note(f"{config['site']}: {words}")
     if aligned.attrs["distance_doubt"]:
         note(f"{config['site']}: {aligned.attrs['distance_doubt']}")
