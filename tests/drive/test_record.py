@@ -246,6 +246,15 @@ def test_a_speed_that_is_held_until_the_next_is_known_is_that_of_its_changes(hol
     assert f"v_x, held for {hold:.3g} s at a time" in drive.attrs["treatment"] and time[0] == pytest.approx(hold, abs=0.011)
 
 
+def test_a_speed_that_is_held_and_stays_for_long_keeps_its_value_until_it_changes():
+    known = np.floor(TIME)
+    speed = lambda time: 20 - np.interp(time, [7, 11], [0, 6.4]) - 0.05 * np.sin(time) * ((time > 6.5) & (time < 15.5))
+    drive = record.from_arrays({name: pair for name, pair in quantities(v_x=(TIME, speed(known))).items() if name != "s"})
+    time = drive["time"].values + drive.attrs["start_time"]
+    np.testing.assert_allclose(drive["v_x"].values, np.interp(time, np.arange(20), speed(np.arange(20))), rtol=0, atol=1e-9)
+    assert time[0] == pytest.approx(0.0, abs=1e-9) and time[-1] == pytest.approx(19.0, abs=0.011)
+
+
 @pytest.mark.parametrize("decimals", [9, 2])
 def test_a_speed_in_whole_kilometres_an_hour_stays_as_it_is(decimals):
     rounded = np.round(np.round(72 + 4 * np.cos(0.8 * TIME) + 0.2 * TIME) / 3.6, decimals)

@@ -19,6 +19,9 @@ LONGEST_HOLD, LONGEST_STAND = 1.1, 2.1
 """s for which a faster table usually holds a value until the next is known, at most: receivers tell one a second or more; and for which a distance
 may stand still once while the vehicle drives on, as where one of these is lost: over it, 0.5 m/s2 bends a line of place by 0.3 m."""
 
+AGAIN = 3
+"""Usual holds of a speed or a path beyond which one was told again as it was, and none lost."""
+
 STANDS, OFTEN = 1.0, 2.0
 """m that the vehicle drives on at least while a distance stands still, and times what it usually does: one that is rounded stands for a step."""
 
@@ -34,7 +37,7 @@ AROUND = 9
 
 def unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], *, file=None) -> tuple[dict, list[str]]:
     """Quantities, each (time in s, values), and what was done to them: a place or a speed that a faster table holds until the next is known, as that
-    of a receiver, is linear between the values where it changes, which are those of their time; ``s`` and ``v_x`` go from their first change to their last.
+    of a receiver, is linear between the values where it changes, which are those of their time; ``s`` and ``v_x`` go from the first of these to the last.
     A distance that stands still now and then while the vehicle drives on is linear from there to where it goes on, and cut at its ends.
 
     Values that lie whole steps apart were rounded: where one changes it is half a step off. Raises InputError where a distance stands for too long.
@@ -47,7 +50,8 @@ def unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], *, file=None) ->
             continue
         stands = _stands(time, values, known, arrays.get("v_x"), file=file) if name == "s" else []
         if _is_held(name, time, values, known):
-            rows, kept = known, slice(None) if name == "e" else slice(known[0], known[-1] + 1)
+            rows = known if name == "s" else _told(known, len(time))
+            kept = slice(None) if name == "e" else slice(rows[0], rows[-1] + 1)
             done.append(f"{name}, held for {np.median(np.diff(time[known])):.3g} s at a time, interpolated between its changes")
         elif stands:
             rows = np.setdiff1d(np.arange(len(time)), np.concatenate([np.arange(first + (first > 0), last + 1) for first, last in stands]))
@@ -70,6 +74,13 @@ def _is_held(name: str, time: np.ndarray, values: np.ndarray, known: np.ndarray)
     changes = np.diff(values[known])
     steps = (changes if name == "v_x" else values[known] - values[0]) / np.median(np.abs(changes))
     return not np.allclose(steps, np.round(steps), rtol=0.0, atol=ROUNDED_SPEED if name == "v_x" else ROUNDED)
+
+
+def _told(known: np.ndarray, count: int) -> np.ndarray:
+    """The rows of ``count`` at which values that change in the rows ``known`` are known: there, and where one that stays for long is told again."""
+    hold, first, behind = int(np.median(np.diff(known))), np.concatenate([[0], known]), np.concatenate([known, [count]])
+    stays = behind - first > AGAIN * hold
+    return np.unique(np.concatenate([known, first[stays], (behind - hold)[stays]]))
 
 
 def _stands(time: np.ndarray, place: np.ndarray, known: np.ndarray, speed: tuple[np.ndarray, np.ndarray] | None, *, file) -> list[tuple[int, int]]:
