@@ -215,6 +215,21 @@ def test_a_wandering_path_and_place_are_followed(road, truth, nominal):
     assert after < 0.5 * before
 
 
+def test_a_place_that_wanders_by_more_than_three_rounds_take_out_is_found_all_the_same(road, truth, nominal):
+    drive = driven(road, truth, along=0.5)
+    found = aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL), road, nominal)
+    true_place = drive["s"].values - 0.5 * np.sin(2 * np.pi * drive["s"].values / 300)  # to 3 mm
+    assert np.std((found["s"].values - true_place)[150:-100]) < 0.03
+    assert found.attrs["faults"] == ""
+
+
+def test_a_place_that_no_round_settles_is_told(road, truth, nominal, monkeypatch):
+    recorded = quarter_cars.recorded(driven(road, truth, along=0.5), noise=1.0, lateral_position=LATERAL)
+    monkeypatch.setattr(align, "MOST", align.PASSES)
+    (said,) = aligned(recorded, road, nominal).attrs["faults"].split("; ")
+    assert said.startswith("alignment does not settle: its last round moved the place by 0.") and "is s good to 0.5 m" in said
+
+
 def test_a_path_that_was_recorded_wrongly_is_found_however_briskly_it_was_driven(repository):
     """What a driver makes who is followed too slowly hid half of an error of 2 cm."""
     car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")

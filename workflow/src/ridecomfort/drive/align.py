@@ -10,7 +10,7 @@ where the accelerometer tells it (``pedals``): of one who is followed too slowly
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -22,8 +22,12 @@ from . import mounting, path, pedals, place, turning
 from .record import acceleration, felt
 from .replay import Following, Simulated, replay
 
-PASSES = 3
-"""Rounds of vehicle, mounting, clock and path; three more change the clock by 0.2 ms on the stand-in drives."""
+PASSES, MOST = 3, 15
+"""Rounds of vehicle, mounting, clock and path: so many at least (three more change the clock by 0.2 ms on the stand-in drives) and at most."""
+
+SETTLED = 0.02
+"""m (rms) along or across the road that the last round may move a drive by. The third moves one whose s wanders by 0.3 m by 7 cm, and that of a
+multi-body car, whose s is right, by 1 cm as every other would: the clock goes on by milliseconds there, so it does not count."""
 
 LOWEST = 0.3
 """Correlation (rms over ``place.SHAKEN``) below which a record is none of a drive on this road: with a nominal vehicle a drive has
@@ -59,7 +63,7 @@ def align(
     but for a scale and an offset. What lies off the road only because of these, of the clock or since ``s`` was told of the front axle is cut off. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
     gain, mounting and bias; ``e`` becomes the path that was found.
 
-    New in the attribute ``faults``: a recorded distance that is an odometer's. New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
+    New in the attribute ``faults``: a recorded distance that is an odometer's, a place that does not settle. New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
     lateral_correction (m), distance_wander and lateral_wander (m, rms of what was found of both
     along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, yaw_rate_gain (against the bends of
     the road; nan where it hardly bends), roll/pitch/yaw_rate_bias (rad/s). New variables ``roll`` and ``pitch`` (rad): the
@@ -93,7 +97,7 @@ def align(
         work = place.driven(work, drive, way, scale, offset)
     moved_along, moved_aside = np.zeros(work.sizes["time"]), np.zeros(work.sizes["time"])
     asked = lambda: replay(work, road, simulate, options=options)
-    for _ in range(PASSES):
+    for done in range(1, MOST + 1):
         heard = pedals.listening(asked(), vehicle)
         again, simulated, by_foot = heard.replay, heard.simulated, heard.replay.by_foot
         if drive.attrs["gravity"]:
@@ -114,6 +118,9 @@ def align(
         along, aside = path.wander(brought.replay, simulated, vehicle, expected)
         work = work.assign(s=work["s"] + along, e=work["e"] + aside)
         moved_along, moved_aside = moved_along + along, moved_aside + aside
+        last = [float(np.sqrt(np.mean(moved**2))) for moved in (along, aside)]
+        if done >= PASSES and (doubt or max(last) < SETTLED):  # that of an odometer is to be left out, however long it takes
+            break
     aligned = _without_gravity(work, replace(asked(), by_foot=by_foot).following(vehicle).simulated)
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
@@ -124,7 +131,7 @@ def align(
         lateral_correction=float(lateral),
         distance_wander=float(moved_along.std()),
         lateral_wander=float(moved_aside.std()),
-        faults="; ".join(filter(None, (drive.attrs.get("faults", ""), doubt))),
+        faults="; ".join(filter(None, (drive.attrs.get("faults", ""), doubt or _unsettled(last, measured)))),
         yaw_rate_gain=turning.gyroscope_gain(aligned, getattr(road, "road", road))[0],
         **fitted.attributes(),
     )
@@ -139,6 +146,14 @@ def _odometer(work: xr.Dataset, way: place.Way, road, vehicle, simulate, options
         return ""
     where = "far" if too_far > 0 else "short"
     return f"s: runs {100 * abs(too_far):.1f} % too {where} over the road, as that of an odometer (leave s out: it is then integrated from v_x and scaled)"
+
+
+def _unsettled(last: Sequence[float], measured: bool) -> str:
+    """Words on m (rms) that the ``last`` round moved a drive by along and across the road; empty where that is little."""
+    if max(last) < SETTLED:
+        return ""
+    asked = "is s good to 0.5 m (if not, leave it out: it is then integrated from v_x)" if measured else "is v_x right"
+    return f"alignment does not settle: its last round moved the place by {last[0]:.2f} m along and {last[1]:.2f} m across the road: {asked}?"
 
 
 def _moved_on_road(work: xr.Dataset, road, clock: float) -> xr.Dataset:
