@@ -269,6 +269,21 @@ def test_an_odometer_that_is_told_for_a_place_on_the_road_is_called_one(drive, r
         assert words.startswith(f"s: runs {told} % too {said.split()[5]} over the road") and told == pytest.approx(float(said.split()[2]), abs=0.15)
 
 
+def test_an_odometer_that_is_refused_for_its_clock_or_place_is_called_one_before(drive, road, nominal):
+    start = float(drive["s"][0])
+    recorded = quarter_cars.recorded(drive.assign(s=start + 0.97 * (drive["s"] - start)), noise=1.0, lateral_position=LATERAL, name="own")
+    words = rf"^drive own: s: runs [23].\d % too short over the road.* distance_start: {start:.0f}: .*; if not, (?!drive own)"
+    with pytest.raises(InputError, match=words) as refused:
+        aligned(recorded, road, nominal)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_drive_without_a_place_that_begins_elsewhere_is_asked_where_it_begins(drive, road, nominal):
+    recorded = quarter_cars.recorded(drive, place=False, noise=1.0, lateral_position=LATERAL)
+    with pytest.raises(InputError, match=r"agree nowhere .* are the axes right, and distance_start \(0 m unless given\) to 15 m\?"):
+        aligned(recorded, road, nominal)
+
+
 def on_hills(road, vehicle, *, speed, lateral=0.0, **options):
     """``quarter_cars.run`` with the speed along the body: uphill and outside of a bend it passes less of the reference line."""
     aside = np.interp(road["u"], lateral["u"], lateral) if isinstance(lateral, xr.DataArray) else lateral

@@ -45,6 +45,10 @@ OFF, DRIFT = 0.003, 1.0
 metres wherever it is, and drives of 20 s tell a share to 0.001."""
 
 
+class PlaceNotFound(InputError):
+    """A drive agrees with the model nowhere near its place, or only at a clock beyond what is searched."""
+
+
 def align(
     drive: xr.Dataset,
     road,
@@ -86,10 +90,14 @@ def align(
         kept = place.on_road(work, road, place.ODOMETER_REACH, place.ODOMETER_REACH)
         work, drive = place.cut(work, kept), place.cut(drive, kept)
     error, fitted = np.nan, mounting.Mounting()
-    work, clock, lateral = _found(work, road, vehicle, simulate, search, options)
+    try:
+        found = _found(work, road, vehicle, simulate, search, options)
+    except PlaceNotFound as problem:
+        raise (_of_an_odometer(problem, work, way, road, vehicle, simulate, search, options) if measured else problem) from None
+    work, clock, lateral = found
     work = _where_recorded(work, clock) if measured else work
     work = _on_path(work, lateral)
-    doubt = _odometer(work, way, road, vehicle, simulate, options) if measured else ""
+    doubt = _odometer(work, way, road, vehicle, simulate, options)[0] if measured else ""
     expected = path.EXPECTED_ASIDE_MEASURED if path.has_offset(drive) else path.EXPECTED_ASIDE
     if not measured:  # along another path the way is another
         way = place.way(work, road, start)
@@ -138,21 +146,37 @@ def align(
     return aligned
 
 
-def _odometer(work: xr.Dataset, way: place.Way, road, vehicle, simulate, options: Mapping) -> str:
-    """Words on a recorded distance that runs faster or slower than the road goes by; empty where it does not."""
-    scale, _ = place.odometer(work.assign(s=work["s"].copy(data=way(work["s"].values))), way, road, vehicle, simulate, options)
-    too_far = 1.0 / scale - 1.0
+def _odometer(work: xr.Dataset, way: place.Way, road, vehicle, simulate, options: Mapping) -> tuple[str, xr.Dataset]:
+    """Words on a recorded distance that runs faster or slower than the road goes by, empty where it does not, and the drive where the road has it."""
+    driven = work.assign(s=work["s"].copy(data=way(work["s"].values)))
+    scale, offset = place.odometer(driven, way, road, vehicle, simulate, options)
+    placed, too_far = place.driven(driven, driven, way, scale, offset), 1.0 / scale - 1.0
     if abs(too_far) < max(OFF, DRIFT / float(np.ptp(work["s"].values))):
-        return ""
-    where = "far" if too_far > 0 else "short"
-    return f"s: runs {100 * abs(too_far):.1f} % too {where} over the road, as that of an odometer (leave s out: it is then integrated from v_x and scaled)"
+        return "", placed
+    where, start = "far" if too_far > 0 else "short", float(placed["s"][0])
+    return (
+        f"s: runs {100 * abs(too_far):.1f} % too {where} over the road, as that of an odometer "
+        f"(leave s out, with distance_start: {start:.0f}: it is then integrated from v_x and scaled)"
+    ), placed
+
+
+def _of_an_odometer(problem: PlaceNotFound, work: xr.Dataset, way: place.Way, road, vehicle, simulate, search: float, options: Mapping) -> InputError:
+    """The ``problem`` with a drive, behind the words on its odometer where it is found on the road with these."""
+    try:
+        words, placed = _odometer(work, way, road, vehicle, simulate, options)
+        if words:
+            _found(place.cut(placed, place.on_road(placed, road)), road, vehicle, simulate, search, options)
+    except InputError:
+        return problem
+    label = f"drive {work.attrs['name']}"
+    return InputError(f"{words}; if not, {str(problem).removeprefix(f'{label}: ')}", place=label) if words else problem
 
 
 def _unsettled(last: Sequence[float], measured: bool) -> str:
     """Words on m (rms) that the ``last`` round moved a drive by along and across the road; empty where that is little."""
     if max(last) < SETTLED:
         return ""
-    asked = "is s good to 0.5 m (if not, leave it out: it is then integrated from v_x)" if measured else "is v_x right"
+    asked = "is s good to 0.5 m (if not, leave it out, with distance_start: it is then integrated from v_x)" if measured else "is v_x right"
     return f"alignment does not settle: its last round moved the place by {last[0]:.2f} m along and {last[1]:.2f} m across the road: {asked}?"
 
 
@@ -198,18 +222,19 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
             return work, clock, lateral
     around, lag, agreement = path.search(work, road, vehicle, simulate, options, **look)
     label = f"drive {work.attrs['name']}"
+    begins = "are s and the axes right" if measured else "are the axes right, and distance_start (0 m unless given) to 15 m"
     if agreement < LOWEST**2:
-        raise InputError(
+        raise PlaceNotFound(
             f"model and record agree nowhere near this place: {', '.join(place.SHAKEN)} correlate by "
             f"{np.sqrt(max(agreement, 0)):.2f} at best "
-            f"(expected {LOWEST:g} or more; is it the road of this drive, are s and the axes right? Where the path is known, "
+            f"(expected {LOWEST:g} or more; is it the road of this drive, {begins}? Where the path is known, "
             f"lateral_position says so){_other_units(work, road, vehicle, simulate, options)}",
             place=label,
         )
     if measured and abs(lag) > CLOSE:
         clock, work = clock + lag, _moved_on_road(work, road, lag)
     if abs(clock) > reach:
-        raise InputError(
+        raise PlaceNotFound(
             f"the inertial signals lag {clock:.3g} s behind s (expected within {search:g} s, `alignment: search` of the study: "
             "cut the record or shift its time or s by as much)",
             place=label,
