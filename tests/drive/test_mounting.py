@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import xarray as xr
+from scipy.spatial.transform import Rotation
 
-from ridecomfort.drive import mounting
+from ridecomfort.drive import mounting, record
+from ridecomfort.vocabulary import SIGNALS
 
 
 def drives(*yaws: float) -> xr.Dataset:
@@ -26,3 +29,37 @@ def test_what_a_load_or_the_error_of_alignment_makes_is_not():
 
 def test_of_two_drives_nobody_knows_which_was_moved():
     assert mounting.moved(drives(0.0, 3.0)) == []
+
+
+@pytest.fixture
+def drive() -> xr.Dataset:
+    """A record of white noise that holds gravity, with an attitude."""
+    rng = np.random.default_rng(1)
+    signals = {name: ("time", rng.standard_normal(50)) for name in SIGNALS}
+    attitude = {name: ("time", 0.1 * rng.standard_normal(50)) for name in ("roll", "pitch")}
+    return xr.Dataset(signals | attitude, {"time": 0.01 * np.arange(50)}, {"gravity": 1})
+
+
+def read(drive: xr.Dataset, found: mounting.Mounting) -> xr.Dataset:
+    """The drive as an instrument with this mounting reads it."""
+    back = Rotation.from_rotvec(found.rotation).inv().as_matrix()
+    force = found.gain * back @ record.felt(drive)
+    rates = back @ np.stack([drive[name].values for name in SIGNALS[3:]]) + np.array(found.bias)[:, None]
+    values = np.concatenate([record.acceleration(force, drive["roll"].values, drive["pitch"].values), rates])
+    return drive.assign({name: ("time", row) for name, row in zip(SIGNALS, values)})
+
+
+def test_an_instrument_that_is_turned_far_is_turned_back(drive):
+    found = mounting.Mounting(1.02, (0.2, -0.25, 0.4), (0.01, -0.02, 0.03))
+    xr.testing.assert_allclose(mounting.corrected(read(drive, found), found), drive, rtol=0, atol=1e-12)
+
+
+def test_two_mountings_behind_one_another_are_one(drive):
+    first, step = mounting.Mounting(1.02, (0.2, -0.25, 0.4), (0.01, -0.02, 0.03)), mounting.Mounting(0.99, (-0.1, 0.2, 0.3), (0.02, 0.01, -0.01))
+    after_another = mounting.corrected(mounting.corrected(drive, first), step)
+    xr.testing.assert_allclose(mounting.corrected(drive, first.then(step)), after_another, rtol=0, atol=1e-12)
+
+
+def test_a_large_yaw_is_told():
+    assert mounting.words(mounting.Mounting(rotation=(0.3, 0.3, np.radians(20.0)))) == ""
+    assert mounting.words(mounting.Mounting(rotation=(0.0, 0.0, np.radians(-30.0)))).startswith("the instrument is turned by -30 deg in yaw: are a_x")

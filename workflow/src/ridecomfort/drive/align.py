@@ -67,7 +67,7 @@ def align(
     but for a scale and an offset. What lies off the road only because of these, of the clock or since ``s`` was told of the front axle is cut off. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
     gain, mounting and bias; ``e`` becomes the path that was found.
 
-    New in the attribute ``faults``: a recorded distance that is an odometer's, a place that does not settle. New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
+    New in the attribute ``faults``: a recorded distance that is an odometer's, a place that does not settle, an instrument that is turned. New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
     lateral_correction (m), distance_wander and lateral_wander (m, rms of what was found of both
     along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, yaw_rate_gain (against the bends of
     the road; nan where it hardly bends), roll/pitch/yaw_rate_bias (rad/s). New variables ``roll`` and ``pitch`` (rad): the
@@ -139,7 +139,7 @@ def align(
         lateral_correction=float(lateral),
         distance_wander=float(moved_along.std()),
         lateral_wander=float(moved_aside.std()),
-        faults="; ".join(filter(None, (drive.attrs.get("faults", ""), doubt or _unsettled(last, measured)))),
+        faults="; ".join(filter(None, (drive.attrs.get("faults", ""), doubt or _unsettled(last, measured), mounting.words(fitted)))),
         yaw_rate_gain=turning.gyroscope_gain(aligned, getattr(road, "road", road))[0],
         **fitted.attributes(),
     )

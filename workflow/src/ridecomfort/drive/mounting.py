@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
+from scipy.spatial.transform import Rotation
 
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from . import record
@@ -20,15 +21,18 @@ LEFT = np.array([0.002, 0.002, 0.002, 0.005, 5e-4, 5e-4, 5e-4])
 TURNED = np.radians(1.0)
 """rad by which an instrument sits otherwise than on the other drives from which on it was moved: a load tilts a body by half of that."""
 
+LARGE = np.radians(25.0)
+"""rad of yaw from which on an instrument may sit the other way round, or its axes be exchanged: gravity does not tell, and little turning does."""
+
 INDEPENDENT = 0.5
 """s; residuals closer than this count as one observation against EXPECTED."""
 
 
 @dataclass(frozen=True)
 class Mounting:
-    """Gain of the accelerometers, rotation (rad, small) of the instrument against the body, bias of its rates (rad/s).
+    """Gain of the accelerometers, rotation of the instrument against the body (its axis times its angle in rad), bias of its rates (rad/s).
 
-    What it reads of a vector w of the body is gain (w - rotation x w), for rates without gain, plus bias.
+    What it reads of a vector of the body is that turned back by the rotation, times gain, for rates without gain, plus bias.
     """
 
     gain: float = 1.0
@@ -36,11 +40,12 @@ class Mounting:
     bias: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def then(self, step: Mounting) -> Mounting:
-        """This mounting and a further small one found behind it."""
+        """This mounting and a further one found behind it."""
+        own = Rotation.from_rotvec(self.rotation)
         return Mounting(
             self.gain * step.gain,
-            tuple(np.add(self.rotation, step.rotation)),
-            tuple(np.add(self.bias, step.bias)),
+            tuple((Rotation.from_rotvec(step.rotation) * own).as_rotvec()),
+            tuple(self.bias + own.inv().apply(step.bias)),
         )
 
     def attributes(self) -> dict[str, float]:
@@ -97,11 +102,15 @@ def corrected(drive: xr.Dataset, mounting: Mounting) -> xr.Dataset:
     """The drive as the same instrument would have recorded it without this mounting, gain and bias."""
     force = record.felt(drive) / mounting.gain
     rates = np.stack([drive[name].values for name in SIGNALS[3:]]) - np.array(mounting.bias)[:, None]
-    turn = np.array(mounting.rotation)[:, None]
-    force = force + np.cross(np.broadcast_to(turn, force.shape), force, axis=0)
-    rates = rates + np.cross(np.broadcast_to(turn, rates.shape), rates, axis=0)
-    values = np.concatenate([record.acceleration(force, drive["roll"].values, drive["pitch"].values), rates])
+    turn = Rotation.from_rotvec(mounting.rotation).as_matrix()
+    values = np.concatenate([record.acceleration(turn @ force, drive["roll"].values, drive["pitch"].values), turn @ rates])
     return drive.assign({name: drive[name].copy(data=row) for name, row in zip(SIGNALS, values)})
+
+
+def words(mounting: Mounting) -> str:
+    """Words on an instrument that is turned by a LARGE yaw; empty where it is not."""
+    yaw = mounting.rotation[2]
+    return f"the instrument is turned by {np.degrees(yaw):+.0f} deg in yaw: are a_x and a_y, roll_rate and pitch_rate right?" if abs(yaw) > LARGE else ""
 
 
 def moved(measured: xr.Dataset) -> list[str]:
