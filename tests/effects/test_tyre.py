@@ -220,6 +220,21 @@ def test_a_wheel_on_bushings_is_integrated_at_any_speed_in_the_steps_of_a_search
     assert off < 0.25 * float(fine.a_x.std())
 
 
+@pytest.mark.parametrize("mass", [30.0, 45.0, 120.0])
+@pytest.mark.parametrize("ratio", [0.1, 0.4])
+@pytest.mark.parametrize("speed", [10.0, 15.0, 25.0])
+def test_wheels_on_bushings_of_any_stiffness_do_in_the_steps_of_a_search_what_they_do_in_fine_ones(car, mass, ratio, speed):
+    surface, steps = road(100.0, height=rough), (0.002, 0.0005)
+    base = {step: drive(surface, car, speed=speed, step=step).a_x for step in steps}
+    for swing in (400.0, 300.0, 250.0, 210.0, 180.0, 150.0, 120.0):
+        compliance = 1.0 / (mass * swing**2)
+        sizes = {"front": compliance, "rear": compliance, "mass": mass, "damping_ratio": ratio}
+        coarse, fine = (
+            (drive(surface, car, effects={"wheel_compliance": sizes}, speed=speed, step=step).a_x - base[step]).values[100:].std() for step in steps
+        )
+        assert coarse == pytest.approx(fine, rel=0.2), swing
+
+
 def test_tiny_compliance_does_in_proportion_to_itself():
     small, smaller = (planar("wheel_compliance", 1e-5, 0.1, c, 0.0, 45.0, 0.1, force_x=100.0) for c in (2e-8, 1e-8))
     assert small[2] == pytest.approx(2 * smaller[2])

@@ -4,8 +4,9 @@ from math import sqrt
 
 from ridecomfort.effects.contract import Effect, Parameter
 
-FASTEST = 300.0
-"""rad/s; the fastest swing that is integrated, in steps of up to 2 ms. A stiffer wheel does that share of what one does that swings so."""
+FASTEST = 210.0
+"""rad/s; the fastest swing, if undamped, that is integrated in steps of up to 2 ms while the slip of the tyre damps it, too. A stiffer wheel does
+that share of what one does that swings so."""
 
 SLIPPING = 0.13
 """kg m/s per N; a wheel lighter than this times its load over its speed answers to the slip of its tyre faster than steps of 2 ms can follow, and
@@ -33,7 +34,7 @@ effect = Effect(
 
 def act(wheel, slip_x, slip_y, load, speed, slope, force_x, surge, pull, place, rate, front, rear, mass, damping_ratio):
     compliance = front if wheel < 2 else rear
-    integrated = max(compliance, 1.0 / (mass * FASTEST * FASTEST))
+    integrated = max(compliance, (1.0 + damping_ratio) ** 2 / (mass * FASTEST * FASTEST))
     share = compliance / integrated
     stiffness = 1.0 / integrated
     damping = 2.0 * damping_ratio * sqrt(stiffness * mass)
