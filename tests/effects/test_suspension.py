@@ -5,9 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from ridecomfort import simulate
 from ridecomfort.effects import library
+from ridecomfort.vehicle import parameters
 
 from tests.effects.whole import ENTRIES, act
+from tests.vehicle.roads import road, rough
 
 STIFFNESS, DAMPING = 30000.0, 2000.0
 
@@ -69,6 +72,17 @@ def test_friction_that_gives_before_it_slides_loses_as_much_less_as_it_gives():
 def test_coulomb_friction_does_not_depend_on_speed_once_it_slides():
     assert force("suspension_friction", 0.0, 0.05, 7.0, 120.0, 100.0, 0.0)[0] == 120.0
     assert force("suspension_friction", 0.0, -0.5, 7.0, 120.0, 100.0, 0.0, wheel=3)[0] == -100.0
+
+
+@pytest.mark.parametrize(("speed", "roughness"), [(3.0, 16e-6), (20.0, 0.8e-6)])
+@pytest.mark.parametrize("friction", [300.0, 500.0])
+def test_struts_that_stick_hold_light_wheels_alike_in_the_steps_of_a_search_and_in_fine_ones(repository, speed, roughness, friction):
+    van = parameters.read(repository / "config" / "vehicles" / "van.yaml")
+    ground = road(60.0, height=lambda u, v: rough(u, v, roughness=roughness))
+    sizes = {"suspension_friction": {"front": friction, "rear": friction}}
+    coarse, fine = (simulate.run(ground, van, speed=speed, effects=sizes, step=step).a_z.values for step in (0.002, 0.0005))
+    shared = slice(0, min(coarse.size, fine.size))
+    assert np.std(coarse[shared] - fine[shared]) < 0.1 * fine.std()
 
 
 def test_asymmetric_dampers_keep_their_mean_and_split_it():
