@@ -30,8 +30,8 @@ COSINE = (-1 / 2, 1 / 24, -1 / 720, 1 / 40320, -1 / 3628800)
 class BodyMotion(NamedTuple):
     """The motion of the sprung mass at an instant, for effects that act on it (SI units, level axes).
 
-    Effects are asked twice in a step: accelerations are those of the step before in the first round, and those that it led to in the
-    second, which counts. ``suspension_front`` and ``suspension_rear``: forces in N of the
+    Effects are asked four times in a step: accelerations are those of the step before in the first round, and those that the round before
+    led to in the next ones, of which the last counts. ``suspension_front`` and ``suspension_rear``: forces in N of the
     axles on the body; ``front`` and ``rear``: their places in m ahead of the centre of gravity.
     """
 
