@@ -84,6 +84,14 @@ def test_a_path_is_driven_when_its_demand_is_asked_for(car):
     assert largest_error(demand) < 0.15 * largest_error(path)
 
 
+@pytest.mark.parametrize("lateral", [1.5, -1.5])
+def test_a_lane_is_driven_alike_whichever_reference_line_it_is_seen_from(car, lateral):
+    radius, speed = 30.0, 8.0
+    aside = simulate.run(road(120.0, curvature=1.0 / radius), car, speed=speed, lateral=lateral)
+    within = simulate.run(road(120.0, curvature=1.0 / (radius - lateral)), car, speed=speed)
+    assert float(aside.e[-1]) - lateral == pytest.approx(float(within.e[-1]), abs=2e-4)
+
+
 @pytest.mark.parametrize("frequency", [0.3, 1.0, 2.0])
 def test_a_wave_of_speed_that_the_controller_is_asked_for_as_it_answers_is_driven(car, frequency):
     ground, speed = road(500.0), 20.0

@@ -99,14 +99,15 @@ def _moving_average(values: np.ndarray, u: np.ndarray, length: float) -> np.ndar
 
 @njit(forceinline=True)
 def steering(e, course, speed, target, curvature, wheelbase):
-    """Angle of the front wheels in rad: the bend itself, and pure pursuit of the target offset.
+    """Angle of the front wheels in rad: the bend of the lane at the target offset, and pure pursuit of that offset.
 
-    ``course`` is the direction of travel against the reference line, so that the slip of the
+    ``curvature`` is that of the reference line. ``course`` is the direction of travel against the reference line, so that the slip of the
     body in a bend leaves no offset. Pure pursuit: Coulter (1992), CMU-RI-TR-92-01.
     """
     preview = max(PREVIEW_MINIMUM, PREVIEW_TIME * speed)
     error = e + preview * course - target
-    angle = wheelbase * (curvature - 2.0 * error / (preview * preview))
+    bend = curvature / (1.0 - curvature * target)
+    angle = wheelbase * (bend - 2.0 * error / (preview * preview))
     return min(max(angle, -STEERING_LIMIT), STEERING_LIMIT)
 
 
