@@ -111,3 +111,15 @@ def test_links_that_are_inclined_are_a_roll_centre(car):
         change = (raised[signal] - base[signal]).values
         assert change.std() > 0
         assert ((inclined[signal] - raised[signal]).values).std() < 0.05 * change.std(), signal
+
+
+def test_links_that_are_inclined_carry_the_mass_of_a_wheel_in_a_bend_as_a_roll_centre_does(car):
+    height, options = 0.2, {"speed": 16.0}
+    car = car.replace(unsprung_mass_front=100.0, unsprung_mass_rear=100.0)
+    ground = road(250.0, curvature=0.02)
+    shares = {axle: 2 * height / car[f"track_{axle}"] for axle in ("front", "rear")}
+    base, raised, inclined = (
+        float(drive(ground, car, effects=effects, **options)["roll"][-50:].mean())
+        for effects in ({}, {"roll_centre_height": {"front": height, "rear": height}}, {"inclined_links": shares})
+    )
+    assert inclined - base == pytest.approx(raised - base, rel=0.01)

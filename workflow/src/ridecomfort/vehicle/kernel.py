@@ -306,7 +306,7 @@ def _vertical(
     half = 0.5 * step
     per_step = 1.0 / (6.0 * step)
     rest = pose[Z] - car.cg_height + car.tyre_radius
-    travel, corner_speed, lean = zeros(4), zeros(4), zeros(4)
+    travel, corner_speed, lean, aside = zeros(4), zeros(4), zeros(4), zeros(4)
     held, deflection, rate, tyre_damper, radial, shake = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     lean[0], lean[2] = wheel_z[0] - wheel_z[1], wheel_z[2] - wheel_z[3]
     lean[1], lean[3] = -lean[0], -lean[2]
@@ -329,9 +329,12 @@ def _vertical(
             parameters, states, slopes,
         )  # fmt: skip
         recession[i], toe[i], scrub[i] = kinematics_port(i, travel[i], parameters, states, slopes)
+    moving = now[V_X] * now[YAW_RATE] + change[V_Y]
     for i in range(4):
-        held[i] -= wheels[DAMPING, i] * corner_speed[i] + (wheels[SCRUB, i] + scrub[i]) * side_push[i]
-        held[i] += recession[i] * fore_push[i]
+        aside[i] = moving + wheels[X, i] * change[YAW_RATE] + wheels[ROLL_ARM, i] * change[ROLL_RATE]
+        held[i] -= wheels[DAMPING, i] * corner_speed[i] + wheels[SCRUB, i] * side_push[i]
+        # Moved aside, a wheel's mass takes its part of the side force: links that incline it more push with the rest.
+        held[i] += recession[i] * fore_push[i] - scrub[i] * (side_push[i] - wheels[MASS, i] * aside[i])
         deflection[i] = ground[1, i] + car.tyre_radius - wheel_z[i]
         tyre_damper[i] = car.tyre_damping * min(max(deflection[i] * PER_CONTACT_DEPTH, 0.0), 1.0)
         rate[i] = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
@@ -342,11 +345,9 @@ def _vertical(
             rotation[i], spin[i], parameters, states, slopes,
         )  # fmt: skip
         radial[i] += extra
-    moving = now[V_X] * now[YAW_RATE] + change[V_Y]
     for i in range(4):
         # Moved aside, and on a bank, its mass acts at its centre, and takes its part of what the tyre gives to the links: the body does not feel it.
-        aside = moving + wheels[X, i] * change[YAW_RATE] + wheels[ROLL_ARM, i] * change[ROLL_RATE]
-        overturning = wheels[OVERTURNING, i] * (aside + STANDARD_GRAVITY * slope_y) - wheels[MASS, i] * wheels[SCRUB, i] * aside
+        overturning = wheels[OVERTURNING, i] * (aside[i] + STANDARD_GRAVITY * slope_y) - wheels[MASS, i] * wheels[SCRUB, i] * aside[i]
         # The wheel's own damping, implicit: its speed now is that before plus half a step of its change.
         weight = wheels[MASS, i] * STANDARD_GRAVITY - shake[i] - overturning
         damping = tyre_damper[i] + wheels[DAMPING, i]
