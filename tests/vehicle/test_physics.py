@@ -165,6 +165,18 @@ def test_yaw_answers_to_steering_as_that_of_the_single_track_model(car):
         assert abs(aside / angle - expected[0]) < 0.03 * abs(expected[0])
 
 
+def test_a_brake_stops_a_wheel_and_does_not_turn_it_back(car):
+    """Wheels that stand slide with the friction of the road; of what is asked for their brakes do no more than that."""
+    ground, friction = road(120.0), 0.3
+    speed = np.sqrt(25.0**2 - 2 * 3.0 * np.clip(ground.u.values - 30.0, 0.0, 60.0))
+    drive = watched(car, ground, speed, friction=friction)
+    assert drive["spin"].min() >= -1e-12
+    stands = (np.abs(drive["spin"]) < 1e-12).all(axis=1, where=[True, True, False, False])
+    assert stands.sum() > 100
+    sliding = drive["force_x"][stands][-1, :2] / drive["load"][stands][-1, :2]
+    assert sliding == pytest.approx(-friction * car["tyre_friction"], rel=1e-6)
+
+
 @pytest.mark.parametrize(("start", "end", "front"), [(10.0, 14.0, "drive_share_front"), (18.0, 10.0, "brake_share_front")])
 def test_axles_drive_and_brake_by_their_shares(car, start, end, front):
     """What is asked for beside that goes into the spin of the wheels."""

@@ -14,15 +14,15 @@ from tests.vehicle.roads import road, rough
 
 
 @pytest.mark.parametrize(
-    ("interpolation", "friction", "speed"),
-    [("cubic", 0.8, 22.0), ("linear", 0.3, 9.0)],
-    ids=["fast and dry", "slow and slippery"],
+    ("interpolation", "friction", "speed", "slowing"),
+    [("cubic", 0.8, 22.0, 0.0), ("linear", 0.3, 9.0, 0.0), ("linear", 0.3, 11.0, 0.35)],
+    ids=["fast and dry", "slow and slippery", "wheels lock"],
 )
-def test_kernel_equals_reference(car, interpolation, friction, speed):
+def test_kernel_equals_reference(car, interpolation, friction, speed, slowing):
     ground = road(60.0, height=lambda u, v: rough(u, v) + 0.07 * u + 0.04 * v, curvature=0.012)
     course = simulate.prepare(ground, interpolation)
     targets = np.stack(
-        [speed + np.sin(course.u / 5), 0.3 * np.sin(course.u / 7), course.curvature], axis=1
+        [np.maximum(speed - slowing * course.u, 1.0) + np.sin(course.u / 5), 0.3 * np.sin(course.u / 7), course.curvature], axis=1
     )
     start, end, step, every, sensor = 4.0, 40.0, 0.001, 10, (-0.1, 0.2, 0.9)
     record, sensed = np.empty((11, 2000)).T, np.empty((6, 20000))  # in memory as a simulation has them

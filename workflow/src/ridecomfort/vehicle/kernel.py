@@ -410,7 +410,12 @@ def _planar(
         # Spin and slip force half a step on, implicit: slip answers fast at low speed.
         grip = half * give * car.tyre_radius * car.slip_per_load * load[i] * per_speed[i]
         spin_change[i] = (torque[i] - car.tyre_radius * tyre_x) / (car.spin_inertia + car.tyre_radius * grip)
-        tyre_x += grip * spin_change[i] + pull[i]
+        # A brake stops a wheel and holds it: it does not turn it back.
+        stops = demand < 0.0 and spin[i] + step * spin_change[i] < 0.0
+        spin_change[i] = -spin[i] / step if stops else spin_change[i]
+        tyre_x += grip * spin_change[i]
+        torque[i] = car.spin_inertia * spin_change[i] + car.tyre_radius * tyre_x if stops else torque[i]
+        tyre_x += pull[i]
         spin[i] += step * spin_change[i]
         rotation[i] += step * spin[i]
         force_x[i] = tyre_x * c[i] - tyre_y * d[i]

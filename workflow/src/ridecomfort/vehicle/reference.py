@@ -22,7 +22,7 @@ Equations of motion in these moving axes (Boltzmann-Hamel; T is the kinetic ener
     J_i d(spin_i)/dt                             = T_i - R F_i
 
 S: suspension force (with the push of the links), N: load of the tyre, F: its force in the
-plane, T: driving torque, which the body takes up; h, h_wheel: heights of the centre of gravity
+plane, T: driving torque, which the body takes up, of a brake no more than stops the wheel; h, h_wheel: heights of the centre of gravity
 above the road and above the wheel centres, h_roll: of the roll centre above the road; a_i: acceleration of a wheel
 sideways, bank: slope of the road to the left. A slope tilts the load: its level part is -N times
 the slope of the plane through the four contacts. The radial damping of a tyre builds up over
@@ -206,7 +206,10 @@ def drive(
         give = np.where(total < 3, (1 - total / 3) ** 2, 0.0)
         stiffness = step / 2 * give * car.radius * car.slip * load / base
         spin_change = (torque - car.radius * tyre_x) / (car.spin_inertia + car.radius * stiffness)
+        stops = (demand < 0) & (spin + step * spin_change < 0)
+        spin_change = np.where(stops, -spin / step, spin_change)
         tyre_x = tyre_x + stiffness * spin_change
+        torque = np.where(stops, car.spin_inertia * spin_change + car.radius * tyre_x, torque)
         force_x = tyre_x * np.cos(steer) - tyre_y * np.sin(steer) - load * slope_x
         along_road = tyre_x * np.sin(steer) + tyre_y * np.cos(steer)
         side_push = 2 * along_road - side - weight * slope_y
