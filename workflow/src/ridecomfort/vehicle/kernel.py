@@ -47,12 +47,7 @@ from ridecomfort.vehicle.constants import (
     X,
     Y,
 )
-from ridecomfort.vehicle.driver import (
-    SPEED_INTEGRAL_GAIN,
-    SPEED_PREVIEW_TIME,
-    acceleration_demand,
-    steering,
-)
+from ridecomfort.vehicle.driver import SPEED_INTEGRAL_GAIN, SPEED_PREVIEW_TIME, acceleration_demand, steering
 from ridecomfort.vehicle.ground import height
 from ridecomfort.vehicle.motion import (
     CURVATURE,
@@ -332,9 +327,8 @@ def _vertical(
     moving = now[V_X] * now[YAW_RATE] + change[V_Y]
     for i in range(4):
         aside[i] = moving + wheels[X, i] * change[YAW_RATE] + wheels[ROLL_ARM, i] * change[ROLL_RATE]
-        held[i] -= wheels[DAMPING, i] * corner_speed[i] + wheels[SCRUB, i] * side_push[i]
-        # Moved aside, a wheel's mass takes its part of the side force: links that incline it more push with the rest.
-        held[i] += recession[i] * fore_push[i] - scrub[i] * (side_push[i] - wheels[MASS, i] * aside[i])
+        held[i] -= wheels[DAMPING, i] * corner_speed[i] + (wheels[SCRUB, i] + scrub[i]) * side_push[i]
+        held[i] += recession[i] * fore_push[i] + scrub[i] * wheels[MASS, i] * aside[i]
         deflection[i] = ground[1, i] + car.tyre_radius - wheel_z[i]
         tyre_damper[i] = car.tyre_damping * min(max(deflection[i] * PER_CONTACT_DEPTH, 0.0), 1.0)
         rate[i] = (2.0 * ground[0, i] + 3.0 * ground[1, i] - 6.0 * ground[2, i] + ground[3, i]) * per_step
@@ -403,9 +397,7 @@ def _planar(
             i, slip_x[i], slip_y[i], load[i], rolling[i], slope[i], pushed[i], surge[i], parameters, states, slopes,
         )  # fmt: skip
     for i in range(4):
-        tyre_x, tyre_y, give = brush(
-            slip_x[i], slip_y[i], load[i], friction, car.slip_per_load, car.cornering_per_load
-        )
+        tyre_x, tyre_y, give = brush(slip_x[i], slip_y[i], load[i], friction, car.slip_per_load, car.cornering_per_load)
         torque[i] = 0.5 * share[i] * demand * car.tyre_radius
         # Spin and slip force half a step on, implicit: slip answers fast at low speed.
         grip = half * give * car.tyre_radius * car.slip_per_load * load[i] * per_speed[i]
