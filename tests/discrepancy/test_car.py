@@ -12,7 +12,7 @@ from ridecomfort import simulate
 from ridecomfort.calibrated import with_values
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import floor, nuisances, opening, probe
-from ridecomfort.drive.replay import ASTRAY, CLOSE, RUN_OUT, slowly
+from ridecomfort.drive.replay import ASTRAY, CLOSE, slowly
 from ridecomfort.drive.sampling import rate_of
 from ridecomfort.drive.slow import smooth
 from ridecomfort.errors import InputError
@@ -103,7 +103,7 @@ def test_repeats_on_another_site_are_kept_where_they_alone_tell_the_floor(made, 
     [
         (1.0, 30.0, 6.0),  # 22 m/s: the run-in of 54 m ends after 2.5 s, when its driver has not yet found the path
         (3.0, 30.0, 1.5 + 3 * 2.5),  # long under way at the end of the run-in
-        (1.0, 14.0, 2.5 + 0.25 * (11.5 - RUN_OUT)),  # three quarters of what a short drive has are left
+        (1.0, 14.0, 2.5 + 0.25 * 11.5),  # three quarters of what a short drive has are left
     ],
 )
 def test_a_drive_is_judged_from_when_it_is_under_way(made, slower, seconds, begins):

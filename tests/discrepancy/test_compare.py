@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort import calibrated
+from ridecomfort import calibrated, simulate
 from ridecomfort.discrepancy import compare
 from ridecomfort.drive import readers, record
+from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS
-from tests import quarter_cars
+from tests import braked, quarter_cars
 
 
 def test_rmse_and_nrmse_of_a_sine_against_zero():
@@ -103,6 +104,16 @@ def test_a_distance_that_jitters_is_no_noise_of_the_signals(road, nominal, tmp_p
     share = found["floor_rmse"] / found["rmse"].isel(state=0)
     assert (share.sel(signal=["roll_rate", "pitch_rate"]) < 0.15).all() and (share.drop_sel(signal="a_x") < 0.4).all()
     assert (found["rmse"].sel(signal="a_x") < 0.005).all()  # of which dampers change nothing
+
+
+@pytest.mark.parametrize("place", [190.0, 340.0, 500.0, 690.0])
+def test_a_record_that_ends_while_its_speed_changes_is_no_worse_there_than_elsewhere(repository, place):
+    car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+    drive, _ = braked.drive(course := braked.course(), car)
+    cut = drive.isel(time=slice(0, int(np.searchsorted(drive["s"], place))))
+    found = compare.compare([cut], course, {"reference": (car, {})}, simulate=simulate.run)
+    left = found["residual"].sel(signal="a_x").squeeze().dropna("time").values
+    assert found.attrs["driver"] and left[-25:].std() < 2.0 * left[:-100].std()
 
 
 def test_without_a_calibration_nothing_is_changed(nominal):

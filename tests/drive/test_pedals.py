@@ -64,16 +64,6 @@ def test_a_driver_who_is_listened_to_brakes_as_the_measured_one_did(course, car)
     assert left[0] < 0.3 * left[1]
 
 
-@pytest.mark.parametrize("place", [190.0, 340.0, 500.0, 690.0])
-def test_a_record_that_ends_while_its_speed_changes_is_no_worse_there_than_elsewhere(course, car, place):
-    drive, _ = braked.drive(course, car)
-    cut = drive.isel(time=slice(0, int(np.searchsorted(drive["s"], place))))
-    heard = pedals.listening(replay(cut, course, simulate.run), car).replay
-    assert heard.by_foot is not None
-    left = heard.residual(heard(car))[SIGNALS.index("a_x"), heard.compared]
-    assert left[-25:].std() < 2.0 * left[:-100].std()
-
-
 @pytest.mark.parametrize("noise", [0.0, 1e-5])
 def test_however_clean_the_speed_what_is_faster_than_half_a_hertz_is_the_accelerometers(course, car, noise):
     drive, run = braked.drive(course, car, noise=noise)

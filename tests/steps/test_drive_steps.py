@@ -148,9 +148,8 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
 
 @pytest.fixture(scope="module")
 def late(files, repository, tmp_path_factory):
-    """The records of a car with very soft top mounts (of stiffer ones a_x, which they hardly delay, tells), and the configuration of a model that
-    has them."""
-    folder, mounts = tmp_path_factory.mktemp("late"), {"top_mount": {"front": 7e-6, "rear": 7e-6}}
+    """The records of a car with soft top mounts, and the configuration of a model that has them."""
+    folder, mounts = tmp_path_factory.mktemp("late"), {"top_mount": {"front": 3e-6, "rear": 3e-6}}
     road = store.read(files / "road.nc")
     for name, speed in (("fit", 20.0), ("check", 16.0)):
         u = road["u"].values

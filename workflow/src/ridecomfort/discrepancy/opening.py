@@ -46,6 +46,9 @@ SHORTEST, LEAST = 10.0, 6.0
 """s of a drive that are judged at least, one of less holds too few spectra of 4 s to tell how the errors of six signals go together, and s that
 all fitted drives hold at least."""
 
+RUN_OUT = 0.5
+"""s at the end that are left out: low-pass filters of records and of simulations end there without knowing what comes."""
+
 UNCERTAIN = {
     "roll_inertia": 0.1,
     "pitch_inertia": 0.1,
@@ -222,11 +225,11 @@ def start_values(experiment: Car) -> dict[str, float]:
 
 
 def _settled(again: Replay) -> Replay:
-    """The same without its first instants."""
+    """The same without its first and last instants."""
     begins, ends = again.time[again.compared][[0, -1]]
     settled = np.clip(again.time[0] + UNDER_WAY - begins, *SETTLING)
-    first = begins + min(settled, (1 - SPARED) * (ends - begins))
-    return replace(again, compared=again.compared & (again.time >= first))
+    first, last = begins + min(settled, (1 - SPARED) * (ends - begins)), ends - RUN_OUT
+    return replace(again, compared=again.compared & (again.time >= first) & (again.time <= last))
 
 
 def _parameters(vehicle, calibrated: Mapping[str, Sequence[float]], uncertain: Mapping[str, float]) -> list[Size]:

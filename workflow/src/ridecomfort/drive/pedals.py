@@ -161,5 +161,6 @@ def _faster(series: np.ndarray, rate: float, lowest: float) -> np.ndarray:
 
 
 def _fading(compared: np.ndarray, rate: float) -> np.ndarray:
-    """Nil before a drive is compared, then fading in over FADING, one to the end of the record, (time,)."""
-    return np.minimum(np.cumsum(compared) / (FADING * rate), 1.0)
+    """One where a drive is compared, nil elsewhere, fading in over FADING, (time,)."""
+    inside = np.cumsum(compared) / (FADING * rate)
+    return np.where(compared, np.minimum(inside, 1.0), 0.0)

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from ..errors import InputError
-from ..vehicle.driver import SPEED_PREVIEW_TIME, path_demand, speed_demand
+from ..vehicle.driver import path_demand, speed_demand
 from ..vocabulary import SIGNALS, STANDARD_GRAVITY
 from . import pedals
 from .distance import DIFFERENTIATED
@@ -26,10 +26,6 @@ from .slow import smooth, speed_bandwidth
 RUN_IN = 50.0
 """m that the model drives before it is compared: 2 s at 25 m/s, when a bounce of 1.3 Hz, damped by a third, is down to
 0.5 %."""
-
-RUN_OUT = 0.75
-"""s at the end of a drive that are not compared: filters of records and of simulations end there without knowing what comes, and a driver who is
-brought to a speed that changes, by what is heard of his foot, rings there (0.1 to 0.4 m/s2 of a_x, within 0.03 before)."""
 
 SLOWEST = 1.0
 """m/s; equal place means nothing for a vehicle that stands."""
@@ -143,7 +139,7 @@ class Following:
 class Replay:
     """A measured drive, and the road and simulator that it is driven again with.
 
-    ``compared`` marks the samples behind the run-in of the model, but for the last ones (RUN_OUT).
+    ``compared`` marks the samples behind the run-in of the model.
     """
 
     drive: xr.Dataset
@@ -321,7 +317,7 @@ def replay(
     Speed over ``u`` is the measured v_x, low-passed (``speed_bandwidth``); the lateral position is what the driver must aim
     for to drive ``e`` where that was measured, else the drive's ``lateral_position`` (0 if unknown), plus
     ``lateral_correction`` (m). The model starts a run-in and ``margin`` (m) before the drive and ends as far behind
-    what its driver looks ahead from there, road permitting. ``options`` go to the simulator as they are (step, effects_folder, ...), but for the rate. ``road``
+    it, road permitting. ``options`` go to the simulator as they are (step, effects_folder, ...), but for the rate. ``road``
     may be what ``simulate.prepare`` makes of one, which saves doing so in every run. Raises InputError when the drive leaves
     the road or stands.
     """
@@ -355,7 +351,7 @@ def replay(
             f"(expected within the road, {first:.1f} to {last:.1f} m)",
             place=label,
         )
-    start, end = max(first, place[0] - RUN_IN - margin), min(last, place[-1] + SPEED_PREVIEW_TIME * speed[-1] + margin)
+    start, end = max(first, place[0] - RUN_IN - margin), min(last, place[-1] + margin)
     u = np.linspace(start, end, max(2, int(np.ceil((end - start) / SPACING)) + 1))
     lateral = np.nan_to_num(float(drive.attrs.get("lateral_position", 0.0))) + lateral_correction
     if np.isfinite(drive["e"].values).all():
@@ -370,7 +366,7 @@ def replay(
         "sensor": tuple(float(drive.attrs[f"sensor_{axis}"]) for axis in "xyz"),
     }
     ahead = max(OVERHANG, float(drive.attrs.get("cg_to_front_axle", 0.0)) + BEYOND_AXLE)
-    compared = (place >= max(start, first + OVERHANG) + RUN_IN) & (place <= last - ahead) & (time <= time[-1] - RUN_OUT)
+    compared = (place >= max(start, first + OVERHANG) + RUN_IN) & (place <= last - ahead)
     if not compared.any():
         raise InputError(
             f"nothing is left of s = {place[0]:.1f} to {place[-1]:.1f} m after a run-in of {RUN_IN:g} m", place=label
