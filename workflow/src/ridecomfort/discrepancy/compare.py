@@ -14,8 +14,9 @@ import xarray as xr
 
 from ..drive import pedals
 from ..drive.record import require_one_rate, unstack
-from ..drive.replay import CLOCK_LEFT, Replay, replay
+from ..drive.replay import CLOCK_LEFT, MARGIN, Replay, replay
 from ..drive.sampling import rate_of
+from ..vehicle.driver import SPEED_PREVIEW_TIME
 from ..vocabulary import SIGNALS
 from .explain import SENSOR, explain
 from .wheels import wheels
@@ -83,7 +84,8 @@ def compare(
     def fill(i: int) -> None:
         drive = drives[i]
         count = drive.sizes["time"]
-        again = pedals.listening(replay(drive, road, simulate, options=options), *list(states.values())[-1]).replay
+        ahead = MARGIN + SPEED_PREVIEW_TIME * float(drive["v_x"][-1])  # as far as the driver looks
+        again = pedals.listening(replay(drive, road, simulate, margin=ahead, options=options), *list(states.values())[-1]).replay
         again = replace(again, compared=again.compared & (again.time <= again.time[-1] - RUN_OUT))
         measured[i, :, :count], by_foot[i] = again.measured(), again.by_foot
         for name, values in zip(DRIVEN, (drive["v_x"].values, again.place, drive["e"].values)):  # a recorded distance may stand and leap

@@ -27,6 +27,9 @@ RUN_IN = 50.0
 """m that the model drives before it is compared: 2 s at 25 m/s, when a bounce of 1.3 Hz, damped by a third, is down to
 0.5 %."""
 
+MARGIN = 2.0
+"""m of road beyond a drive at either end that the model is driven on, unless told."""
+
 SLOWEST = 1.0
 """m/s; equal place means nothing for a vehicle that stands."""
 
@@ -309,7 +312,7 @@ def replay(
     simulate: Callable[..., xr.Dataset],
     *,
     lateral_correction: float = 0.0,
-    margin: float = 2.0,
+    margin: float = MARGIN,
     options: Mapping | None = None,
 ) -> Replay:
     """Prepare to drive ``drive`` again: the path and speed that the simulator is asked for.
