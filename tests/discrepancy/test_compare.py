@@ -118,5 +118,13 @@ def test_a_record_that_ends_while_its_speed_changes_is_no_worse_there_than_one_t
     assert ended[kept[-25:]].std() < 2.0 * max(whole[kept[-25:]].std(), whole.std())
 
 
+def test_of_a_drive_that_has_less_than_its_last_second_half_is_compared(repository):
+    car = parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+    drive, _ = braked.drive(course := braked.course(), car)
+    short = drive.isel(time=slice(0, int(np.searchsorted(drive["s"], drive["s"][0] + 69.0))))
+    found = compare.compare([short], course, {"reference": (car, {})}, simulate=simulate.run)
+    assert 0.2 < 0.01 * found["residual"].sel(signal="a_x").notnull().sum() < 0.6 and found["rmse"].notnull().all()
+
+
 def test_without_a_calibration_nothing_is_changed(nominal):
     assert calibrated.apply(None, nominal, {"payload": {"mass": 100.0}}) == (nominal, {"payload": {"mass": 100.0}})

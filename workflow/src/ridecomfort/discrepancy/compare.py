@@ -86,7 +86,7 @@ def compare(
         count = drive.sizes["time"]
         ahead = MARGIN + SPEED_PREVIEW_TIME * float(drive["v_x"][-1])  # as far as the driver looks
         again = pedals.listening(replay(drive, road, simulate, margin=ahead, options=options), *list(states.values())[-1]).replay
-        again = replace(again, compared=again.compared & (again.time <= again.time[-1] - RUN_OUT))
+        again = _without_end(again)
         measured[i, :, :count], by_foot[i] = again.measured(), again.by_foot
         for name, values in zip(DRIVEN, (drive["v_x"].values, again.place, drive["e"].values)):  # a recorded distance may stand and leap
             series[name][i, :count] = values
@@ -123,6 +123,12 @@ def compare(
     )
     result = result.assign_attrs(normalisation="RMSE / (max - min) of the measured signal", driver=pedals.words(by_foot))
     return explain(result, noise_density, elsewhere)
+
+
+def _without_end(again: Replay) -> Replay:
+    """The same with its last RUN_OUT not compared, or, of a drive that has no more than that, half of what is."""
+    time = again.time[again.compared]
+    return replace(again, compared=again.compared & (again.time <= max(again.time[-1] - RUN_OUT, 0.5 * (time[0] + time[-1]))))
 
 
 def _below(again: Replay, vehicle, simulated: np.ndarray) -> np.ndarray:
