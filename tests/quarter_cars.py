@@ -18,10 +18,20 @@ from ridecomfort.vehicle import parameters
 
 INNER_RATE = 1000.0
 
+LATERAL = 0.13
+"""m; lateral position of ``driven``."""
+
 
 def vehicle(repository):
     """The mid-size car of the study."""
     return parameters.read(repository / "config" / "vehicles" / "midsize.yaml")
+
+
+def other(vehicle):
+    """A car that a nominal one does not fit."""
+    return vehicle.replace(
+        spring_stiffness_front=24000.0, spring_stiffness_rear=35000.0, tyre_radial_stiffness=320000.0, damping_front=1700.0
+    )
 
 
 def road(length=800.0, seed=1, bend=0.004, slope=0.02, width=4.0):
@@ -87,6 +97,17 @@ def run(road, vehicle, *, speed, lateral=0.0, friction=1.0, effects=(), sensor=(
     for name, values in zip(names, sampling.low_pass(fine, 1 / INNER_RATE, 0.5 * rate).T):
         result[name] = "time", values
     return result.isel(time=slice(None, None, round(INNER_RATE / rate)))
+
+
+def driven(road, vehicle, *, aside=0.0, along=0.0):
+    """A drive over most of a ``road`` of 560 m with changing speed, once the start has died away; ``aside`` and ``along`` wander (m)."""
+    u = road["u"].values
+    speed = xr.DataArray(20 + 2 * np.sin(2 * np.pi * u / 250), {"u": u}, "u")
+    lateral = xr.DataArray(LATERAL + aside * np.sin(2 * np.pi * u / 200), {"u": u}, "u")
+    found = run(road, vehicle, speed=speed, lateral=lateral, end=550.0)
+    found = found.isel(time=(found["s"] > 60).values)
+    found["s"] = found["s"] + along * np.sin(2 * np.pi * found["s"] / 300)
+    return found.assign_coords(time=found["time"] - found["time"][0])
 
 
 def _corner(vehicle, axle, road, interval):
