@@ -11,6 +11,7 @@ from ridecomfort.calibrated import with_values
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import floor, opening
 from ridecomfort.discrepancy.ranking import SHARED
+from ridecomfort.discrepancy.selection import around
 from ridecomfort.errors import InputError
 
 from .kinds import KAPPAS, SUSPECT, Draw
@@ -64,12 +65,13 @@ def form(place: str | None, proposal, opened: np.ndarray, fall: Callable) -> dic
     row = {"place": proposal.place if proposal else "", "place_right": "", "form_share": "", "together_share": ""}
     if place is None:
         return row
-    accepted, squares = [], [opened]
-    if proposal:
-        accepted, squares = proposal.selection.accepted, [state.held_out_squares for state in proposal.selection.states] or squares
-    falls = [before - after for before, after in zip(squares, squares[1:])]
-    own = [gone for name, gone in zip(accepted, falls) if ":" in name]  # terms are called by place and term, effects by a name alone
-    shares = {key: fall(squares[0], squares[0] - sum(gone)) for key, gone in (("form_share", own), ("together_share", falls))}
+    gone, own = np.zeros_like(opened), np.zeros_like(opened)
+    for name in proposal.selection.kept if proposal else ():
+        before, after = around(proposal.selection, name)
+        fell = before.held_out_squares - after.held_out_squares
+        gone, own = gone + fell, own + fell * (":" in name)  # terms are called by place and term, effects by a name alone
+    first = proposal.selection.states[0].held_out_squares if proposal and proposal.selection.states else opened
+    shares = {key: fall(first, first - those) for key, those in (("form_share", own), ("together_share", gone))}
     # Where who knows the truth gains nothing held out, no form can be judged by what it does there.
     return row | {"place_right": row["place"] == place} | {key: share for key, share in shares.items() if np.isfinite(share)}
 

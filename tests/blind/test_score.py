@@ -87,11 +87,13 @@ def test_of_a_wrong_file_what_is_told_to_five_percent_counts():
     assert score.told(draw, car, verdict("outside")) == 0
 
 
-def proposal(place: str, *accepted: tuple[str, float]) -> SimpleNamespace:
-    """One that begins with a mean square of 10, of which everything that is accepted takes off its part."""
+def proposal(place: str, *accepted: tuple[str, float], needless: tuple[str, ...] = ()) -> SimpleNamespace:
+    """One that begins with a mean square of 10, of which everything that is accepted takes off its part; ``needless``: names that the last model
+    does without."""
     squares = 10.0 - np.cumsum([0.0, *(gone for _, gone in accepted)])
-    states = tuple(SimpleNamespace(held_out_squares=np.full((1, 6), value)) for value in squares)
-    return SimpleNamespace(place=place, selection=SimpleNamespace(accepted=tuple(name for name, _ in accepted), states=states))
+    states, names = tuple(SimpleNamespace(held_out_squares=np.full((1, 6), value)) for value in squares), tuple(name for name, _ in accepted)
+    kept = tuple(name for name in names if name not in needless)
+    return SimpleNamespace(place=place, selection=SimpleNamespace(accepted=names, states=states, kept=kept, needless=needless))
 
 
 OPENED = np.full((1, 6), 10.0)
@@ -106,6 +108,12 @@ def test_of_a_form_its_own_terms_count_and_what_stands_beside_it_only_together()
     row = score.form("strut", proposal("strut", ("top_mount", 2.0), ("strut:velocity_cube", 4.0), ("strut:velocity_size", 1.0)), OPENED, share_of)
     assert row["place"] == "strut" and row["place_right"]
     assert row["form_share"] == pytest.approx(5.0 / 8.0) and row["together_share"] == pytest.approx(7.0 / 8.0)
+
+
+def test_what_only_stood_in_for_a_form_counts_as_the_forms():
+    stood_in = proposal("strut", ("top_mount", 2.0), ("strut:velocity_cube", 4.0), needless=("top_mount",))
+    row = score.form("strut", stood_in, OPENED, share_of)
+    assert row["form_share"] == row["together_share"] == pytest.approx(6.0 / 8.0)
 
 
 def test_without_a_form_nothing_goes_and_no_place_is_right():

@@ -149,16 +149,21 @@ def shares(selection: Selection, before: State, after: State, *others: Selection
     return removed(selection.states[0], before, after, *floors)
 
 
-def shares_of(selection: Selection, name: str) -> tuple[float, float]:
-    """Share of the explainable error that went when an effect was accepted, on fitted and on held-out drives (nan without). What went with needless
-    ones right before it counts as its own, as of any that come after the last: those of all that are kept add up to what the last model removes."""
+def around(selection: Selection, name: str) -> tuple[State, State]:
+    """The models before and after what went when an effect was accepted. What went with needless ones right before it counts as its own, as of any
+    that come after the last: those of all that are kept add up to what the last model removes."""
     before = selection.accepted.index(name)
     after = before + 1
     if name in selection.kept:
         after = len(selection.accepted) if name == selection.kept[-1] else after
         while before and selection.accepted[before - 1] in selection.needless:
             before -= 1
-    return shares(selection, selection.states[before], selection.states[after])
+    return selection.states[before], selection.states[after]
+
+
+def shares_of(selection: Selection, name: str) -> tuple[float, float]:
+    """Share of the explainable error that went when an effect was accepted (``around``), on fitted and on held-out drives (nan without)."""
+    return shares(selection, *around(selection, name))
 
 
 def removed(
