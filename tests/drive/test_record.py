@@ -280,3 +280,29 @@ def test_a_drive_with_a_wrong_unit_or_role_is_refused():
         record.check(drive)
     with pytest.raises(InputError, match="role 'train'"):
         record.from_arrays(quantities(), role="train")
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"v_x": 0.0}, "v_x: holds 0 m/s throughout its 2000 samples (expected more than 0.5 m/s somewhere; leave v_x out, which is then made of s)"),
+        ({"v_x": 0.001}, "v_x: holds 0.001 m/s throughout its 2000 samples"),
+        ({"v_x": 0.0, "s": None}, "v_x: holds 0 m/s throughout its 2000 samples (expected more than 0.5 m/s somewhere)"),
+        ({"s": 100.0}, "s: holds 100 m throughout its 2000 samples (expected a distance that rises; leave s out, which is then made of v_x)"),
+        ({"s": 0.0, "v_x": None}, "s: holds 0 m throughout its 2000 samples (expected a distance that rises)"),
+    ],
+)
+def test_a_distance_or_a_speed_that_is_dead_is_refused_by_name(change, said):
+    given = {name: (time, np.full(TIME.size, change[name]) if name in change else values) for name, (time, values) in quantities().items()}
+    with pytest.raises(InputError, match=f"^{re.escape(said)}"):
+        record.from_arrays({name: pair for name, pair in given.items() if change.get(name, 0.0) is not None})
+
+
+def test_a_speed_that_goes_on_elsewhere_after_it_was_lost_is_refused():
+    speed = 20.0 + np.sin(0.5 * TIME)
+    held = np.where((TIME > 7.995) & (TIME < 11.995), speed[800], speed - 12.0 * (TIME > 11.995))
+    with pytest.raises(InputError, match=r"^v_x: sample 1201 \(12 s\) holds .* m/s, 4 s after it became .*were values lost"):
+        record.from_arrays(quantities(v_x=(TIME, held)))
+    record.from_arrays(quantities(v_x=(TIME, np.where((TIME > 7.995) & (TIME < 11.995), speed[800], speed))))
+    told = np.floor(TIME + 1e-9)  # once a second, and that brakes hard
+    record.from_arrays(quantities(v_x=(TIME, np.interp(told, [0, 5, 6, 20], [20.0, 21.0, 12.0, 13.0]))))

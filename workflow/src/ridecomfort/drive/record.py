@@ -32,7 +32,7 @@ REASONABLE = {
 
 STEPS = {"v_x": (2.0, 15.0), "e": (2.0, 5.0)}
 """SI; what a speed and a path may change by from one value to the next, at once (the fix of a receiver jumps by a metre or two) and a second
-since they last did, for as long as receivers hold a value: more is no motion of a road vehicle."""
+since they last did, for as long as they usually hold a value, as receivers do: more is no motion of a road vehicle."""
 
 FINEST = 1e-6
 """m/s2 or rad/s; no instrument for vehicles tells values apart that lie closer together."""
@@ -104,6 +104,7 @@ def from_arrays(
         _check_values(quantity, time, values, file=file)
         _check_steps(quantity, time, values, file=file)
         arrays[quantity] = time, values
+    _check_moves(arrays, file=file)
     if "s" in arrays and "v_x" in arrays:
         distance.check_beside_speed(*arrays["s"], *arrays["v_x"], file=file)
     elif "s" in arrays:
@@ -218,12 +219,27 @@ def _check_values(name: str, time: np.ndarray, values: np.ndarray, *, file) -> N
         )
 
 
+def _check_moves(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], *, file) -> None:
+    """InputError where a distance never changes, or a speed never reaches that of a vehicle which moves: a dead channel that was filled."""
+    for name, other, expected in (("s", "v_x", "a distance that rises"), ("v_x", "s", f"more than {faults.STANDING:g} m/s somewhere")):
+        if name not in arrays:
+            continue
+        values = arrays[name][1]
+        if np.ptp(values) > 0.0 if name == "s" else np.max(np.abs(values)) > faults.STANDING:
+            continue
+        held = f"{values[0] + 0.0:.6g}" if np.ptp(values) == 0.0 else f"at most {np.max(np.abs(values)):.3g}"
+        instead = f"; leave {name} out, which is then made of {other}" if other in arrays else ""
+        raise InputError(f"holds {held} {VARIABLES[name].unit} throughout its {values.size} samples (expected {expected}{instead})", file=file, place=name)
+
+
 def _check_steps(name: str, time: np.ndarray, values: np.ndarray, *, file) -> None:
     """InputError where a speed or a path changes as that of no vehicle: values that were lost (noughts) or transmitted wrongly."""
     at_once, a_second = STEPS.get(name, (np.inf, 0.0))
     known = np.flatnonzero(np.concatenate([[True], np.diff(values) != 0.0]))  # others are held, or rounded
     since = np.diff(time[known])
-    bad = np.flatnonzero(np.abs(np.diff(values[known])) > at_once + a_second * np.minimum(since, distance.LONGEST_HOLD))
+    usual = np.median(since) if since.size else 0.0  # what was held for longer was lost, and goes on where the vehicle has come to meanwhile
+    allowed = np.minimum(np.maximum(time[known[1:]] - time[known[1:] - 1], np.minimum(since, usual)), distance.LONGEST_HOLD)
+    bad = np.flatnonzero(np.abs(np.diff(values[known])) > at_once + a_second * allowed)
     if bad.size:
         before, i = known[bad[0] : bad[0] + 2]
         unit = VARIABLES[name].unit
