@@ -85,6 +85,28 @@ def test_a_hold_that_lasts_to_the_end_is_told():
     assert any("to 59.99 s: did the instrument freeze" in words for words in faults.found(signals(dead)))
 
 
+@pytest.mark.parametrize("value", [0.0, None])
+def test_a_hold_that_lasts_from_the_beginning_is_told(value):
+    late = lambda name, values: np.where(TIME < 9.995, values[1000] if value is None else value, values)
+    end = "10.00" if value is None else "9.99"
+    assert any(f"0.00 to {end} s: did the instrument freeze" in words for words in faults.found(signals(late)))
+
+
+def test_a_speed_that_is_held_while_the_vehicle_drives_on_is_told():
+    speed = 20.0 + 2.0 * np.sin(0.3 * TIME)
+    held = np.where((TIME > 29.999) & (TIME < 33.001), speed[3000], speed)
+    assert faults.found(signals() | {"v_x": (TIME, speed)}) == []
+    (said,) = faults.found(signals() | {"v_x": (TIME, held)})
+    assert said.startswith("v_x: a value is held for 301 samples, 30.00 to 33.00 s: did the instrument freeze")
+
+
+def test_a_speed_that_rests_in_its_steps_stays_the_same_or_is_nought_is_not_held():
+    smooth = 20.0 + 2.0 * np.sin(0.3 * TIME)
+    stops = np.where((TIME > 10.0) & (TIME < 20.0), 0.0, smooth + 0.01 * np.random.default_rng(1).standard_normal(TIME.size))
+    for speed in (np.round(smooth, 1), np.round(smooth, 2), np.full(TIME.size, 20.0), stops):
+        assert faults.found(signals() | {"v_x": (TIME, speed)}) == []
+
+
 def test_all_signals_are_held_at_once_whatever_their_clocks():
     held = signals(frozen(*SIGNALS))
     held |= {name: (TIME + 0.003, held[name][1]) for name in SIGNALS[3:]}

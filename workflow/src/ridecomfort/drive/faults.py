@@ -46,7 +46,7 @@ away from these; and how many there are at least."""
 
 def found(quantities: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
     """What speaks against the inertial signals among the ``quantities`` of a record, in words; each is (time in s, values in SI units) as
-    recorded. Where ``v_x`` or ``s`` is among them, too, nothing is held while the vehicle stands."""
+    recorded. Where ``v_x`` or ``s`` is among them, too, nothing is held while the vehicle stands; a ``v_x`` that is held for LONG is told as well."""
     signals = {name: tuple(np.asarray(part, dtype=float) for part in quantities[name]) for name in SIGNALS}
     steps = {name: step for name, (_, values) in signals.items() if (step := _step(values))}
     again = {name: _told_again(signals[name][1]) for name in steps}
@@ -60,6 +60,8 @@ def found(quantities: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
         stays = stays or [again[name] or _held(_holds(time, values, np.diff(values) == 0.0, step, quantities), frozen)]
         for words in (*stays, _alone(time, values)):
             said.setdefault(words, []).append(name)
+    if "v_x" in quantities and (held := _speed_held(*quantities["v_x"])):
+        said.setdefault(held, []).append("v_x")
     return [f"{', '.join(names)}: {words}" for words, names in said.items() if words]
 
 
@@ -99,16 +101,25 @@ class _Hold:
 
 def _holds(time: np.ndarray, values: np.ndarray, equal: np.ndarray, step: float, quantities: Mapping) -> list[_Hold]:
     """Where HELD samples and more are ``equal`` (samples - 1,) to the one before though the vehicle moves and the signal was changing by more
-    than COARSE of its ``step`` until then, and does so from then on."""
+    than COARSE of its ``step`` until then, and does so from then on; at an end of the record one of these will do."""
     sides = np.diff(np.concatenate([[False], equal, [False]]).astype(int))
     holds, changes = [], np.abs(np.diff(values))
     for begin, end in zip(np.flatnonzero(sides == 1), np.flatnonzero(sides == -1)):
         hold = _Hold(float(time[begin]), float(time[end]), int(end - begin) + 1)
         before, behind = (beside[beside > 0] for beside in (changes[max(begin - BESIDE, 0) : begin], changes[end : end + BESIDE]))
         is_quick = [beside.size > 0 and np.median(beside) > COARSE * step for beside in (before, behind)]
-        if hold.samples >= HELD and is_quick[0] and (is_quick[1] or end == changes.size) and _moves(quantities, hold):
+        if hold.samples >= HELD and (is_quick[0] or begin == 0) and (is_quick[1] or end == changes.size) and _moves(quantities, hold):
             holds.append(hold)
     return holds
+
+
+def _speed_held(time: np.ndarray, speed: np.ndarray) -> str:
+    """Where a speed is held for LONG though the vehicle moves."""
+    time, speed = np.asarray(time, dtype=float), np.asarray(speed, dtype=float)
+    step = _step(speed)
+    holds = _holds(time, speed, np.diff(speed) == 0.0, step, {"v_x": (time, speed)}) if step else []
+    long = [hold for hold in holds if hold.end - hold.begin >= LONG]
+    return _in_words(long) if long else ""
 
 
 def _moves(quantities: Mapping, hold: _Hold) -> bool:
