@@ -136,6 +136,19 @@ def test_a_slow_signal_in_a_fast_table_is_told(times):
     assert said.startswith(f"roll_rate, pitch_rate, yaw_rate: every value stands {times} times in a row")
 
 
+@pytest.mark.parametrize(("times", "said"), [(4 / 3, "1.3"), (5 / 3, "1.7"), (2.5, "2.5"), (10 / 3, "3.3")])
+def test_a_slow_signal_in_a_table_of_no_multiple_of_its_rate_is_told(times, said):
+    slow = lambda name, values: values[np.floor(np.arange(values.size) / times + 1e-9).astype(int)] if "rate" in name else values
+    (words,) = faults.found(signals(slow))
+    assert words.startswith(f"roll_rate, pitch_rate, yaw_rate: every value stands {said} times on average: told faster than recorded")
+
+
+@pytest.mark.parametrize("step", [0.03, 0.1, 0.3])
+def test_values_that_are_equal_by_chance_on_a_calm_road_are_not_told_again(step):
+    calm = np.where(TIME % 10.0 < 6.0, 0.05, 3.0)
+    assert not any("told faster" in words for words in faults.found(signals(lambda name, values: calm * values, step)))
+
+
 def test_samples_that_stand_alone_are_told_and_bumps_of_the_road_are_not():
     def wrong(name, values):
         values[[700, 1500, 5200]] += [4.0, -4.0, 4.0]

@@ -39,6 +39,11 @@ COARSE = 5.0
 REGULAR = 0.9
 """Share of the changes of a signal whose values are told several times that lie so many samples apart, or a multiple."""
 
+AGAIN, EVEN = 0.15, 0.99
+"""Share of values that are those before them from which on a signal is told faster than recorded, chance leaving less than a tenth where
+changes are COARSE; and share of stretches without a change that then last the mean or the sample beside it: where a calm road leaves values
+equal by chance, some last longer."""
+
 ALONE, FARTHER, SPIKES = 20.0, 4.0, 3
 """Times the median distance of a sample from the middle of its neighbours, and times the changes around it, that one which stands alone is
 away from these; and how many there are at least."""
@@ -82,12 +87,17 @@ def _at_limit(name: str, values: np.ndarray, which: str, levels: np.ndarray, cou
 
 
 def _told_again(values: np.ndarray) -> str:
-    """Where a slower signal is told in a faster table, each value several times."""
+    """Where a slower signal is told in a faster table, each value several times, or some once more than others."""
     gaps = np.diff(np.flatnonzero(np.diff(values) != 0.0))
     times = int(np.median(gaps)) if gaps.size else 0
-    if times < 2 or gaps.size < len(values) // (2 * times) or np.mean(gaps % times == 0) < REGULAR:
-        return ""
-    return f"every value stands {times} times in a row: told faster than recorded (expected a table of the instrument's own rate)"
+    instead = "told faster than recorded (expected a table of the instrument's own rate)"
+    if times >= 2 and gaps.size >= len(values) // (2 * times) and np.mean(gaps % times == 0) >= REGULAR:
+        return f"every value stands {times} times in a row: {instead}"
+    share = np.mean(np.diff(values) == 0.0)
+    mean = 1.0 / (1.0 - share) if share < 1.0 else np.inf
+    usual = gaps[gaps <= np.quantile(gaps, REGULAR)] if gaps.size else gaps  # without what is held
+    is_even = gaps.size > 0 and np.mean(np.abs(gaps - mean) < 1.0) >= EVEN and usual.mean() > 1.0 + 0.5 * AGAIN
+    return f"every value stands {mean:.2g} times on average: {instead}" if share > AGAIN and is_even else ""
 
 
 @dataclass(frozen=True)
