@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.spatial.transform import Rotation
 
 from ridecomfort.drive import align, mounting, place, record, replay
 from ridecomfort.errors import InputError
@@ -262,6 +264,66 @@ def test_an_odometer_that_is_refused_for_its_clock_or_place_is_called_one_before
     with pytest.raises(InputError, match=words) as refused:
         aligned(recorded, road, nominal)
     assert "\n" not in str(refused.value)
+
+
+def test_rates_of_the_wrong_sign_are_no_odometer(drive, road, nominal):
+    """The distance is exact: scaled, it would agree with the road still less."""
+    recorded = quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL)
+    found = aligned(recorded.assign({name: -recorded[name] for name in ("roll_rate", "pitch_rate")}), road, nominal)
+    assert "odometer" not in found.attrs["faults"]
+    np.testing.assert_allclose(found["s"], drive["s"].values[: found.sizes["time"]], atol=0.1)
+
+
+def odometer(drive, speed=True, late=0):
+    """A drive whose distance runs 1.2 % too far, with or without a speed beside it, and comes so many samples late."""
+    start, time = float(drive["s"][0]), drive["time"].values
+    recorded = quarter_cars.recorded(drive, noise=1.0)
+    told = {name: (time, recorded[name].values) for name in (*SIGNALS, "v_x")[: len(SIGNALS) + speed]}
+    return record.from_arrays(told | {"s": (time[late:], start + 1.012 * (drive["s"].values[late:] - start))}, lateral_position=LATERAL)
+
+
+def test_an_odometer_without_a_speed_beside_it_is_not_to_be_left_out_but_to_tell_the_speed(drive, road, nominal):
+    said = aligned(odometer(drive, speed=False), road, nominal).attrs["faults"]
+    assert "as that of an odometer (give its slope as v_x in its place, with distance_start: 60: " in said
+
+
+def test_where_to_begin_without_s_is_where_the_record_begins_not_its_distance(drive, road, nominal):
+    said = aligned(odometer(drive, late=300), road, nominal).attrs["faults"]
+    told = float(said.split("distance_start: ")[1].split(":")[0])
+    assert "(leave s out, with distance_start" in said and told == pytest.approx(float(drive["s"][0]), abs=2.5)  # 60 m more after 3 s
+
+
+def turned(drive, degrees):
+    """A record of a drive by an instrument that is turned about the vertical."""
+    recorded = quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL, name="own")
+    back = Rotation.from_rotvec([0.0, 0.0, np.radians(degrees)]).inv().as_matrix()
+    rows = [back @ np.stack([recorded[name].values for name in part]) for part in (SIGNALS[:3], SIGNALS[3:])]
+    return recorded.assign({name: ("time", row) for name, row in zip(SIGNALS, np.concatenate(rows))})
+
+
+def test_an_instrument_that_is_turned_by_more_than_three_rounds_take_out_is_turned_back(drive, road, nominal):
+    found = aligned(turned(drive, 40.0), road, nominal)
+    assert np.degrees(found.attrs["mounting_yaw"]) == pytest.approx(40.0, abs=0.3)
+    (said,) = found.attrs["faults"].split("; ")
+    assert said.startswith("the instrument is turned by +40 deg in yaw")
+
+
+def test_an_instrument_that_no_round_turns_back_is_told(drive, road, nominal, monkeypatch):
+    monkeypatch.setattr(align, "MOST", align.PASSES)
+    said = aligned(turned(drive, 40.0), road, nominal).attrs["faults"].split("; ")[0]
+    assert re.fullmatch(r"alignment does not settle: its last round turned the instrument by 1\d\.\d deg: are the axes .* right\?", said)
+
+
+@pytest.mark.parametrize(("degrees", "columns"), [(90, "a_x = -a_y, a_y = a_x, "), (-90, "a_x = a_y, a_y = -a_x, "), (180, "a_x = -a_x, a_y = -a_y, ")])
+def test_axes_that_are_exchanged_are_told_with_what_to_change(drive, road, nominal, degrees, columns):
+    (said,) = aligned(turned(drive, degrees), road, nominal).attrs["faults"].split("; ")
+    assert said.startswith(f"the instrument looks turned by {degrees:+d} deg in yaw") and columns in said
+
+
+def test_axes_that_are_exchanged_are_told_where_a_drive_is_refused(truth, nominal):
+    road = quarter_cars.road(length=560.0, seed=3)
+    with pytest.raises(InputError, match=r"agree nowhere .*; the instrument looks turned by \+180 deg in yaw: .*, pitch_rate = -pitch_rate\)$"):
+        aligned(turned(driven(road, truth), 180.0), road, nominal)
 
 
 def test_a_drive_without_a_place_that_begins_elsewhere_is_asked_where_it_begins(drive, road, nominal):

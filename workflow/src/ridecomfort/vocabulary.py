@@ -93,6 +93,7 @@ VARIABLES = _table(
     ("place_measured", "1", "1 where s was measured, 0 where it is an integral of the speed"),
     ("cut_off", "Hz", "cut-off of the low-pass that all inertial signals of the record went through"),
     ("start_time", "s", "first instant of the drive on the clock of its record"),
+    ("way_before", "m", "way driven before the first instant since the record would begin without its s"),
     ("clock_offset", "s", "how much later the inertial signals stand in the record than place and speed"),
     ("clock_offset_error", "s", "standard error of the clock offset"),
     ("clock_correction", "s", "clock offset left after alignment"),

@@ -18,7 +18,8 @@ import xarray as xr
 
 from ..errors import InputError
 from ..vocabulary import SIGNALS
-from . import mounting, path, pedals, place, turning
+from . import axes, mounting, path, pedals, place, turning
+from .distance import DIFFERENTIATED
 from .record import acceleration, felt
 from .replay import Following, Simulated, replay
 
@@ -28,6 +29,10 @@ PASSES, MOST = 3, 15
 SETTLED = 0.02
 """m (rms) along or across the road that the last round may move a drive by. The third moves one whose s wanders by 0.3 m by 7 cm, and that of a
 multi-body car, whose s is right, by 1 cm as every other would: the clock goes on by milliseconds there, so it does not count."""
+
+STEADY = 0.003
+"""rad that the last round may turn an instrument by: one and a half times what is usually left of a mounting (``mounting.LEFT``). The third
+turns one that sits right by a sixth of that at most, and one that is turned by 20 deg by 0.026 still."""
 
 LOWEST = 0.3
 """Correlation (rms over ``place.SHAKEN``) below which a record is none of a drive on this road: with a nominal vehicle a drive has
@@ -89,7 +94,7 @@ def align(
         work = place.driven(work, drive, way, scale, offset)
         kept = place.on_road(work, road, place.ODOMETER_REACH, place.ODOMETER_REACH)
         work, drive = place.cut(work, kept), place.cut(drive, kept)
-    error, fitted = np.nan, mounting.Mounting()
+    error, fitted, turned = np.nan, mounting.Mounting(), 0.0
     try:
         found = _found(work, road, vehicle, simulate, search, options)
     except PlaceNotFound as problem:
@@ -97,7 +102,7 @@ def align(
     work, clock, lateral = found
     work = _where_recorded(work, clock) if measured else work
     work = _on_path(work, lateral)
-    doubt = _odometer(work, way, road, vehicle, simulate, options)[0] if measured else ""
+    exchanged, doubt = "", _odometer(work, way, road, vehicle, simulate, options)[0] if measured else ""
     expected = path.EXPECTED_ASIDE_MEASURED if path.has_offset(drive) else path.EXPECTED_ASIDE
     if not measured:  # along another path the way is another
         way = place.way(work, road, start)
@@ -108,9 +113,11 @@ def align(
     for done in range(1, MOST + 1):
         heard = pedals.listening(asked(), vehicle)
         again, simulated, by_foot = heard.replay, heard.simulated, heard.replay.by_foot
+        if done == 1:  # of a drive at its place whose instrument nothing has turned yet
+            exchanged = axes.words(again, simulated)
         if drive.attrs["gravity"]:
-            step = mounting.fit(again, simulated)
-            work, fitted = mounting.corrected(work, step), fitted.then(step)
+            turn = mounting.fit(again, simulated)
+            work, fitted, turned = mounting.corrected(work, turn), fitted.then(turn), float(np.max(np.abs(turn.rotation)))
             again = replace(again, drive=work)
         step, error, better = place.clock(again, simulated, vehicle)
         if measured:
@@ -127,9 +134,10 @@ def align(
         work = work.assign(s=work["s"] + along, e=work["e"] + aside)
         moved_along, moved_aside = moved_along + along, moved_aside + aside
         last = [float(np.sqrt(np.mean(moved**2))) for moved in (along, aside)]
-        if done >= PASSES and (doubt or max(last) < SETTLED):  # that of an odometer is to be left out, however long it takes
+        if done >= PASSES and (exchanged or doubt or max(last) < SETTLED and turned < STEADY):  # what is to be told otherwise need not settle
             break
     aligned = _without_gravity(work, replace(asked(), by_foot=by_foot).following(vehicle).simulated)
+    told = exchanged or "; ".join(filter(None, (doubt or _unsettled(work, last, turned), mounting.words(fitted))))
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
         clock_offset=float(clock),
@@ -139,7 +147,7 @@ def align(
         lateral_correction=float(lateral),
         distance_wander=float(moved_along.std()),
         lateral_wander=float(moved_aside.std()),
-        faults="; ".join(filter(None, (drive.attrs.get("faults", ""), doubt or _unsettled(last, measured), mounting.words(fitted)))),
+        faults="; ".join(filter(None, (drive.attrs.get("faults", ""), told))),
         yaw_rate_gain=turning.gyroscope_gain(aligned, getattr(road, "road", road))[0],
         **fitted.attributes(),
     )
@@ -153,11 +161,25 @@ def _odometer(work: xr.Dataset, way: place.Way, road, vehicle, simulate, options
     placed, too_far = place.driven(driven, driven, way, scale, offset), 1.0 / scale - 1.0
     if abs(too_far) < max(OFF, DRIFT / float(np.ptp(work["s"].values))):
         return "", placed
-    where, start = "far" if too_far > 0 else "short", float(placed["s"][0])
-    return (
-        f"s: runs {100 * abs(too_far):.1f} % too {where} over the road, as that of an odometer "
-        f"(leave s out, with distance_start: {start:.0f}: it is then integrated from v_x and scaled)"
-    ), placed
+    if not _agrees(placed, road, vehicle, simulate, options) > _agrees(work, road, vehicle, simulate, options):
+        return "", placed
+    where, start = "far" if too_far > 0 else "short", float(placed["s"][0]) - float(placed.attrs.get("way_before", 0.0))
+    instead = f"{_instead_of_s(work)}, with distance_start: {start:.0f}: it is then integrated from v_x and scaled"
+    return f"s: runs {100 * abs(too_far):.1f} % too {where} over the road, as that of an odometer ({instead})", placed
+
+
+def _agrees(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> float:
+    """How well a drive agrees with the road where it is (``place.shaken`` at lags within CLOSE); -inf where it cannot be driven."""
+    try:
+        again = replay(place.cut(work, place.on_road(work, road)), road, simulate, options=options)
+        return float(place.shaken(again, again(vehicle), CLOSE)[1].max())
+    except InputError:
+        return -np.inf
+
+
+def _instead_of_s(work: xr.Dataset) -> str:
+    """What to tell in place of an ``s`` that is not good enough, which may be all that was told of the speed."""
+    return "give its slope as v_x in its place" if DIFFERENTIATED in work.attrs["treatment"] else "leave s out"
 
 
 def _of_an_odometer(problem: PlaceNotFound, work: xr.Dataset, way: place.Way, road, vehicle, simulate, search: float, options: Mapping) -> InputError:
@@ -172,12 +194,18 @@ def _of_an_odometer(problem: PlaceNotFound, work: xr.Dataset, way: place.Way, ro
     return InputError(f"{words}; if not, {str(problem).removeprefix(f'{label}: ')}", place=label) if words else problem
 
 
-def _unsettled(last: Sequence[float], measured: bool) -> str:
-    """Words on m (rms) that the ``last`` round moved a drive by along and across the road; empty where that is little."""
-    if max(last) < SETTLED:
-        return ""
-    asked = "is s good to 0.5 m (if not, leave it out, with distance_start: it is then integrated from v_x)" if measured else "is v_x right"
-    return f"alignment does not settle: its last round moved the place by {last[0]:.2f} m along and {last[1]:.2f} m across the road: {asked}?"
+def _unsettled(work: xr.Dataset, last: Sequence[float], turned: float) -> str:
+    """Words on m (rms) that the ``last`` round moved a drive by along and across the road, and on the rad by which it ``turned`` the
+    instrument; empty where that is little."""
+    said, asked = [], []
+    if max(last) >= SETTLED:
+        said.append(f"moved the place by {last[0]:.2f} m along and {last[1]:.2f} m across the road")
+        instead = f"{_instead_of_s(work)}, with distance_start: it is then integrated from v_x"
+        asked.append(f"is s good to 0.5 m (if not, {instead})" if work.attrs["place_measured"] else "is v_x right")
+    if turned >= STEADY:
+        said.append(f"turned the instrument by {np.degrees(turned):.1f} deg")
+        asked.append("are the axes of accelerations and rates right")
+    return f"alignment does not settle: its last round {' and '.join(said)}: {', '.join(asked)}?" if said else ""
 
 
 def _moved_on_road(work: xr.Dataset, road, clock: float) -> xr.Dataset:
@@ -228,7 +256,7 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
             f"model and record agree nowhere near this place: {', '.join(place.SHAKEN)} correlate by "
             f"{np.sqrt(max(agreement, 0)):.2f} at best "
             f"(expected {LOWEST:g} or more; is it the road of this drive, {begins}? Where the path is known, "
-            f"lateral_position says so){_other_units(work, road, vehicle, simulate, options)}",
+            f"lateral_position says so){_otherwise(work, road, vehicle, simulate, options)}",
             place=label,
         )
     if measured and abs(lag) > CLOSE:
@@ -245,19 +273,22 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
         raise InputError(
             f"its path fits the road best {lateral:+.2f} m to the left of {'what is recorded or told' if known else 'the reference line'}, "
             f"at an end of what is searched or beyond (expected between {right:+.2f} and {left:+.2f} m; is lateral_position or e right, "
-            f"is the road as wide as the drive?){_other_units(work, road, vehicle, simulate, options)}",
+            f"is the road as wide as the drive?){_otherwise(work, road, vehicle, simulate, options)}",
             place=label,
         )
     return work, clock, lateral
 
 
-def _other_units(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> str:
-    """Words on what the road shakes if it is so much larger or smaller than the model's that its unit may be another; empty where none is."""
+def _otherwise(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> str:
+    """Words on what the road shakes if it is so much larger or smaller than the model's that its unit may be another, and on axes that are
+    exchanged; empty where neither is."""
     again = replay(work, road, simulate, options=options)
-    measured, modelled = (each[:, again.compared].std(axis=1) for each in (again.measured(), again(vehicle).signals))
+    simulated = again(vehicle)
+    measured, modelled = (each[:, again.compared].std(axis=1) for each in (again.measured(), simulated.signals))
     times = dict(zip(SIGNALS, measured / np.maximum(modelled, 1e-12)))
     far = {name: times[name] for name in place.SHAKEN if not 1.0 / TIMES < times[name] < TIMES}
-    return "".join(f"; {name} is {found:.2g} times what the model does: is its unit right?" for name, found in far.items())
+    said = [f"{name} is {found:.2g} times what the model does: is its unit right?" for name, found in far.items()]
+    return "".join(f"; {words}" for words in (*said, axes.words(again, simulated)) if words)
 
 
 def _better(vehicle, values: Mapping[str, float], brought: Following) -> tuple[object, Simulated]:

@@ -105,7 +105,8 @@ def cut(drive: xr.Dataset, kept: np.ndarray) -> xr.Dataset:
     first, last = np.flatnonzero(kept)[[0, -1]]
     time = drive["time"].values
     short = drive.isel(time=slice(first, last + 1)).assign_coords(time=drive["time"][: last + 1 - first])
-    return short.assign_attrs(start_time=float(drive.attrs["start_time"]) + float(time[first] - time[0]))
+    way = float(drive.attrs.get("way_before", 0.0)) + float(drive["s"][first] - drive["s"][0])
+    return short.assign_attrs(start_time=float(drive.attrs["start_time"]) + float(time[first] - time[0]), way_before=way)
 
 
 def on_road(drive: xr.Dataset, road, before: float = np.inf, behind: float = np.inf) -> np.ndarray:

@@ -76,7 +76,7 @@ def from_arrays(
 
     Returns a Dataset over ``time`` (s, from 0); attributes name, role, gravity,
     sensor_x/y/z, lateral_position (nan: unknown), road_friction, place_measured, cut_off (Hz, of the anti-alias
-    filter; half the rate where nothing was resampled), start_time, ``treatment`` (what was
+    filter; half the rate where nothing was resampled), start_time, way_before (m driven since it would begin if ``s`` were left out), ``treatment`` (what was
     done to the data) and ``faults`` (what they show of an instrument that fails). Raises InputError.
     """
     missing = [signal for signal in SIGNALS if signal not in quantities]
@@ -146,10 +146,20 @@ def from_arrays(
         place_measured=int(place_measured),
         cut_off=float(cut_off),
         start_time=float(first),
+        way_before=_way_before(arrays, first),
         treatment="; ".join(treatment) or "none",
         faults="; ".join(faults.found(arrays)),
     )
     return check(describe(drive), file=file)
+
+
+def _way_before(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], first: float) -> float:
+    """m driven by v_x between where all but s and e begin and the ``first`` instant (s); 0 where s alone tells of the speed."""
+    if "v_x" not in arrays:
+        return 0.0
+    begins = max(time[0] for name, (time, _) in arrays.items() if name == "v_x" or name in SIGNALS)
+    time, speed = arrays["v_x"]
+    return float(np.ptp(np.interp([min(begins, first), first], time, sampling.integral(speed, time))))
 
 
 def _inertial(signals: Mapping[str, tuple[np.ndarray, np.ndarray]], time: np.ndarray, rate: float, *, file) -> tuple[dict, list[str], float]:
