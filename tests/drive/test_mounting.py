@@ -31,6 +31,12 @@ def test_of_two_drives_nobody_knows_which_was_moved():
     assert mounting.moved(drives(0.0, 3.0)) == []
 
 
+def test_drives_without_gravity_whose_mounting_is_not_sought_are_left_out():
+    measured = drives(3.0, 3.1, 3.0, 0.0, 0.0, 0.0, 0.0)
+    assert len(mounting.moved(measured)) == 3
+    assert mounting.moved(measured.assign(gravity=("drive", [1, 1, 1, 0, 0, 0, 0]))) == []
+
+
 @pytest.fixture
 def drive() -> xr.Dataset:
     """A record of white noise that holds gravity, with an attitude."""

@@ -167,6 +167,24 @@ def test_what_the_distances_of_a_site_look_like_stands_below_its_clocks(tables, 
     assert "Ts1: s looks like another point's." in notes
 
 
+def test_what_was_done_to_records_and_speaks_against_them_stands_below_their_clocks(study):
+    measured = study.sites[0].measured
+    first, second, third = measured["drive"].values
+    told = {"treatment": ("drive", ["none", "s integrated from v_x", "none"]), "faults": ("drive", ["", "a_z: clips", "a_x: clips"])}
+    site = replace(study.sites[0], measured=measured.assign(told))
+    notes = differing.tables(replace(study, sites=(site, *study.sites[1:])))["alignment"].notes
+    assert [note for note in notes if "clips" in note or first in note] == [
+        f"Ts1, {second}: s integrated from v_x; a_z: clips.", f"Ts1, {third}: a_x: clips."
+    ]  # fmt: skip
+
+
+def test_a_mounting_that_is_not_sought_without_gravity_has_no_number(study):
+    site = replace(study.sites[0], measured=study.sites[0].measured.assign(gravity=("drive", [1, 0, 1])))
+    table = differing.tables(replace(study, sites=(site, *study.sites[1:])))["alignment"]
+    sought = ("mounting_roll_deg", "mounting_pitch_deg", "mounting_yaw_deg", "acceleration_gain")
+    assert [[row[key] is None for key in sought] for row in rows(table)[:3]] == [[False] * 4, [True] * 4, [False] * 4]
+
+
 def test_findings_are_numbered_alike_in_table_and_figure(tables, drawn, study):
     site = study.sites[0]
     words = [" ".join(text.get_text().split()) for text in drawn["located_ts1"].findobj(Text)]

@@ -161,6 +161,13 @@ def late(files, repository, tmp_path_factory):
     return folder, model | {"drives": entries, "alignment": {"search": 0.5}}
 
 
+def test_what_alignment_for_a_model_finds_anew_is_told():
+    drives = lambda *faults: xr.Dataset({"faults": ("drive", list(faults))}, {"drive": ["one", "two"]})
+    before, after = drives("a_z: it clips", ""), drives("a_z: it clips; alignment does not settle", "")
+    assert realigned.new_faults(before, after) == ["one: alignment does not settle"]
+    assert realigned.new_faults(after, before) == []
+
+
 def test_what_an_effect_does_late_is_no_error_of_a_clock_once_the_model_has_it(files, late, car_file, capsys):
     folder, config = late
     drives = {"road": files / "road.nc", "vehicle": car_file, "drives": [folder / "fit.csv", folder / "check.csv"], "workers": 2}

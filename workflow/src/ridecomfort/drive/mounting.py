@@ -114,8 +114,11 @@ def words(mounting: Mounting) -> str:
 
 
 def moved(measured: xr.Dataset) -> list[str]:
-    """Which of three aligned drives or more (``record.stack``) had its instrument mounted otherwise than the most of them, in words."""
+    """Which of three aligned drives or more (``record.stack``) had its instrument mounted otherwise than the most of them, in words. Those whose
+    accelerations hold no gravity are left out: their mounting is not sought."""
     axes = ("roll", "pitch", "yaw")
+    if "gravity" in measured:
+        measured = measured.isel(drive=measured["gravity"].values == 1)
     angles = np.stack([measured[f"mounting_{axis}"].values for axis in axes], axis=1)
     said = []
     for name, off in zip(measured["drive"].values, angles - np.median(angles, axis=0)):

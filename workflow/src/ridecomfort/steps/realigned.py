@@ -6,6 +6,8 @@ calibration on the site that this one takes its vehicle from; base as well, so t
 
 import sys
 
+import xarray as xr
+
 from ridecomfort import calibrate, calibrated, simulate, store
 from ridecomfort.effects import library
 from ridecomfort.errors import InputError
@@ -39,7 +41,16 @@ def main(road, vehicle, drives, before, config, output, workers, below=None, cal
         note(f"{config['site']}: {doubt}")
     for name, offset in zip(aligned["drive"].values, 1e3 * aligned["clock_offset"].values):
         print(f"{name}: clock offset {offset:.2f} ms", file=sys.stderr)
+    for words in new_faults(store.read(before), aligned):
+        note(f"{config['site']}: {words}, aligned for {model}")
     store.write(aligned.assign_attrs(alignment_doubt=doubt), output, title=title, configuration=config)
+
+
+def new_faults(before: xr.Dataset, aligned: xr.Dataset) -> list[str]:
+    """What alignment for a model found to speak against drives, and had not found ``before``, one a drive."""
+    pairs = zip(aligned["drive"].values, *([str(faults).split("; ") for faults in drives["faults"].values] for drives in (before, aligned)))
+    new = {name: [fault for fault in later if fault and fault not in earlier] for name, earlier, later in pairs}
+    return [f"{name}: {'; '.join(faults)}" for name, faults in new.items() if faults]
 
 
 if __name__ == "__main__":

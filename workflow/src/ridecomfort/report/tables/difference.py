@@ -15,6 +15,9 @@ from ..units import printed
 JUDGED = f"From {judged.LOWEST:g} Hz on, this model"
 """Heading of what is told of the frequencies that a model answers for."""
 
+MOUNTING = ("mounting_roll", "mounting_pitch", "mounting_yaw", "acceleration_gain")
+"""What alignment seeks in drives only whose accelerations hold gravity."""
+
 DOUBTS = ("distance_doubt", "alignment_doubt")
 """Attributes of aligned drives with what speaks against their distances, and why they are not aligned for the model."""
 
@@ -41,7 +44,8 @@ def alignment(study: Difference) -> Table:
         breaks.append(len(rows))
         for name in site.measured["drive"].values:
             own = site.measured.sel(drive=name)
-            values = [factor * float(own[key]) if key in own else None for key, _, _, _, factor in shown]
+            unknown = MOUNTING if "gravity" in own and not own["gravity"] else ()
+            values = [factor * float(own[key]) if key in own and key not in unknown else None for key, _, _, _, factor in shown]
             rows.append((site.label, notation.literal(name), str(own["role"].item()), *values))
         names = ", ".join(key for key, *_ in shown)
         sources.append(Source(f"all, {site.label}", site.files.get("measured", ""), names, "as in the file, in the unit printed"))
@@ -50,11 +54,19 @@ def alignment(study: Difference) -> Table:
         "that by noise, what the model lacks may shift it by milliseconds. Speed scale: true "
         "over recorded speed. Mounting: rotation of the instrument against the body. Gains: against gravity, and against the bends of "
         "the road (below 0.2 Hz; none where it hardly bends). Clock, speed scale, path, mounting and the gain against gravity are put right before "
-        "anything is compared, the gain against bends is not: what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. "
+        "anything is compared, the gain against bends is not (mounting and the gain against gravity only where the record holds gravity): what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. "
         "Role check: nothing is fitted to the drive; nor is it to any of a site whose vehicle is calibrated on another.",
+        *(f"{site.label}, {words}." for site in study.sites for words in _of_records(site)),
         *(f"{site.label}: {site.measured.attrs[doubt]}." for site in study.sites for doubt in DOUBTS if site.measured.attrs.get(doubt)),
     )
     return _table(study, "alignment", columns, rows, sources, notes, breaks[1:])
+
+
+def _of_records(site: Compared) -> list[str]:
+    """What was done to the records of a site's drives, and what speaks against them, one a drive; not of those without either."""
+    texts = [site.measured[key].values if key in site.measured else np.full(site.measured.sizes["drive"], "") for key in ("treatment", "faults")]
+    said = {name: [str(text) for text in both if text not in ("", "none")] for name, *both in zip(site.measured["drive"].values, *texts)}
+    return [f"{notation.literal(str(name))}: {'; '.join(parts)}" for name, parts in said.items() if parts]
 
 
 def findings(study: Difference) -> Table:
