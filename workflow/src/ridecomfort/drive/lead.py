@@ -24,7 +24,7 @@ CHANCE, SELDOM = 0.05, 0.001
 def length(clock_offset: Sequence[float], error: Sequence[float], speed: Sequence[float]) -> float | None:
     """m by which the point whose distance was recorded runs ahead of the centre of gravity; None where clocks do not say so.
 
-    ``clock_offset`` with standard ``error`` (s) and mean ``speed`` (m/s, the way over the time) of every drive, (drive,). They must agree on
+    ``clock_offset`` with standard ``error`` (s) and mean ``speed`` (m/s, harmonic over time: the length over the mean delay) of every drive, (drive,). They must agree on
     one length of LEAST, and not on one clock (a chi-squared test of either), at speeds APART; drives whose error is not known do not
     count. A clock that lags by itself as well, the same on all drives, hides a length.
     """

@@ -319,7 +319,7 @@ def replay(
 
     Speed over ``u`` is the measured v_x, low-passed (``speed_bandwidth``); the lateral position is what the driver must aim
     for to drive ``e`` where that was measured, else the drive's ``lateral_position`` (0 if unknown), plus
-    ``lateral_correction`` (m). The model starts a run-in and ``margin`` (m) before the drive and ends as far behind
+    ``lateral_correction`` (m). The model starts a run-in and ``margin`` (m) before the drive and ends ``margin`` behind
     it, road permitting. ``options`` go to the simulator as they are (step, effects_folder, ...), but for the rate. ``road``
     may be what ``simulate.prepare`` makes of one, which saves doing so in every run. Raises InputError when the drive leaves
     the road or stands.
