@@ -215,11 +215,17 @@ SITE_MISTAKES = [
     ),
     ({"road": {"file": "road.crg"}, "drives": [{"file": "road.crg"}]}, "drives: entry 1: key 'sensor' is missing"),
     (
-        {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "road.crg", "columns": {"s": {"column": "d", "unit": "m"}}, "distance_start": 222}]},
+        {
+            "road": {"file": "road.crg"},
+            "drives": [{**DRIVE, "file": "road.crg", "columns": {"s": {"column": "d", "unit": "m"}}, "distance_start": 222}],
+        },
         "drives: entry 1: distance_start: 222 beside a column for s, which says so itself, expected one of them",
     ),
     (
-        {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "road.crg", "columns": {"e": {"column": "y", "unit": "m"}}, "lateral_position": 0.3}]},
+        {
+            "road": {"file": "road.crg"},
+            "drives": [{**DRIVE, "file": "road.crg", "columns": {"e": {"column": "y", "unit": "m"}}, "lateral_position": 0.3}],
+        },
         "drives: entry 1: lateral_position: 0.3 beside a column for e, which says so itself, expected one of them",
     ),
     (

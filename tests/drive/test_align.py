@@ -314,7 +314,9 @@ def test_an_instrument_that_no_round_turns_back_is_told(drive, road, nominal, mo
     assert re.fullmatch(r"alignment does not settle: its last round turned the instrument by 1\d\.\d deg: are the axes .* right\?", said)
 
 
-@pytest.mark.parametrize(("degrees", "columns"), [(90, "a_x = -a_y, a_y = a_x, "), (-90, "a_x = a_y, a_y = -a_x, "), (180, "a_x = -a_x, a_y = -a_y, ")])
+@pytest.mark.parametrize(
+    ("degrees", "columns"), [(90, "a_x = -a_y, a_y = a_x, "), (-90, "a_x = a_y, a_y = -a_x, "), (180, "a_x = -a_x, a_y = -a_y, ")]
+)
 def test_axes_that_are_exchanged_are_told_with_what_to_change(drive, road, nominal, degrees, columns):
     (said,) = aligned(turned(drive, degrees), road, nominal).attrs["faults"].split("; ")
     assert said.startswith(f"the instrument looks turned by {degrees:+d} deg in yaw") and columns in said

@@ -165,7 +165,8 @@ def _check_drive(drive: Mapping, file, place: str) -> None:
             raise InputError(f"column {entry['column']!r} stands for {other} already", file=file, place=f"{place}: columns: {quantity}")
     for key, quantity in (("distance_start", "s"), ("lateral_position", "e")):
         if quantity in drive.get("columns", {}) and drive.get(key):
-            raise InputError(f"{drive[key]!r} beside a column for {quantity}, which says so itself, expected one of them", file=file, place=f"{place}: {key}")
+            said = f"{drive[key]!r} beside a column for {quantity}, which says so itself, expected one of them"
+            raise InputError(said, file=file, place=f"{place}: {key}")
     try:
         readers.reader_of(drive["file"])
     except InputError as problem:

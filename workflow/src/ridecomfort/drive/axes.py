@@ -51,5 +51,6 @@ def words(again: Replay, simulated: Simulated) -> str:
     angle = 90 * quarters if quarters < 3 else -90
     return (
         f"the instrument looks turned by {angle:+d} deg in yaw: {', '.join(name for pair in PAIRS for name in pair)} correlate with the model by "
-        f"{found[quarters]:.2f} then, by {found[0]:.2f} as recorded (if so, exchange `columns`, and `factor` where there is a minus: {', '.join(told)})"
+        f"{found[quarters]:.2f} then, by {found[0]:.2f} as recorded "
+        f"(if so, exchange `columns`, and `factor` where there is a minus: {', '.join(told)})"
     )

@@ -76,7 +76,8 @@ def from_arrays(
 
     Returns a Dataset over ``time`` (s, from 0); attributes name, role, gravity,
     sensor_x/y/z, lateral_position (nan: unknown), road_friction, place_measured, cut_off (Hz, of the anti-alias
-    filter; half the rate where nothing was resampled), start_time, way_before (m driven since it would begin if ``s`` were left out), ``treatment`` (what was
+    filter; half the rate where nothing was resampled), start_time,
+    way_before (m driven since it would begin if ``s`` were left out), ``treatment`` (what was
     done to the data) and ``faults`` (what they show of an instrument that fails). Raises InputError.
     """
     missing = [signal for signal in SIGNALS if signal not in quantities]
@@ -239,7 +240,8 @@ def _check_moves(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], *, file) -
             continue
         held = f"{values[0] + 0.0:.6g}" if np.ptp(values) == 0.0 else f"at most {np.max(np.abs(values)):.3g}"
         instead = f"; leave {name} out, which is then made of {other}" if other in arrays else ""
-        raise InputError(f"holds {held} {VARIABLES[name].unit} throughout its {values.size} samples (expected {expected}{instead})", file=file, place=name)
+        said = f"holds {held} {VARIABLES[name].unit} throughout its {values.size} samples (expected {expected}{instead})"
+        raise InputError(said, file=file, place=name)
 
 
 def _check_steps(name: str, time: np.ndarray, values: np.ndarray, *, file) -> None:

@@ -54,7 +54,8 @@ def alignment(study: Difference) -> Table:
         "that by noise, what the model lacks may shift it by milliseconds. Speed scale: true "
         "over recorded speed. Mounting: rotation of the instrument against the body. Gains: against gravity, and against the bends of "
         "the road (below 0.2 Hz; none where it hardly bends). Clock, speed scale, path, mounting and the gain against gravity are put right before "
-        "anything is compared, the gain against bends is not (mounting and the gain against gravity only where the record holds gravity): what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. "
+        "anything is compared, the gain against bends is not (mounting and the gain against "
+        "gravity only where the record holds gravity): what spoils a comparison is an offset known to milliseconds only, or a gain beside 1. "
         "Role check: nothing is fitted to the drive; nor is it to any of a site whose vehicle is calibrated on another.",
         *(f"{site.label}, {words}." for site in study.sites for words in _of_records(site)),
         *(f"{site.label}: {site.measured.attrs[doubt]}." for site in study.sites for doubt in DOUBTS if site.measured.attrs.get(doubt)),
