@@ -167,6 +167,34 @@ def test_effects_that_look_alike_are_named_as_a_cluster():
     assert {found.effects[0].name, *found.effects[0].like} == {"effect_2", "effect_5"}
 
 
+def nearly_alike(seed):
+    """A model that lacks two effects of which the first round does not tell one from the other."""
+    model = Linear(seed, {"effect_1.size": 0.3, "effect_4.size": 0.3})
+    for columns in {id(own): own for own in model.columns}.values():
+        columns["effect_4.size"] = 0.85 * columns["effect_1.size"] + np.sqrt(1 - 0.85**2) * columns["effect_4.size"]
+    selection, found = judged(model)
+    assert selection.accepted == ("effect_1", "effect_4") and selection.rounds[0].cluster == ("effect_4",)
+    return model, selection, found
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_effects_that_are_both_there_are_no_other_names_of_one_another(seed):
+    """Which one round may not tell, before the other is accepted, too."""
+    model, selection, found = nearly_alike(seed)
+    assert [(effect.name, effect.like) for effect in found.effects] == [("effect_1", ()), ("effect_4", ())]
+    assert found.verdict != "cluster" and "effect_1 or effect_4" not in found.words() and "do not tell" not in found.words()
+    assert [effect.like for effect in judge.standing(selection, model.candidates)] == [(), ()]
+    is_none = replace(selection, sure=selection.sure - {"effect_4.size"})
+    assert [(effect.name, effect.like) for effect in judge.judge(is_none, model.candidates).effects] == [("effect_1", ("effect_4",))]
+
+
+def test_an_error_of_the_measurement_beside_an_effect_that_is_there_is_one_however_alike():
+    model, selection, _ = nearly_alike(1)
+    candidates = [replace(one, instrument=one.name == "effect_1") for one in model.candidates]
+    found = judge.judge(selection, candidates)
+    assert "effect_1 is an error of the measurement, not of the vehicle" in found.reasons and found.verdict == "suspect"
+
+
 def test_what_no_candidate_explains_is_said_to_lie_outside_the_library():
     model = Linear(4, {"effect_5.size": 0.6})
     model.candidates = model.candidates[:5]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from .allowance import Allowance
 from .experiment import Candidate, Size
@@ -14,6 +15,12 @@ from .verdict import Named
 def found_effects(selection: Selection, by_name: Mapping[str, Candidate]) -> list[Named]:
     """Those of the accepted that are among the candidates ``by_name``."""
     return [_named(selection, number, by_name) for number, name in enumerate(selection.accepted) if name in by_name]
+
+
+def told_apart(effects: Sequence[Named]) -> list[Named]:
+    """The effects without each other among what they are not told from: what is there beside another is no other name of it."""
+    names = {effect.name for effect in effects}
+    return [replace(effect, like=tuple(name for name in effect.like if name not in names)) for effect in effects]
 
 
 def turn_of(selection: Selection, name: str) -> Round:

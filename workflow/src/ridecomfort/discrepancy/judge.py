@@ -11,7 +11,7 @@ from . import bursts, reasoning
 from .balance import LITTLE, SHARED_Z, Balance, balanced
 from .cluster import SAME_PORT
 from .experiment import Candidate
-from .found import found_effects, turn_of
+from .found import found_effects, told_apart, turn_of
 from .propose import SURE
 from .selection import Selection
 from .shared import OF_DRIVER
@@ -27,7 +27,7 @@ ANOTHER_SHAPE = 0.05
 def standing(selection: Selection, candidates: Sequence[Candidate]) -> list[Named]:
     """The accepted effects that are no chance and not one another in another shape."""
     by_name = {candidate.name: candidate for candidate in candidates}
-    return _kept(selection, found_effects(selection, by_name), by_name)[0]
+    return told_apart(_kept(selection, found_effects(selection, by_name), by_name)[0])
 
 
 def judge(
@@ -46,7 +46,7 @@ def judge(
         effects, reasons, balance = [], [reasoning.in_vain(found)], replace(balance, share=0.0, held_out=0.0)
     reasons += notes
     told = _of_measurement(selection, balance, effects, by_name, bool(found) and balance.is_little and not is_vain)
-    effects, is_little = told.effects, told.is_little
+    effects, is_little = told_apart(told.effects), told.is_little
     reasons += told.reasons
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if decoys:
@@ -103,10 +103,10 @@ def _of_measurement(selection: Selection, balance: Balance, effects: list[Named]
     """Which of the ``effects`` the verdict keeps: an error of the measurement that leaves much, that drives held out refute, or beside which effects
     of the vehicle remove more, is what something else, not in the library, looks like."""
     is_error = lambda name: by_name[name].instrument
-    wrong = [effect for effect in effects if all(is_error(name) for name in (effect.name, *effect.like))]
-    if not wrong:
+    are_errors = [all(map(is_error, (effect.name, *effect.like))) for effect in told_apart(effects)]
+    if not any(are_errors):
         return _Told(effects, is_little)
-    vehicle = [effect for effect in effects if effect not in wrong]
+    wrong, vehicle = ([effect for effect, is_one in zip(effects, are_errors) if is_one is asked] for asked in (True, False))
     names, removed = ", ".join(effect.name for effect in wrong), sum(effect.share for effect in wrong)
     is_refuted = balance.is_refuted or balance.held_out <= 0
     leaves_much = selection.remaining.z > SHARED_Z and selection.shared_gone < MOST
