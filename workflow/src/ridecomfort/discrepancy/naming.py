@@ -117,11 +117,11 @@ def _best_share(selection: Selection) -> float:
 
 
 def suspicions(experiment: Car, selection: Selection, is_explained: bool, is_left: bool) -> list[str]:
-    """Reasons to doubt the data: the road's noise where it could cause the error, clocks and gains; ``is_explained``: whether effects
+    """Reasons to doubt the data: the road's noise where it could cause the error, signals of any drive, clocks and gains; ``is_explained``: whether effects
     explain most of the error, ``is_left``: whether repeats share one still, or drives that were not repeated leave one."""
     reasons = suspect.of_drives(experiment)
     first, last = selection.states[0], selection.states[-1]
-    reasons += suspect.of_signals(experiment, first.fit.residuals)
+    reasons += suspect.of_signals(experiment, {**first.fit.residuals, **selection.check})  # those held out decide as much
     reasons += suspect.of_clocks(experiment, selection.frame)
     # Without repeats clock and gains of what an effect does to every signal pass for those of the record.
     is_asked = selection.has_repeats or selection.floor_squares.any() and not selection.accepted
