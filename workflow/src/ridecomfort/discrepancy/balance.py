@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from . import floor
 from .propose import HELD_OUT_Z, SURE
-from .selection import Selection, State, shares
-from .shared import worth
+from .selection import Selection, State, around, shares, shares_of
+from .shared import shared_error, worth
 
 ENOUGH = 0.5
 """Share of the explainable error below which nothing is named: an effect outside the library would lend it to another."""
@@ -51,7 +51,7 @@ CONFIRMED = 0.25
 
 @dataclass(frozen=True)
 class Balance:
-    """What a selection explains of what repeats share (of the error where nothing was repeated), and what it leaves."""
+    """What the effects of a selection that stand explain of what repeats share (of the error where nothing was repeated), and what it leaves."""
 
     share: float
     held_out: float
@@ -70,27 +70,69 @@ class Balance:
     is_most_of_fast: bool = False
     """Whether it is too little of the explainable error, but at least half of what repeats share above ``shared.OF_DRIVER``, and nothing is left that
     is worth explaining."""
+    worth_gone: float = float("nan")
+    """Share of what repeats share and is worth explaining that is gone..."""
+    faster_gone: float = float("nan")
+    """...and of what they share above ``shared.OF_DRIVER``."""
 
 
-def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: float) -> Balance:
+def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: float, unnamed: Collection[str] = ()) -> Balance:
     """The balance of a selection; ``notes`` say that the road may be another than that of its file, ``matters`` whether what repeats share
-    is worth explaining, ``left`` which share of what was is left (``worth_explaining``)."""
-    share, held_out = total_shares(selection)
+    is worth explaining, ``left`` which share of what was is left (``worth_explaining``). ``unnamed``: effects of its last model that do not stand:
+    what went with them is not explained."""
+    share, held_out = total_shares(selection) if not unnamed else named_shares(selection, unnamed)
     band = selection.remaining.band
     # A road that is another makes errors that repeats share, but fast ones.
     in_band = band is not None and band.z > SHARED_BAND_Z and (not notes or is_slow(selection))
     still = something_left(selection) or in_band
     is_left = matters and (still or bool(answered(selection)))
-    explained = max(share, selection.shared_gone) if selection.has_repeats else share
-    is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None)
+    gone = _gone(selection, unnamed)
+    explained = max(share, gone.shared) if selection.has_repeats else share
+    is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None and turn.winner.name not in unnamed)
     is_refuted = is_met and held_out < CONFIRMED
     was_shared = selection.shared_z > SHARED_Z or not selection.has_repeats
-    may_be_left = selection.left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
+    may_be_left = gone.left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
     enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
-    is_all = is_little and not matters and left < 1.0 - ENOUGH
-    is_most = is_little and not (matters or is_all or notes or held_out <= 0) and _explains_what_is_fast(selection)
-    return Balance(share, held_out, explained, is_refuted, still, is_left, is_little and not (is_all or is_most), is_all, is_most)
+    worth_gone = gone.part * (1.0 - left)
+    is_all = is_little and not matters and worth_gone > ENOUGH
+    is_most = is_little and not (matters or is_all or notes or held_out <= 0) and selection.faster_z > SHARED_Z and gone.faster >= ENOUGH
+    is_little = is_little and not (is_all or is_most)
+    return Balance(share, held_out, explained, is_refuted, still, is_left, is_little, is_all, bool(is_most), worth_gone, gone.faster)
+
+
+@dataclass(frozen=True)
+class _Gone:
+    """Share of what repeats had in common that went with the effects that stand, ``shared`` of all of it and ``faster`` of what is faster than a
+    driver; ``left_z``: how surely they leave more than half; ``part`` of what went with the last model that they did."""
+
+    shared: float
+    faster: float
+    left_z: float
+    part: float = 1.0
+
+
+def _gone(selection: Selection, unnamed: Collection[str]) -> _Gone:
+    """What went of what repeats had in common, but with the ``unnamed``."""
+    found = _Gone(selection.shared_gone, selection.faster_gone, selection.left_z)
+    if not (unnamed and selection.has_repeats):
+        return found
+    of = lambda state: shared_error(selection.frame, state.fit.residuals)
+    first, left = of(selection.states[0]), selection.remaining
+    for name in unnamed:
+        before, after = map(of, around(selection, name))
+        found = replace(found, shared=found.shared - (before.power - after.power) / first.power, faster=found.faster - (before.faster - after.faster) / first.faster)
+        left = replace(left, by_block=left.by_block + before.by_block - after.by_block)
+    part = found.shared / selection.shared_gone if selection.shared_gone > 0 else 0.0
+    return replace(found, left_z=left.left_z(first, 1.0 - ENOUGH), part=float(np.clip(part, 0.0, 1.0)))
+
+
+def named_shares(selection: Selection, unnamed: Collection[str]) -> tuple[float, float]:
+    """Share of the explainable error that the last model removes, fitted and held out (nan without), less what went with the ``unnamed``."""
+    if set(unnamed) >= set(selection.kept):  # nothing is left of it but what rounding does
+        return 0.0, 0.0 * total_shares(selection)[1]
+    fitted, held_out = np.subtract(total_shares(selection), np.sum([shares_of(selection, name) for name in unnamed], axis=0))
+    return float(fitted), float(held_out)
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:
@@ -136,8 +178,3 @@ def is_slow(selection: Selection) -> bool:
     """Whether what repeats share most surely is too slow to be noise of the road's points or what lies between them."""
     band = selection.remaining.band
     return band is not None and band.upper <= IN_WAVES and band.z > IN_WAVES_Z
-
-
-def _explains_what_is_fast(selection: Selection) -> bool:
-    """Whether repeats surely shared an error that is faster than a driver, and more than half of it is gone."""
-    return bool(selection.faster_z > SHARED_Z and selection.faster_gone >= ENOUGH)

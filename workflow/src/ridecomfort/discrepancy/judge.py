@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import bursts, reasoning
-from .balance import LITTLE, SHARED_Z, Balance, balanced
+from .balance import LITTLE, SHARED_Z, Balance, balanced, total_shares
 from .cluster import SAME_PORT
 from .experiment import Candidate
 from .found import found_effects, told_apart, turn_of
@@ -39,14 +39,19 @@ def judge(
     ``was_material``: whether it was before anything was found, ``material_left``: share that is left of it."""
     by_name = {candidate.name: candidate for candidate in candidates}
     found = found_effects(selection, by_name)
-    effects, reasons = _kept(selection, found, by_name)
-    balance = balanced(selection, notes, is_material, material_left)
-    is_vain = bool(found) and balance.share <= 0
+    effects, reasons, unnamed = _kept(selection, found, by_name)
+    of_those_but = lambda names: balanced(selection, notes, is_material, material_left, names)
+    balance = of_those_but(unnamed)
+    is_vain = bool(found) and total_shares(selection)[0] <= 0
     if is_vain:
         effects, reasons, balance = [], [reasoning.in_vain(found)], replace(balance, share=0.0, held_out=0.0)
     reasons += notes
     told = _of_measurement(selection, balance, effects, by_name, bool(found) and balance.is_little and not is_vain)
-    effects, is_little = told_apart(told.effects), told.is_little
+    effects, is_little, stood_in = told_apart(told.effects), told.is_little, [effect.name for effect in effects if effect not in told.effects]
+    if stood_in:
+        unnamed = [*unnamed, *stood_in]
+        balance = of_those_but(unnamed)
+        is_little = is_little or balance.is_little
     reasons += told.reasons
     decoys = any(turn.decoy_ranks for turn in selection.rounds)
     if decoys:
@@ -62,14 +67,14 @@ def judge(
             reasons.append(f"{names} would help, but {removes} too little to be what is missing: {percent(balance.share)} of the explainable error{held_out}")
         effects, is_little, balance = [], False, replace(balance, share=0.0, held_out=0.0)
     elif not is_vain:
-        reasons += reasoning.removed_by(balance, selection.kept) if found else reasoning.none_accepted(selection)
+        reasons += reasoning.removed_by(balance, selection, unnamed) if found else reasoning.none_accepted(selection)
         if found and balance.is_all_that_matters:
-            reasons.append(f"that is {percent(1.0 - material_left)} of what repeats share and is worth explaining: {reasoning.OF_DRIVER}")
+            reasons.append(f"that is {percent(balance.worth_gone)} of what repeats share and is worth explaining: {reasoning.OF_DRIVER}")
         if found and balance.is_most_of_fast:
-            reasons.append(f"that is {percent(selection.faster_gone)} of what repeats share above {OF_DRIVER:g} Hz: {reasoning.OF_DRIVER}")
+            reasons.append(f"that is {percent(balance.faster_gone)} of what repeats share above {OF_DRIVER:g} Hz: {reasoning.OF_DRIVER}")
     if is_little or balance.is_left and not effects:
         kind = "outside"
-        reasons.append(reasoning.unexplained(selection, balance, is_little))
+        reasons.append(reasoning.unexplained(selection, balance, is_little, unnamed))
     elif effects:
         kind = kind_of(effects)
         reasons += [reasoning.UNSURE] if are_open(effects) else []
@@ -119,24 +124,28 @@ def _of_measurement(selection: Selection, balance: Balance, effects: list[Named]
     return _Told(vehicle, is_little, (f"{names} would help, an error of the measurement that may stand in for something else",), is_like_error=is_like_error)
 
 
-def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[Named], list[str]]:
-    """The effects that stand, and in words what is to be said of them and of the others."""
+def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[Named], list[str], list[str]]:
+    """The effects that stand, in words what is to be said of them and of the others, and the names of those of the last model with which nothing is
+    explained: not of another shape of what stands, nor of what did what drivers do within moments, which no effect need explain."""
     shared = not selection.has_repeats or selection.shared_z > SHARED_Z
-    kept, reasons = [], []
+    kept, reasons, unnamed = [], [], []
     for effect in found:
         same = _shaped_by(selection, effect, found, by_name)
         moments, is_met = _of_moments(selection, effect.name), turn_of(selection, effect.name).winner.met
         if effect.name in selection.needless:
             reasons.append(f"{effect.name} helped when it was found, but what was found with it does as well without it")
         elif not any(size.key in selection.sure for size in by_name[effect.name].sizes):
+            unnamed.append(effect.name)
             reasons.append(f"{effect.name} helps, but its size may as well be none")
         elif same:
             reasons.append(f"{effect.name} adds {percent(effect.share)}, which may be another shape of {same}")
         elif moments:
             reasons.append(f"{effect.name} helps in {moments}, less than what drives differ by there within moments: it may stand in for what a driver did")
         elif not shared and effect.p_value > SURE:
+            unnamed.append(effect.name)
             reasons.append(f"{effect.name} may be chance: repeats share no error for certain")
         elif not is_met and effect.p_value > SURE:
+            unnamed.append(effect.name)
             reasons.append(f"{effect.name} may be chance: no drive held out meets it")
         else:
             kept.append(effect)
@@ -149,7 +158,8 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
     least = sum(effect.share for effect in surely)
     blurred = [effect for effect in kept if effect.is_open and effect.share < least]
     reasons += [reasoning.open_beside(effect, surely) for effect in blurred]
-    return [effect for effect in kept if effect not in blurred], reasons
+    unnamed += [effect.name for effect in blurred]
+    return [effect for effect in kept if effect not in blurred], reasons, unnamed
 
 
 def _of_moments(selection: Selection, name: str) -> str:

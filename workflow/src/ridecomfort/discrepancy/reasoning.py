@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
 from . import floor
-from .balance import ENOUGH, Balance, answered
+from .balance import CONFIRMED, ENOUGH, Balance, answered, total_shares
 from .experiment import Candidate
 from .found import turn_of
 from .propose import LEVEL
@@ -28,10 +28,14 @@ NEARLY, STAYS = 0.9, 0.5
 its gain in the score test that the other has once that effect is there, from which on it is missing, too, and does not stand in for it."""
 
 
-def removed_by(balance: Balance, kept: Sequence[str]) -> list[str]:
-    """How much of the explainable error the effects of these names, all of the last model, remove, in words."""
-    held_out = [f"{percent(balance.held_out)} on drives held out"] if np.isfinite(balance.held_out) else []
-    return [f"{percent(balance.share)} of the explainable error is removed on the fitted drives, by {', '.join(kept)}", *held_out]
+def removed_by(balance: Balance, selection: Selection, unnamed: Collection[str] = ()) -> list[str]:
+    """How much of the explainable error the effects of the last model remove, in words: those that stand, and with the ``unnamed``, which do not."""
+    named, every = [name for name in selection.kept if name not in unnamed], total_shares(selection)
+    removed = (balance.share, balance.held_out) if named else every
+    held_out = [f"{percent(removed[1])} on drives held out"] if np.isfinite(removed[1]) else []
+    with_all = " and ".join(percent(share) for share in every if np.isfinite(share))
+    more = [f"{with_all} with {', '.join(unnamed)} as well"] if named and unnamed else []
+    return [f"{percent(removed[0])} of the explainable error is removed on the fitted drives, by {', '.join(named or selection.kept)}", *held_out, *more]
 
 
 def in_vain(found: Sequence[Named]) -> str:
@@ -52,13 +56,18 @@ def none_accepted(selection: Selection) -> list[str]:
     return [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
 
 
-def unexplained(selection: Selection, balance: Balance, is_little: bool) -> str:
-    """What is left beside the effects, in words; ``is_little``: whether too little was found."""
+def unexplained(selection: Selection, balance: Balance, is_little: bool, unnamed: Collection[str] = ()) -> str:
+    """What is left beside the effects, in words; ``is_little``: whether too little was found, ``unnamed``: effects of the last model that do not
+    stand."""
     if not is_little and not selection.has_repeats:
         names = ", ".join(answered(selection))
         return f"but the error answers to {names} on drives held out, too, more than noise does, and none of them explains it"
     if not is_little:
         return f"but repeats share an error that nothing in the library explains: {selection.remaining}"
+    if unnamed and set(unnamed) >= set(selection.kept):
+        what = "what repeats share" if selection.has_repeats else "the error"
+        is_refuted = total_shares(selection)[1] < CONFIRMED and all(turn_of(selection, name).winner.met for name in unnamed)
+        return "too little on drives held out to be what is missing" if is_refuted else f"but that has no name, and nothing else explains {what}"
     if balance.explained < ENOUGH:
         return "that is less than half" + (" of what repeats share" if selection.has_repeats else "")
     if balance.is_refuted or not selection.has_repeats:  # without repeats nothing is known of what all share

@@ -1,0 +1,78 @@
+"""What effects that stand explain of what repeats share, on a model in which everything is known."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from ridecomfort.discrepancy import balance, judge, select
+from ridecomfort.discrepancy.selection import shares_of
+from ridecomfort.discrepancy.shared import shared_error
+
+from .linear import Linear, judged
+
+
+def perhaps_chance(selection, name):
+    """The selection where no drive held out meets an effect, of which the fitted ones are not sure."""
+    rounds = []
+    for turn in selection.rounds:
+        if turn.winner is not None and turn.winner.name == name:
+            p_value = turn.p_value.copy()
+            p_value[turn.names.index(name)] = 0.02
+            turn = replace(turn, winner=replace(turn.winner, met=False), p_value=p_value)
+        rounds.append(turn)
+    return replace(selection, rounds=tuple(rounds))
+
+
+@pytest.fixture(scope="module")
+def beside_what_is_not_in_the_library():
+    """A model that lacks three effects of which the library has two, its selection and verdict: more than half goes with both."""
+    model = Linear(2, {"effect_1.size": 1.0, "effect_4.size": 0.8, "effect_5.size": 0.9})
+    model.candidates = model.candidates[:5]
+    selection, _ = judged(model)
+    found = judge.judge(selection, model.candidates, is_material=False)
+    assert found.verdict == "named" and {effect.name for effect in found.effects} == {"effect_1", "effect_4"} and found.share > 0.5
+    return model, selection
+
+
+@pytest.mark.parametrize(("name", "other"), [("effect_1", "effect_4"), ("effect_4", "effect_1")])
+def test_what_went_with_an_effect_that_has_no_name_does_not_count_as_explained(beside_what_is_not_in_the_library, name, other):
+    model, selection = beside_what_is_not_in_the_library
+    found = judge.judge(perhaps_chance(selection, name), model.candidates, is_material=False)
+    assert found.verdict == "outside" and [effect.name for effect in found.effects] == [other]
+    assert (found.share, found.held_out_share) == pytest.approx(shares_of(selection, other))
+    assert f"{name} may be chance: no drive held out meets it" in found.reasons
+    assert f"{100 * found.share:.0f} % of the explainable error is removed on the fitted drives, by {other}" in found.reasons
+    assert any(reason.endswith(f" with {name} as well") for reason in found.reasons) and "that is less than half of what repeats share" in found.reasons
+    model = Linear(2, model.truth)
+    model.candidates = tuple(one for one in model.candidates[:5] if one.name != name)
+    alone = judge.judge(select.select(model, {"stiffness": 0.0}, most=3), model.candidates, is_material=False)
+    assert alone.verdict == found.verdict, "as if it had not been found"
+
+
+def test_what_the_last_effect_did_of_what_repeats_share_is_left_without_it(beside_what_is_not_in_the_library):
+    _, selection = beside_what_is_not_in_the_library
+    first, before, _ = (shared_error(selection.frame, state.fit.residuals) for state in selection.states)
+    found = balance.balanced(selection, (), False, 0.5, [selection.accepted[-1]])
+    gone = 1.0 - before.power / first.power
+    assert found.explained == pytest.approx(max(gone, found.share)) and found.faster_gone == pytest.approx(1.0 - before.faster / first.faster)
+    assert found.worth_gone == pytest.approx(0.5 * gone / selection.shared_gone)
+    assert found.is_little and before.left_z(first, 0.5) > balance.LEFT_Z
+    whole = balance.balanced(selection, (), False, 0.5)
+    assert whole.explained >= selection.shared_gone and whole.faster_gone == selection.faster_gone and whole.worth_gone == 0.5
+
+
+@pytest.mark.parametrize("is_unmet", [True, False])
+def test_an_error_that_repeats_share_for_certain_and_of_which_all_went_with_what_has_no_name_is_not_nothing(is_unmet):
+    """Be it perhaps chance, or of a size that may as well be none."""
+    model = Linear(1, {"effect_2.size": 1.0})
+    selection, found = judged(model)
+    assert found.verdict == "named" and selection.shared_z > balance.SHARED_Z
+    unsure = perhaps_chance(selection, "effect_2") if is_unmet else replace(selection, sure=frozenset())
+    found = judge.judge(unsure, model.candidates, is_material=False, was_material=True, material_left=0.02)
+    assert found.verdict == "outside" and not found.effects and found.share == 0.0
+    assert "but that has no name, and nothing else explains what repeats share" in found.reasons
+    assert judge.judge(unsure, model.candidates, is_material=False, was_material=False).verdict == "nothing"
+    by_chance = replace(unsure, shared_z=1.0)
+    assert judge.judge(by_chance, model.candidates, is_material=False).verdict == "nothing"
