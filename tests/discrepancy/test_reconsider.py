@@ -184,6 +184,15 @@ def test_what_explains_most_is_named_though_a_rest_is_shared_that_no_force_expla
     assert "no form of a force that was tried explains much more" in found.reasons[-2] and found.reasons[-1].startswith("cornering_degression, which takes ")
 
 
+@pytest.mark.parametrize("is_road_open", [True, False])
+def test_a_cluster_that_is_named_after_all_says_on_which_drives_it_differs(is_road_open):
+    alike = replace(FOUND, share=0.57, held_out_share=0.55, like=("top_mount",), differ_on={"top_mount": "site, passage 2"})
+    left, weak = replace(OUTSIDE, effects=(alike,)), replace(SURE, share=0.3, held_out_share=0.3)
+    found = reconsidered(left, weak, is_road_open=True) if is_road_open else named_all_the_same(left, weak)
+    assert found.verdict == "cluster"
+    assert "the data do not tell friction from top_mount; it differs most from top_mount on drives like site, passage 2" in found.reasons
+
+
 @pytest.mark.parametrize("change", [{"share": 0.45}, {"held_out_share": 0.4}, {"verdict": "suspect"}, {"effects": ()}, {"is_like_error": True}])
 def test_less_than_half_is_not_named(change):
     left = replace(OUTSIDE, effects=(FOUND,))

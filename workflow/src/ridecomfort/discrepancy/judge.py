@@ -77,8 +77,7 @@ def judge(
         reasons.append(reasoning.unexplained(selection, balance, is_little, unnamed))
     elif effects:
         kind = kind_of(effects)
-        reasons += [reasoning.UNSURE] if are_open(effects) else []
-        reasons += [reasoning.not_told_apart(effect) for effect in effects if effect.like]
+        reasons += reasoning.not_sure_of(effects)
         reasons += [said for effect in effects for said in reasoning.nearly_as_good(selection, effect)]
     else:
         kind = "nothing"

@@ -12,7 +12,7 @@ from .experiment import Candidate
 from .found import turn_of
 from .propose import LEVEL
 from .selection import Round, Selection, shares
-from .verdict import Named, percent
+from .verdict import Named, are_open, percent
 
 UNSURE = "what is missing may be something else: no size of what helps is surely another than none"
 """What is said where effects explain enough, and each may as well be none."""
@@ -77,8 +77,14 @@ def unexplained(selection: Selection, balance: Balance, is_little: bool, unnamed
 
 def not_told_apart(effect: Named) -> str:
     """From what the data do not tell an effect, and on which drives each of those differs most from it, in words."""
-    where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like)
-    return f"the data do not tell {effect.name} from {', '.join(effect.like)}; it differs most from {where}"
+    where = ", ".join(f"{name} on drives like {effect.differ_on[name]}" for name in effect.like if name in effect.differ_on)
+    said = f"the data do not tell {effect.name} from {', '.join(effect.like)}"
+    return f"{said}; it differs most from {where}" if where else said
+
+
+def not_sure_of(effects: Sequence[Named]) -> list[str]:
+    """What is said of effects that explain enough, and of which no size is surely another than none, or which the data do not tell from others."""
+    return [*([UNSURE] if are_open(effects) else []), *(not_told_apart(effect) for effect in effects if effect.like)]
 
 
 def nearly_as_good(selection: Selection, effect: Named) -> list[str]:

@@ -13,6 +13,7 @@ from .confirm import EQUAL
 from .discovery import Discovery
 from .places import settings as shaping
 from .propose import SURE
+from .reasoning import not_sure_of
 from .selection import Selection
 from .verdict import Named, Verdict, are_open, kind_of
 
@@ -116,7 +117,8 @@ def _road_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
         if is_more and _is_more_than_noise(proposal):
             return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}")
         return with_reason(verdict, "suspect", "no form of a force that was tried explains more, and what the road is otherwise may be all of it")
-    return with_reason(verdict, kind_of(verdict.effects), "no form of a force that was tried explains more, and what the road is otherwise is shared by repeats, too")
+    named = with_reason(verdict, kind_of(verdict.effects), "no form of a force that was tried explains more, and what the road is otherwise is shared by repeats, too")
+    return replace(named, reasons=(*named.reasons, *not_sure_of(named.effects)))
 
 
 def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool:
@@ -166,7 +168,7 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     kept = tuple(effect for effect in verdict.effects if _is_much(effect, verdict)) or verdict.effects[:1]
     if are_open(kept):
         return verdict
-    reasons = [*verdict.reasons, _no_better(theirs, shares, proposal)]
+    reasons = [*verdict.reasons, *not_sure_of(kept), _no_better(theirs, shares, proposal)]
     reasons += [_not_named(effect) for effect in verdict.effects if effect not in kept]
     share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
     return replace(verdict, verdict=kind_of(kept), effects=kept, reasons=tuple(reasons), share=share, held_out_share=held_out)
