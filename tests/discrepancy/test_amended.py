@@ -62,6 +62,11 @@ def test_where_they_are_all_that_is_missing_it_is_no_effect_of_the_library():
     assert alone.words().startswith("No effect of the library is missing: parameters of the vehicle lie far from its file.")
     remaining = lambda share: with_parameters(with_remainder(NOTHING, {"a_x": 0.01, "a_z": share}, {}), beyond(is_first=True)).words()
     assert remaining(0.019).startswith("No effect of the library is missing")
+    unnamed = lambda at_first: with_parameters(with_remainder(NOTHING, {"a_z": 0.001}, {"a_z": at_first}), beyond(is_first=True)).words()
+    assert unnamed(0.019).startswith("No effect of the library is missing")
+    assert unnamed(0.08).startswith("Something is missing"), "it went with effects that have no name"
+    stands_in = with_parameters(replace(OUTSIDE, is_like_error=True), beyond(is_first=True)).words()
+    assert stands_in.startswith("Something is missing"), "an error of the measurement would help"
     turning = with_parameters(heard(NOTHING, "an error of a_z comes back every 1.95 m of way", False), beyond(is_first=True))
     for other in (alone.words("force = ..."), replace(alone, is_left=True).words(), remaining(0.021), turning.words()):
         assert other.startswith("Something is missing that is not in the library.")

@@ -155,8 +155,10 @@ def is_vehicle_first(said: Mapping) -> bool:
 def is_file_alone(said: Mapping) -> bool:
     """Whether parameters of the vehicle that lie far from its file, put right before any effect, leave nothing that has a name or a form, no error
     that repeats share and that is worth explaining, no more than SMALL of any signal, and no sign of anything else."""
-    is_more = said["effects"] or (said.get("proposal") or {}).get("form") or said.get("is_left") or said.get("may_be_more")
-    is_all = not is_more and max((said.get("remainder") or {}).values(), default=0.0) < SMALL
+    is_more = said["effects"] or (said.get("proposal") or {}).get("form") or any(said.get(key) for key in ("is_left", "may_be_more", "is_like_error"))
+    # What effects without a name took of it, they leave as well: that is there at first.
+    left = [share for key in ("remainder", "at_first") for share in (said.get(key) or {}).values()]
+    is_all = not is_more and max(left, default=0.0) < SMALL
     return is_vehicle_first(said) and said["verdict"] == "outside" and is_all
 
 
