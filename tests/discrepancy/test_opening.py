@@ -15,6 +15,7 @@ from ridecomfort.discrepancy import floor, opening, refit
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.span import taken_apart
 from ridecomfort.drive.sampling import low_pass
+from ridecomfort.errors import InputError
 
 RATE, ROAD = 50.0, 1500.0
 SIZE = Size("effect.size", "N", 0.0, -50.0, 50.0, 1.0)
@@ -72,3 +73,27 @@ def test_what_one_of_two_repeats_does_not_record_is_not_the_others_noise():
     for record in own:
         width = record.band[1] - record.band[0]
         assert found.power(record.band, RATE)[0] == pytest.approx(0.0025 * width / (0.5 * RATE), rel=0.2)
+
+
+def long_enough(*seconds, role="fit"):
+    """What stays of drives of a site that are judged for these times (s), by number, and what is said of the others."""
+    replays, drives = [], [xr.Dataset(attrs={"name": f"drive {number}", "role": role}) for number in range(len(seconds))]
+    for number, own in enumerate(seconds):
+        time = np.arange(int(RATE * (own + 2.0)) + 1) / RATE
+        replays.append(SimpleNamespace(number=number, time=time, compared=(time >= 2.0) & (own > 0.0)))
+    sites, kept, said = opening._long_enough([opening.Site("road", None, drives)], replays, ["road"])
+    assert [drive.attrs["name"] for drive in sites[0].drives] == [f"drive {again.number}" for again in kept]
+    return [again.number for again in kept], said
+
+
+def test_a_stub_is_no_fitted_drive_where_all_are_short_either():
+    """Behind the run-in nothing may be left of it, and no spectrum be longer than it."""
+    kept, said = long_enough(6.9, 0.0, 1.0, 3.0)
+    assert kept == [0, 3] and said[0].startswith("road drive 1 is judged for 0.0 s only: too short to be asked (less than 2 s)")
+    assert said[1].startswith("road drive 2 ") and "what is found may be chance" in said[-1] and len(said) == 3
+    assert long_enough(20.0, 9.98)[1] == ("road drive 1 is judged for 9.9 s only: too short to be asked (less than 10 s)",)
+    with pytest.raises(InputError, match="judged for 5.9 s in all .expected 6 s"):
+        long_enough(5.98, 1.0)
+    with pytest.raises(InputError, match="judged for 0.0 s in all"):
+        long_enough(1.5, 1.5, 1.5, 1.5)
+    assert long_enough(1.5, role="check")[0] == []

@@ -46,6 +46,10 @@ SHORTEST, LEAST = 10.0, 6.0
 """s of a drive that are judged at least, one of less holds too few spectra of 4 s to tell how the errors of six signals go together, and s that
 all fitted drives hold at least."""
 
+STUB = 2.0
+"""s below which no drive is fitted: half a segment of the spectra, of which the shortest drive of a condition sets the length for all; of one that
+ends as it has settled nothing is left."""
+
 RUN_OUT = 0.5
 """s at the end that are left out: low-pass filters of records and of simulations end there without knowing what comes."""
 
@@ -161,25 +165,31 @@ def _calibrated_bounds(calibration: xr.Dataset | None, given: Mapping[str, Seque
 
 def _long_enough(sites: Sequence[Site], replays: Iterable[Replay], fitted_on: Collection[str]) -> tuple[list[Site], list[Replay], tuple[str, ...]]:
     """Sites with those of their drives that are judged for SHORTEST, the replays of these, and words on the others. Where all that are fitted are
-    shorter, these stay; InputError is raised where all of them hold less than LEAST."""
+    shorter, these stay but a STUB; InputError is raised where all that stay hold less than LEAST."""
     rest = iter(replays)
     found = [(site, drive, next(rest)) for site in sites for drive in site.drives]
     lasts = [float(np.ptp(again.time[again.compared])) if again.compared.any() else 0.0 for *_, again in found]
     fitted = [site.name in fitted_on and _role(drive) == "fit" for site, drive, _ in found]
-    of_fitted = [seconds for seconds, is_fitted in zip(lasts, fitted) if is_fitted]
-    if of_fitted and sum(of_fitted) < LEAST:
-        raise InputError(f"fitted drives are judged for {sum(of_fitted):.1f} s in all (expected {LEAST:g} s at least: a longer record, or road)", place="drives")
+    of_fitted = [seconds for seconds, is_fitted in zip(lasts, fitted) if is_fitted and seconds >= STUB]
+    if any(fitted) and sum(of_fitted) < LEAST:
+        raise InputError(f"fitted drives are judged for {_at_least(sum(of_fitted))} s in all (expected {LEAST:g} s at least: a longer record, or road)", place="drives")
     are_short = bool(of_fitted) and max(of_fitted) < SHORTEST
-    is_kept = [seconds >= SHORTEST or is_fitted and are_short for seconds, is_fitted in zip(lasts, fitted)]
+    least = [STUB if is_fitted and are_short else SHORTEST for is_fitted in fitted]
+    is_kept = [seconds >= own for seconds, own in zip(lasts, least)]
     said = [
-        f"{site.name} {drive.attrs['name']} is judged for {seconds:.1f} s only: too short to be asked (less than {SHORTEST:g} s)"
-        for (site, drive, _), seconds, kept in zip(found, lasts, is_kept) if not kept
+        f"{site.name} {drive.attrs['name']} is judged for {_at_least(seconds)} s only: too short to be asked (less than {own:g} s)"
+        for (site, drive, _), seconds, own, kept in zip(found, lasts, least, is_kept) if not kept
     ]  # fmt: skip
     if are_short:
         said.append(f"no fitted drive is judged for {SHORTEST:g} s: how errors of signals go together is hardly known, and what is found may be chance")
     kept = [one for one, is_one in zip(found, is_kept) if is_one]
     sites = [replace(site, drives=[drive for own, drive, _ in kept if own is site]) for site in sites]
     return sites, [again for *_, again in kept], tuple(said)
+
+
+def _at_least(seconds: float) -> str:
+    """A time in tenths of a second, rounded down: one that is too short is not told as one that would do."""
+    return f"{np.floor(10.0 * seconds + 1e-6) / 10.0:.1f}"
 
 
 def _role(drive: xr.Dataset) -> str:
