@@ -32,3 +32,14 @@ def test_every_refit_is_told_with_its_round_and_size():
     trials = [(number, trial.name) for number, turn in enumerate(found.rounds, 1) for trial in turn.trials]
     assert list(zip(table["trial_round"].values, table["trial_effect"].values)) == trials
     assert all(str(words).startswith("size ") and str(words).endswith(" N") for words in table["trial_sizes"].values)
+
+
+def test_the_last_model_is_not_called_by_an_effect_that_it_does_without():
+    """effect_0 does nearly what effect_1 and effect_2, which are missing, do together."""
+    model = Linear(1, {"effect_1.size": 2.0, "effect_2.size": 2.0})
+    for columns in model.columns[2:]:  # those of all repeats are one
+        columns["effect_0.size"] = columns["effect_0.size"] + columns["effect_1.size"] + columns["effect_2.size"]
+    found = select.select(model, {"stiffness": 0.0}, most=3)
+    assert found.needless == {"effect_0"}
+    names = ranking.dataset(model, found)["model"].values.tolist()
+    assert names == ["calibrated", *found.accepted[:-1], "without effect_0"]

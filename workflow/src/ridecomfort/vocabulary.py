@@ -272,7 +272,7 @@ VARIABLES = _table(
     ("winner", "1", "effect that the round accepted"),
     ("cluster", "1", "effects that are not told from the accepted one"),
     ("decoy_p_value", "1", "smallest p-value of the decoys"),
-    ("model", "1", "model of the search: calibrated, then with the effect that a round accepted"),
+    ("model", "1", "model of the search: calibrated, then with the effect that a round accepted; the last without those that it does without"),
     ("held_out", "1", "name of the held-out drive"),
     ("mean_square", "", "mean square error on fitted drives, in the unit of the signal squared"),
     ("held_out_mean_square", "", "mean square error on held-out drives, in the unit of the signal squared"),

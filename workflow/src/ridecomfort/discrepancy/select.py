@@ -126,7 +126,8 @@ class _Search:
         final, frame, sure = self._final_fit()
         if self.needless:  # shares are those of the model whose sizes are told
             self.rung = climb(self.rung.experiment, final.values, self._sizes(), self.each, before=self.rung)
-            states[-1] = State.of(self.rung, states[-1].name, self.rung.fit, self.rung.check)
+            without = ", ".join(name for name in self.accepted if name in self.needless)
+            states[-1] = State.of(self.rung, f"without {without}", self.rung.fit, self.rung.check)
         rung = self.rung
         typical = {size.key for size in self._sizes() if size.shaping and abs(final.values[size.key] - size.neutral) < LEAST_MOVED * size.probe}
         wider = birge_ratio(rung, final, frame, self._sizes(), self.each)
