@@ -2,9 +2,10 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import contest, select
+from ridecomfort.discrepancy import allowance, contest, select
 
 from .linear import Linear
 
@@ -71,3 +72,20 @@ def test_above_the_first_rung_the_evidence_is_that_of_columns_as_they_are_there(
     at_first, beside = (dict(zip(turn.names, turn.p_value))["effect_5"] for turn in (first, second))
     assert at_first < 0.01 and beside > 0.05
     assert "effect_5" not in {trial.name for trial in second.trials}
+
+
+def test_intervals_allow_for_what_a_candidate_does_beside_the_effects_that_were_found(monkeypatch):
+    """What effect_5 does there is what the stiffness does, which is fitted: it moves nothing, whatever it did before."""
+    allowances, asked = allowance.allowances, {}
+
+    def told(fit, frame, sizes, raw, *others):
+        asked.update(raw)
+        return allowances(fit, frame, sizes, raw, *others)
+
+    monkeypatch.setattr(allowance, "allowances", told)
+    model = Changed(1)
+    found = select.select(model, {"stiffness": 0.0}, most=3)
+    assert found.accepted == ("effect_2", "effect_4") and found.rounds[-1].winner is None
+    column, own = asked["effect_5", 0]["effect_5.size"][0], model.columns[0]
+    alike = lambda key: np.corrcoef(column.ravel(), own[key].ravel())[0, 1]
+    assert alike("stiffness") > 0.999 and abs(alike("effect_5.size")) < 0.1

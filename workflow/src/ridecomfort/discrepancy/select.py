@@ -107,6 +107,7 @@ class _Search:
             turn = contest.round(self.vain)
             if turn.winner is None:
                 rounds.append(turn)
+                self.columns |= contest.columns  # what the round leaves open, intervals allow for as it is there
                 break
             reached = self._reached(turn.winner)
             state = State.of(reached, turn.winner.name, reached.fit, reached.check)
