@@ -84,7 +84,7 @@ def propose(
         if len(parts) > 1:
             if len(parts) == 2 and not any(signs):  # such as front and rear, which may well be of opposite signs
                 parts, signs, keys = [*parts, parts[0] - parts[1]], [*signs, 0], [*keys, "apart"]
-            parts, signs, keys = [*parts, sum(parts[: len(own)])], [*signs, int(all(signs))], [*keys, "all"]
+            parts, signs, keys = [*parts, sum(parts[: len(own)])], [*signs, int(any(signs))], [*keys, "all"]
         rows += parts
         sign += signs
         group += [number] * len(parts)
