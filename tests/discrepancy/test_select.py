@@ -11,6 +11,7 @@ import pytest
 from ridecomfort.discrepancy import contest, probe, select, tries
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.rung import begin
+from ridecomfort.effects.in_python import ActFails
 from ridecomfort.errors import InputError
 
 from .coloured import coloured
@@ -333,6 +334,50 @@ def test_a_size_beyond_which_nothing_drives_is_probed_the_other_way():
 
     model.residual = residual
     assert [e.name for e in judged(model)[1].effects] == ["effect_2"]
+
+
+def refusing(kind, words="came to a stand"):
+    """A model that lacks effect_2 and cannot be driven with any effect_4."""
+    model = Linear(1, {"effect_2.size": 1.5})
+    plain = model.residual
+
+    def residual(values, index):
+        if values.get("effect_4.size", 0.0) > 0.0:
+            raise kind(words)
+        return plain(values, index)
+
+    model.residual = residual
+    return model
+
+
+def test_what_cannot_be_driven_at_its_probe_is_told_with_the_reason():
+    model = refusing(InputError)
+    first, *others = rounds(model, 2)
+    assert "effect_4" not in first.names and first.passed_over["effect_4"] == "could not be simulated: came to a stand"
+    assert first.winner.name == "effect_2" and all("effect_4" not in turn.passed_over for turn in others)
+    model.candidates = tuple(one for one in model.candidates if one.name == "effect_4")
+    found = judged(model)[1]
+    assert "effect_4: could not be simulated: came to a stand" in found.reasons
+
+
+def test_a_mistake_in_the_file_of_an_effect_ends_the_search():
+    with pytest.raises(InputError, match="my_drift.py: act failed: NameError"):
+        rounds(refusing(ActFails, "own/my_drift.py: act failed: NameError"), 1)
+
+
+def test_a_size_that_can_be_larger_only_is_not_found_below_nil_by_way_of_another_that_may_be_of_either_sign():
+    model, rng = Opposed(8), np.random.default_rng(7)
+    for columns in {id(columns): columns for columns in model.columns}.values():
+        columns |= {f"effect_2.{axle}": coloured(rng, SAMPLES) for axle in ("front", "rear")}
+    model.truth = {"effect_2.front": -0.3}
+
+    def gain(lower):
+        front, rear = model.candidates[2].sizes
+        model.candidates = tuple(replace(one, sizes=(replace(front, lower=lower), rear)) if one.name == "effect_2" else one for one in model.candidates)
+        (first, *_) = rounds(model, 1)
+        return first.gain[first.names.index("effect_2")]
+
+    assert gain(-5.0) > 1000.0 and gain(0.0) < 4.0
 
 
 def test_what_was_probed_from_the_same_rung_is_not_probed_again():

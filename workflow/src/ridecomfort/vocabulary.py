@@ -256,7 +256,7 @@ VARIABLES = _table(
     ("p_value", "1", "p-value of the effect over the whole library, by the score test"),
     ("gain", "1", "fall of twice the negative log-likelihood with the effect, by the score test"),
     ("absorbed", "1", "share of what the effect does that calibration takes up"),
-    ("passed_over", "1", "why the effect was not refitted or judged"),
+    ("passed_over", "1", "why the effect was not tested, refitted or judged"),
     ("trial", "1", "refit of an effect"),
     ("trial_round", "1", "round of the refit"),
     ("trial_effect", "1", "effect that was refitted"),

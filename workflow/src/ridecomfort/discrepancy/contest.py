@@ -31,6 +31,9 @@ SETTLED, FAR = 3, 0.25
 """Refits of a round that are settled, the best, and share of the largest gain below which none catches up. From there on shapes are
 fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
 
+UNDRIVEN = "could not be simulated"
+"""What is said of a candidate that the model could not be driven with."""
+
 
 @dataclass
 class Contest:
@@ -177,7 +180,7 @@ def passed_over(found: Proposal, minor: Collection[str], trials: Sequence[Trial]
     why = dict.fromkeys(found.opposite, "not refitted: the drives ask for the opposite sign, which is not plausible")
     why |= {name: f"not refitted: the {PROPOSED} that gain most were" for name in significant[PROPOSED:]}
     for name in significant[:PROPOSED]:
-        why[name] = f"its refit gains less than {100 * MINOR:g} % of the best" if name in minor else "could not be simulated"
+        why[name] = f"its refit gains less than {100 * MINOR:g} % of the best" if name in minor else UNDRIVEN
     return {name: said for name, said in why.items() if name not in judged}
 
 

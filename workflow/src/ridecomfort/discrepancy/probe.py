@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..effects.in_python import ActFails
 from ..errors import InputError
 from . import experiment as exp
 from .experiment import Experiment, Frame, Size
@@ -21,7 +22,8 @@ Raw = Mapping[str, Mapping[int, np.ndarray]]
 @dataclass(frozen=True)
 class Probe:
     """The change of the residuals per probe of every size of a candidate in one shape, by key; what cannot be simulated, or
-    changes nothing, is left out. Called with (candidate, number of its shape); a pool can be handed it."""
+    changes nothing, is left out. Called with (candidate, number of its shape); a pool can be handed it. Raises ActFails for a mistake in an
+    effect's file."""
 
     experiment: Experiment
     values: Mapping[str, float]
@@ -35,12 +37,25 @@ class Probe:
                 moved = exp.simulate(
                     self.experiment, {**self.values, **candidate.at({size.key: 1.0}, job[1])}, self.residuals
                 )
+            except ActFails:
+                raise
             except (InputError, ValueError):
                 continue
             column = {i: (moved[i] - self.residuals[i]).astype(np.float32) for i in moved}
             if any(np.any(part) for part in column.values()):
                 columns[size.key] = column
         return columns
+
+    def refusal(self, job: Job) -> str:
+        """Why no size of a candidate can be simulated in a shape; empty where one can."""
+        candidate, why = next(c for c in self.experiment.candidates if c.name == job[0]), ""
+        for size in candidate.sizes:
+            try:
+                exp.simulate(self.experiment, {**self.values, **candidate.at({size.key: 1.0}, job[1])}, self.residuals)
+                return ""
+            except (InputError, ValueError) as problem:
+                why = str(problem)
+        return why
 
 
 def coarsely(

@@ -48,6 +48,8 @@ def none_accepted(selection: Selection) -> list[str]:
     """Why no candidate was accepted, in words."""
     first = selection.rounds[0] if selection.rounds else None
     if first is None or not first.names:
+        if first is not None and first.passed_over:
+            return [f"{name}: {why}" for name, why in first.passed_over.items()]
         is_asked = bool(selection.frame.experiment.candidates)
         return ["no candidate changes what these drives tell" if is_asked else "no candidate was tested: no effect that was looked among has a size to fit"]
     best = float(np.min(first.p_value))

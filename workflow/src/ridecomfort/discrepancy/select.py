@@ -20,7 +20,7 @@ from .allowance import Allowance
 from .balance import ENOUGH
 from .confirm import LEAST_SHARE
 from .consistency import birge_ratio
-from .contest import Contest
+from .contest import UNDRIVEN, Contest
 from .experiment import Experiment, Frame
 from .probe import Job, Raw
 from .refit import Fit
@@ -92,6 +92,8 @@ class _Search:
     """Refits of effects that are VAIN beside those accepted, by name."""
     needless: set[str] = field(default_factory=set)
     """Names of accepted effects that the last fit does without."""
+    refused: dict[str, str] = field(default_factory=dict)
+    """Why candidates are not tested of which no size could be simulated, by name."""
 
     def __post_init__(self):
         self.by_name = {candidate.name: candidate for candidate in self.rung.experiment.candidates}
@@ -105,6 +107,7 @@ class _Search:
         rounds, contest = self.rounds, self._contest()
         while len(self.accepted) < self.most:
             turn = contest.round(self.vain)
+            turn = replace(turn, passed_over={**turn.passed_over, **({} if rounds else self.refused)})
             if turn.winner is None:
                 rounds.append(turn)
                 self.columns |= contest.columns  # what the round leaves open, intervals allow for as it is there
@@ -237,9 +240,12 @@ class _Search:
     def _probe(self, residuals: Mapping[int, np.ndarray]) -> dict[Job, Raw]:
         """Change of the ``residuals`` in longer steps per probe of every size of every candidate and shape, in single precision."""
         jobs = [(c.name, shape) for c in self.rung.experiment.candidates for shape in range(len(c.shapes))]
-        unknown = [job for job in jobs if job not in self.probed]
-        found = self.each(probe.Probe(self.sooner, self.rung.fit.values, residuals), unknown)
+        unknown, own = [job for job in jobs if job not in self.probed], probe.Probe(self.sooner, self.rung.fit.values, residuals)
+        found = self.each(own, unknown)
         self.probed = {**self.probed, **dict(zip(unknown, found))}
+        silent = [name for name in self.by_name if not any(self.probed[job] for job in jobs if job[0] == name)]
+        refusals = zip(silent, self.each(own.refusal, [(name, 0) for name in silent]))
+        self.refused = {name: f"{UNDRIVEN}: {why}" for name, why in refusals if why}
         kept = {job: self.probed[job] for job in jobs if self.probed[job]}
         least = lambda name: ALIAS if self.by_name[name].is_aligned else LEAST_OWN
         return {job: found for job, found in kept.items() if self.rung.frame.own_shares(list(found.values())).max() > least(job[0])}

@@ -61,7 +61,7 @@ class Round:
     is_large: bool
     """Whether the winner gains so much that the error changes its colour by it."""
     passed_over: Mapping[str, str] = field(default_factory=dict)
-    """Why others that are significant were not refitted, or not judged after it, by name."""
+    """Why others that are significant were not refitted, or not judged after it, by name; in the first round, why some could not be tested."""
 
     @classmethod
     def empty(cls) -> Round:

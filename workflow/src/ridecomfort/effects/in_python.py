@@ -12,10 +12,14 @@ from ..vehicle.parameters import Vehicle
 from .library import Entry
 
 
+class ActFails(InputError):
+    """``act`` of an effect's file fails, or returns what its port does not take: a mistake in the file, not a size that cannot be driven."""
+
+
 def answer(entry: Entry, sizes: Mapping[str, float], *seen):
     """What an effect at a port of ``IN_PYTHON`` makes of what it sees: a Vehicle, positions over u or a drive over time.
 
-    Raises InputError that names the file of the effect where ``act`` fails and where it returns something else.
+    Raises ActFails, which names the file of the effect, where ``act`` fails and where it returns something else; InputError where it refuses.
     """
     before = dict(seen[0].variables) if isinstance(seen[0], xr.Dataset) else seen[0]  # act may replace what a drive holds
     try:
@@ -23,10 +27,10 @@ def answer(entry: Entry, sizes: Mapping[str, float], *seen):
     except InputError as problem:
         raise InputError(str(problem), file=entry.path) from None
     except Exception as problem:
-        raise InputError(f"act failed: {type(problem).__name__}: {' '.join(str(problem).split())}", file=entry.path) from None
+        raise ActFails(f"act failed: {type(problem).__name__}: {' '.join(str(problem).split())}", file=entry.path) from None
     problem = _CHECKS[entry.effect.port](before, found)
     if problem:
-        raise InputError(f"act returned {problem}", file=entry.path)
+        raise ActFails(f"act returned {problem}", file=entry.path)
     return found
 
 

@@ -9,6 +9,7 @@ import xarray as xr
 
 from ...discrepancy import ranking
 from ...discrepancy.balance import LITTLE
+from ...discrepancy.contest import UNDRIVEN
 from ...discrepancy.form import names_in
 from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
@@ -295,7 +296,7 @@ def forms(found: Diagnosis) -> Table:
 
 
 def _rounds(tested: xr.Dataset) -> Iterator[tuple[int, dict[str, tuple]]]:
-    """What EVIDENCE tells of each candidate by name, the largest gain first, round by round."""
+    """What EVIDENCE tells of each candidate by name, the largest gain first, round by round; why, of one that could not be."""
     for number, turn in enumerate(tested["round"].values):
         one = tested.isel(round=number)
         gain, trials, came, told = one["gain"].values, refits(one), outcomes(one), {}
@@ -309,6 +310,7 @@ def _rounds(tested: xr.Dataset) -> Iterator[tuple[int, dict[str, tuple]]]:
                 )  # fmt: skip
             score = float(one["p_value"][place]), float(gain[place]), _percent(float(one["absorbed"][place]))
             told[name] = (*score, *refit, came[name])
+        told |= {name: (*(None,) * 3, "", *(None,) * 4, why) for name, why in came.items() if name not in told and why.startswith(UNDRIVEN)}
         yield int(turn), told
 
 
