@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,12 +11,14 @@ import pytest
 import xarray as xr
 from scipy.ndimage import gaussian_filter1d
 
+from ridecomfort.calibrate import BOUNDS
 from ridecomfort.discrepancy import experiment as exp
 from ridecomfort.discrepancy import floor, opening, refit
 from ridecomfort.discrepancy.experiment import Size
 from ridecomfort.discrepancy.span import taken_apart
 from ridecomfort.drive.sampling import low_pass
 from ridecomfort.errors import InputError
+from ridecomfort.vehicle import parameters
 
 RATE, ROAD = 50.0, 1500.0
 SIZE = Size("effect.size", "N", 0.0, -50.0, 50.0, 1.0)
@@ -97,3 +100,19 @@ def test_a_stub_is_no_fitted_drive_where_all_are_short_either():
     with pytest.raises(InputError, match="judged for 0.0 s in all"):
         long_enough(1.5, 1.5, 1.5, 1.5)
     assert long_enough(1.5, role="check")[0] == []
+
+
+def test_a_search_without_a_calibration_begins_at_the_values_of_the_file_however_far_they_lie_from_the_papers():
+    car = parameters.read(Path(__file__).parents[2] / "config" / "vehicles" / "midsize.yaml")
+    assert opening.bounds_of(car)["tyre_friction"] == BOUNDS["tyre_friction"]
+    other = car.replace(tyre_radial_damping=200.0, tyre_radial_stiffness=212642.0)
+    given = {"spring_stiffness_front": (15000.0, 90000.0)}
+    free = opening._parameters(other, opening._calibrated_bounds(None, given, other), {})
+    started = opening.start_values(SimpleNamespace(free=free))
+    assert started == {name: other[name] for name in BOUNDS}
+    bounds = {size.key: (size.lower, size.upper) for size in free}
+    assert bounds["tyre_radial_damping"] == other.about("tyre_radial_damping") == (100.0, 400.0)
+    assert bounds["spring_stiffness_front"] == given["spring_stiffness_front"] and bounds["tyre_friction"] == BOUNDS["tyre_friction"]
+    assert "tyre_radial_damping" not in opening.bounds_of(car.replace(tyre_radial_damping=0.0)), "a vehicle has none of it"
+    with pytest.raises(InputError, match="bounds: tyre_radial_damping: 4000 to 7000, expected bounds that hold the 200 of the vehicle's file"):
+        opening.bounds_of(other, {"tyre_radial_damping": BOUNDS["tyre_radial_damping"]})

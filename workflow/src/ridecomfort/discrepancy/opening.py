@@ -96,7 +96,7 @@ def car(
 
     Drives of role "fit" on the sites ``fitted_on`` (by default the first) are fitted, all others held out: where those sites tell the floor by
     drives that repeat one another, one of such on the other sites. One of less than SHORTEST is set aside.
-    ``bounds``: of the parameters that are calibrated (default tab:constraints). ``uncertain``: share by which further
+    ``bounds``: of the parameters that are calibrated (default ``bounds_of``). ``uncertain``: share by which further
     parameters of the vehicle may be wrong (default UNCERTAIN). ``noise_density``: of the instruments by site and drive, as for
     ``explain.explain``. ``library_names``: the effects to look
     among, by default all of the library and of the user's folder but those of the model. ``held``: sizes of ``effects`` that
@@ -121,7 +121,7 @@ def car(
     _known((name for name in bounds or () if "." not in name), PARAMETERS, "bounds")
     chosen = [entry.effect for entry, _ in library.choose(effects, effects_folder)]
     effects |= {effect.name: effect.values(effects[effect.name]) for effect in chosen}
-    free = _parameters(vehicle, calibrate.BOUNDS if bounds is None else bounds, UNCERTAIN if uncertain is None else uncertain)
+    free = _parameters(vehicle, bounds_of(vehicle) if bounds is None else bounds, UNCERTAIN if uncertain is None else uncertain)
     for effect in chosen:
         sizes, known_sizes = effects[effect.name], (held or {}).get(effect.name) or ()
         own = ((size, size.key.partition(".")[2]) for size in candidate(effect).sizes)
@@ -144,20 +144,33 @@ def opened(
     """The experiment of ``measured`` drives, mapping of site to (road, aligned drives), beside a vehicle and its ``calibration``.
 
     Sizes that ``effects`` tells are held, as in calibration. What was calibrated is fitted again, within ``bounds`` or those of the
-    calibration; without one, the parameters of tab:constraints and of ``bounds`` are. ``among``: names of the effects to look
+    calibration; without one, the parameters of tab:constraints and of ``bounds`` are (``bounds_of``). ``among``: names of the effects to look
     among; ``workers``: cores for drives side by side, by default all; ``settings`` as for ``car``.
     """
     held, (vehicle, effects) = effects, apply(calibration, vehicle, effects)
     count = pool.workers() if workers is None else workers
     each = pool.side_by_side(count)
-    limits = _calibrated_bounds(calibration, bounds or {})
+    limits = _calibrated_bounds(calibration, bounds or {}, vehicle)
     return car(sites_of(measured), vehicle, effects=effects, bounds=limits, library_names=among, held=held, each_record=each, **settings)
 
 
-def _calibrated_bounds(calibration: xr.Dataset | None, given: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
+def bounds_of(vehicle, given: Mapping[str, Sequence[float]] = {}) -> dict[str, Sequence[float]]:
+    """Bounds of the parameters of tab:constraints, and of those ``given``, for a vehicle that nobody calibrated: those given, else those of the paper, or,
+    where these do not hold the value of the vehicle's file, half and twice that. Raises InputError where those given do not.
+
+    A search begins at the file's value: moved into bounds that do not hold it, it would begin with another car, for which effects would make up.
+    """
+    for name, (lower, upper) in given.items():
+        if name in PARAMETERS and not lower <= vehicle[name] <= upper:
+            raise InputError(f"{lower:g} to {upper:g}, expected bounds that hold the {vehicle[name]:g} of the vehicle's file", place=f"bounds: {name}")
+    own = {name: pair if pair[0] <= vehicle[name] <= pair[1] else vehicle.about(name) for name, pair in calibrate.BOUNDS.items() if name not in given}
+    return {**{name: (lower, upper) for name, (lower, upper) in own.items() if lower < upper}, **given}  # none of what a vehicle has not
+
+
+def _calibrated_bounds(calibration: xr.Dataset | None, given: Mapping[str, Sequence[float]], vehicle) -> dict[str, Sequence[float]]:
     """Bounds of the parameters of the vehicle that are calibrated."""
     if calibration is None:
-        return {**calibrate.BOUNDS, **given}
+        return bounds_of(vehicle, given)
     names = map(str, calibration["parameter"].values)
     own = {name: pair for name, *pair in zip(names, calibration["lower"].values, calibration["upper"].values)}
     return {name: given.get(name, pair) for name, pair in own.items() if "." not in name}
