@@ -133,8 +133,10 @@ def _inmost(error: ValidationError) -> ValidationError:
 
 
 def _is_number_as_text(error: ValidationError) -> bool:
+    if error.validator != "type":
+        return False
     wanted = {error.validator_value} if isinstance(error.validator_value, str) else {*error.validator_value}
-    return error.validator == "type" and isinstance(error.instance, str) and bool({"number", "integer"} & wanted) and _is_number(error.instance)
+    return isinstance(error.instance, str) and bool({"number", "integer"} & wanted) and _is_number(error.instance)
 
 
 def _explain(error: ValidationError) -> str:
