@@ -127,6 +127,11 @@ def test_names_beside_a_form_of_ones_own_are_said_with_a_caution():
     assert "take out again" not in words(diagnosed.tables(made_up.diagnosis())["verdict"])
 
 
+def test_an_effect_of_the_library_is_no_form_of_ones_own_where_a_size_is_held():
+    held = replace(made_up.diagnosis(), model="aerodynamic_drag", switched_on=("aerodynamic_drag",), held={"aerodynamic_drag": {"area": 0.64}})
+    assert "a form of its own" not in words(diagnosed.tables(held)["verdict"])
+
+
 def test_parameters_beyond_their_bounds_are_said_as_they_are_written_in_the_configuration():
     bar = {"parameter": "anti_roll_stiffness_rear", "unit": "N m/rad", "given": 10000.0, "bounds": [8500.0, 11500.0],
            "wider": [2833.3, 34500.0], "value": 34500.0, "interval": [20000.0, 49000.0]}  # fmt: skip

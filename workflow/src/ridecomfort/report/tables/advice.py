@@ -107,7 +107,7 @@ def next_step(found: Diagnosis) -> str:
         return NEXT["suspect"] + (SAME_ERROR.format(keys=", ".join([*own, *wrong])) if wrong else "")
     before += WITH_VEHICLE if is_vehicle_first(said) else ""
     before += _may_end(said, said)
-    caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(own) <= set(library.find()) else ""
+    caution = STAND_IN if said["verdict"] in ("named", "cluster") and not set(found.switched_on) <= set(library.find()) else ""
     in_place = IN_PLACE.format(file=_file(found, proposal), keys=", ".join([*own, proposal["name"]])) if proposal.get("form") else ""
     has_others = in_place or any(effect.get("like") for effect in said["effects"]) or (said.get("beyond_bounds") or {}).get("is_as_good")
     then = NEXT[said["verdict"]] if said["verdict"] == "named" or has_others else OPEN
