@@ -56,3 +56,9 @@ def test_a_whole_number_may_be_written_with_a_point(project):
 def test_a_number_on_the_command_line_may_stand_in_a_block(project):
     study = config.load({"sites": ["own"], "space": {"spacing": "0.5"}}, project, given=["space"])
     assert study.settings["space"]["spacing"] == 0.5
+
+
+def test_a_number_is_said_as_a_configuration_takes_it():
+    for number in (2e-06, -3.456e-05, 0.00012, 0.64, 75, 1234567.0, 1e22):
+        assert yaml.safe_load(schema.as_yaml(number)) == number
+        assert yaml.safe_load(schema.as_written(number)) == float(f"{number:.3g}")

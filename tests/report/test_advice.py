@@ -1,5 +1,6 @@
 """What to do next after a verdict."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -119,6 +120,15 @@ def test_what_comes_next_keeps_the_order_of_what_is_switched_on():
 def test_what_comes_next_keeps_sizes_that_are_held():
     found = replace(made_up.diagnosis(), model="steering_lag", switched_on=("steering_lag",), held={"steering_lag": {"time": 0.1}})
     assert "effects: [{steering_lag: {time: 0.1}}, suspension_friction]" in words(diagnosed.tables(found)["verdict"])
+
+
+def test_held_sizes_can_be_pasted_as_they_are_said():
+    """A millionth needs its point, and less digits would make another model, which is calibrated and diagnosed anew."""
+    held = {"top_mount": {"front": 1e-06, "rear": 2.3456789e-06}, "payload": {"mass": 75}}
+    found = replace(made_up.diagnosis(), model="payload+top_mount", switched_on=tuple(held), held=held)
+    said = re.search(r"effects: (\[.*?\]) in config", words(diagnosed.tables(found)["verdict"]))[1]
+    assert yaml.safe_load(said) == [{name: sizes} for name, sizes in held.items()] + ["suspension_friction"]
+    assert "{mass: 75}" in said
 
 
 def test_names_beside_a_form_of_ones_own_are_said_with_a_caution():

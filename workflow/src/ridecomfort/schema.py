@@ -96,8 +96,14 @@ def load(kind: str) -> Mapping:
 
 
 def as_written(number: float) -> str:
-    """A number to three digits as a configuration takes it: YAML reads one with an exponent and no point as text."""
-    return str(_plain(float(f"{number:.3g}")))
+    """A number to three digits as a configuration takes it."""
+    return as_yaml(float(f"{number:.3g}"))
+
+
+def as_yaml(number: float) -> str:
+    """A number with all of its digits as a configuration takes it: YAML 1.1 reads one with an exponent and no point before it as text."""
+    said = repr(_plain(float(number)))
+    return said if "e" not in said or "." in said else said.replace("e", ".0e")
 
 
 def _ascending(validator, wanted, instance, schema):
@@ -153,7 +159,7 @@ def _explain(error: ValidationError) -> str:
             return f"key {missing!r} is missing"
         case "type":
             kinds = [expected] if isinstance(expected, str) else expected
-            as_text = f"; YAML reads this as text, write {_as_yaml(float(value))}" if _is_number_as_text(error) else ""
+            as_text = f"; YAML reads this as text, write {as_yaml(float(value))}" if _is_number_as_text(error) else ""
             quoted = ""
             if "string" in kinds and not isinstance(value, (str, dict, list)):
                 quoted = f"; YAML reads what stands there as {NOT_TEXT.get(type(value), 'a number or a date')}, write it in quotes if it is a name"
@@ -190,12 +196,6 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def _as_yaml(value: float) -> str:
-    """A number as YAML 1.1 reads it as one: with a point before an exponent."""
-    said = repr(_plain(value))
-    return said if "e" not in said or "." in said else said.replace("e", ".0e")
 
 
 def _plain(value: float) -> int | float:

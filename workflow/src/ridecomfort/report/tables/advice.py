@@ -10,7 +10,7 @@ from ...discrepancy.confirm import EQUAL
 from ...discrepancy.explain import NIL
 from ...discrepancy.verdict import SMALL, at_most, is_file_alone, is_of_little, is_vehicle_first, told_beyond
 from ...effects import library
-from ...schema import as_written
+from ...schema import as_written, as_yaml
 from ...vehicle.parameters import PARAMETERS
 from ...vocabulary import CALIBRATED
 from ..study import Diagnosis
@@ -116,7 +116,7 @@ def next_step(found: Diagnosis) -> str:
 
 def _entry(name: str, held: Mapping[str, float]) -> str:
     """An effect as it stands in the configuration, with the sizes that are ``held``."""
-    return f"{{{name}: {{{', '.join(f'{size}: {value:g}' for size, value in held.items())}}}}}" if held else name
+    return f"{{{name}: {{{', '.join(f'{size}: {as_yaml(value)}' for size, value in held.items())}}}}}" if held else name
 
 
 def library_helps(verdict: Mapping) -> bool:
