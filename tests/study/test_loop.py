@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 from ridecomfort.study import digest
+from tests.study.conftest import Project
 
 pytestmark = pytest.mark.slow
 
@@ -19,8 +20,6 @@ NAMED = {"sites": ["ts1"], "verdict": "named", "effects": [{"name": "suspension_
 @pytest.fixture(scope="module")
 def plan(repository, tmp_path_factory):
     """The jobs that a call plans in the paper's study before anything has run; ``verdict`` lies there already if given."""
-    from .conftest import Project
-
     folder = tmp_path_factory.mktemp("loop")
     shutil.copytree(repository / "config", folder / "config")
     project = Project(folder, repository)
@@ -65,6 +64,25 @@ def test_a_calibration_begins_from_that_of_the_model_with_an_effect_less(plan):
 
 def test_compare_goes_on_with_a_verdict_that_is_there(plan):
     assert "comparison ts1 suspension_friction" in plan("compare", verdict=NAMED)
+
+
+def test_a_ladder_takes_its_titles_from_the_verdict_as_it_is_now(repository, tmp_path):
+    """Its models are the same whether the verdict is named or a cluster."""
+    shutil.copytree(repository / "config", tmp_path / "config")
+    project, ladder, one = Project(tmp_path, repository), "results/ladder/base.nc", ("--config", "sites=[ts1]")
+    verdict = tmp_path / "results" / "diagnosis" / "base" / "verdict.json"
+    named = {**NAMED, "vehicle_digest": digest(tmp_path / "config" / "vehicles" / "midsize.yaml")}
+    cluster = {**named, "verdict": "cluster", "effects": [{"name": "suspension_friction", "like": ["top_mount"]}]}
+    verdict.parent.mkdir(parents=True)
+    verdict.write_text(json.dumps(named))
+    table = [line.split("\t") for line in project.snakemake(ladder, "--summary", *one).text.splitlines()]
+    for made in (tmp_path / row[0] for row in table if row[-1] == "update pending"):
+        made.parent.mkdir(parents=True, exist_ok=True)
+        made.touch()
+    assert project.snakemake("-j1", ladder, "--touch", *one).status == 0
+    assert project.snakemake("--dry-run", ladder, *one).jobs == []
+    verdict.write_text(json.dumps(cluster))
+    assert project.snakemake("--dry-run", ladder, *one).jobs == ["ladder"]
 
 
 def test_the_study_diagnoses_before_it_knows_its_ladder(plan):

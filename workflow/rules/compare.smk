@@ -60,6 +60,8 @@ rule ladder:
         f"results/ladder/{study.model}.nc",
     params:
         config=lambda wildcards, input: models.ladder_settings(study, input.comparisons),
+        # Of a parameter made of `input` Snakemake does not see that it has changed, and the verdict that titles come from is no input.
+        titles=lambda wildcards: models.ladder_titles(study, models.known(study).models),
     log:
         f"results/logs/ladder/{study.model}.log",
     benchmark:

@@ -93,9 +93,13 @@ def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
     speak of others.
     """
     models = list(dict.fromkeys(Path(file).parts[2] for file in comparisons))
+    fitted = {site: study.calibrated_on(site) == site for site in study.measured}
+    return json.dumps({"sites": fitted, "models": models, "titles": ladder_titles(study, models)})
+
+
+def ladder_titles(study: Study, models: Sequence[str]) -> list[str]:
+    """What the rungs of these models after base are called, with what the verdict on the study's model cannot tell from their effects."""
     sets = [set(effects_of(model)) for model in models]
     effects = [name for before, after in zip(sets, sets[1:]) for name in sorted(after - before)]
     found = _verdict(study) or {"effects": []}
-    titles = rung_titles(effects, {effect["name"]: effect.get("like", ()) for effect in found["effects"]})
-    fitted = {site: study.calibrated_on(site) == site for site in study.measured}
-    return json.dumps({"sites": fitted, "models": models, "titles": titles})
+    return rung_titles(effects, {effect["name"]: effect.get("like", ()) for effect in found["effects"]})
