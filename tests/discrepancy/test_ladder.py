@@ -194,6 +194,22 @@ def test_a_model_that_makes_one_signal_worse_while_all_together_fall_may_stand_i
     ]
 
 
+def test_a_model_that_makes_one_signal_worse_is_told_of_the_nominal_vehicle_too():
+    """It has no calibrated rung that its first effect could be put beside."""
+    base = of_two((30.0, 30.0), (2.0, 2.0)).sel(state=["reference"])
+    one = of_two((30.0, 3.0), (2.0, 2.5)).assign_coords(state=["reference", "with_effects"])
+    both = sections((0, 0, 0, 0), (0, 0, 0, 0)).assign_coords(source=["measured", "reference", "with_effects"])
+    graded = {"base": both.sel(source=["measured", "reference"]), "one": both}
+    found = ladder({"ts1": Measured({"base": base, "one": one}, graded, False)}, ["base", "one"], ["+ one"])
+    assert worsened(found) == [
+        (
+            "ts1",
+            "+ one: on drives held out the error grows in a_y (150 % left after 100 %), though it falls over all signals: "
+            "what was switched on may stand in for something that is missing",
+        )
+    ]
+
+
 def test_a_signal_that_leaves_its_floor_is_told_though_no_share_of_it_was_left_before():
     models = {"base": of_two((30.0, 5.0), (1.0, 1.0)), "one": of_two((30.0, 3.0), (1.0, 4.0))}
     graded = {name: sections((0, 0, 0, 0), (0, 0, 0, 0)) for name in models}

@@ -35,8 +35,8 @@ WORSE = 0.25
 said: a quarter, several times what chance makes of a signal near its floor."""
 
 
-MAY_STAND_IN = "what was fitted may stand in for something that is missing"
-"""What is said of a model that makes some signal worse."""
+MAY_STAND_IN = "what was {what} may stand in for something that is missing"
+"""What is said of a model that makes some signal worse, where something was "fitted", or of the nominal vehicle, for which nothing was, "switched on"."""
 
 
 @dataclass(frozen=True)
@@ -176,19 +176,21 @@ def worsened(found: xr.Dataset) -> list[tuple[str, str]]:
     for site in found["site"].values:
         groups = [group for group in (HELD_OUT, FITTED) if found["rmse"].sel(site=site, group=group).notnull().any()]
         chosen = found.sel(site=site, group=groups[0])
-        for before, now in zip(chosen["rung"].values, chosen["rung"].values[1:]):
+        known = chosen["rung"].values[chosen["rmse"].notnull().any("signal").values]  # the nominal vehicle has no rung "calibrated"
+        may_stand_in = MAY_STAND_IN.format(what="fitted" if CALIBRATED in known else "switched on")
+        for before, now in zip(known, known[1:]):
             lower, higher = (chosen["left"].sel(rung=rung).values for rung in (before, now))
             rises = np.flatnonzero(higher > lower + WORSE)
             if rises.size and chosen["left_overall"].sel(rung=now) < chosen["left_overall"].sel(rung=before):
                 signals = (f"{chosen['signal'].values[k]} ({100 * higher[k]:.0f} % left after {100 * lower[k]:.0f} %)" for k in rises)
                 told = f"{now}: on drives {groups[0]} the error grows in {', '.join(signals)}, though it falls over all signals"
-                said.append((str(site), f"{told}: {MAY_STAND_IN}"))
+                said.append((str(site), f"{told}: {may_stand_in}"))
             lower, higher = (chosen["rmse"].sel(rung=rung).values for rung in (before, now))
             rises = np.flatnonzero(np.isnan(chosen["left"].sel(rung=now).values) & (higher**2 > (1.0 + WORSE) * lower**2))
             if rises.size:
                 signals = (f"{chosen['signal'].values[k]} ({higher[k] / lower[k]:.2g} times as large)" for k in rises)
                 told = f"{now}: on drives {groups[0]} the error grows in {', '.join(signals)}, of which nothing was left above the floor"
-                said.append((str(site), f"{told}: {MAY_STAND_IN}"))
+                said.append((str(site), f"{told}: {may_stand_in}"))
     return said
 
 
