@@ -190,3 +190,9 @@ def test_the_score_is_marked_as_that_of_stand_ins():
     found = diagnosed.scores(made_up.diagnosis(score=score(made_up.VERDICT, HIDDEN)))["standin_score"]
     assert any("sealed" in note for note in found.notes) and any("Stand-in data" in note for note in found.notes)
     assert not diagnosed.scores(made_up.diagnosis())
+
+
+def test_the_score_tells_which_model_it_is_of():
+    """It may lie beside the verdict on another: `diagnose` alone makes none."""
+    found = replace(made_up.diagnosis(score=score(made_up.VERDICT, HIDDEN)), model="damper_knee")
+    assert diagnosed.scores(found)["standin_score"].notes[0].startswith("Diagnosed: the model damper_knee on ")

@@ -31,6 +31,7 @@ def standin_score(found: Diagnosis) -> Table:
     ]  # fmt: skip
     source = Source("all", found.files.get("score", ""), "rows", "as in the file")
     notes = (
+        found.subject(),
         f"The verdict is {found.score['verdict']}. The truth is sealed beside the stand-in drives; the step that wrote this table is the "
         "only one that reads it, and nothing that was diagnosed depends on it.",
         *filter(None, [found.standin_note()]),
