@@ -53,11 +53,17 @@ if "diagnose" in asked and not study.diagnosed:
     sys.exit(f"error: all drives of {sites} are held out, so that there is nothing to diagnose on (expected drives with role: fit)")
 
 beside = [site for site in study.measured if site not in study.diagnosed]
-others = [site for site in beside if study.calibrated_on(site) or has_fit(study.sites[site])]
-held_out = [site for site in beside if site not in others]
+with_fit = [site for site in beside if study.calibrated_on(site) or has_fit(study.sites[site])]
+held_out = [site for site in beside if site not in with_fit]
+is_nominal = lambda site: study.calibrated_on(site) is None and study.vehicle(site) == study.vehicle(study.diagnosed[0])
+nominal = [site for site in with_fit if is_nominal(site)]
+others = [site for site in with_fit if site not in nominal]
+searched = ", ".join(study.diagnosed)
 if "diagnose" in asked and others:
-    searched = ", ".join(study.diagnosed)
     print(f"{', '.join(others)}: not diagnosed, being of another car than {searched} (expected alone: --config sites=[{others[0]}])", file=sys.stderr)
+if "diagnose" in asked and nominal:
+    why = f"being compared with the nominal vehicle, not the calibrated one of {searched}"
+    print(f"{', '.join(nominal)}: not diagnosed, {why} (expected alone: --config sites=[{nominal[0]}])", file=sys.stderr)
 if "diagnose" in asked and held_out:
     print(f"{', '.join(held_out)}: not diagnosed, being calibrated nowhere, with all drives held out (expected drives with role: fit)", file=sys.stderr)
 

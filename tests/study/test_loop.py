@@ -112,6 +112,10 @@ def test_what_is_not_diagnosed_is_said(project, repository):
     answer = project.snakemake("--dry-run", "diagnose", "--config", "sites=[ts1, ts3]")
     assert "not diagnosed" not in answer.text and "measured ts3" in answer.jobs
     content = yaml.safe_load(second.read_text())
+    second.write_text(yaml.safe_dump({**content, "calibrated_on": "none"}))
+    answer = project.snakemake("--dry-run", "diagnose", "--config", "sites=[ts1, ts2]")
+    said = "ts2: not diagnosed, being compared with the nominal vehicle, not the calibrated one of ts1 (expected alone: --config sites=[ts2])"
+    assert said in answer.text and "of another car" not in answer.text
     held_out = [{**drive, "role": "check"} for drive in content["drives"]]
     second.write_text(yaml.safe_dump({**content, "calibrated_on": "none", "drives": held_out}))
     answer = project.snakemake("--dry-run", "diagnose", "--config", "sites=[ts1, ts2]")
