@@ -28,6 +28,12 @@ def test_mistake_in_an_effect(project, own_effects, effects, said):
     assert_said(project, {**own_effects, "effects": effects}, f"effects: {said}", config.STUDY)
 
 
+def test_a_form_is_not_used_where_the_next_diagnosis_would_delete_it(project):
+    (project / "results" / "diagnosis" / "base").mkdir(parents=True)
+    said = "effects_folder: '{}' is in results/, expected a folder of your own".format(project / "results" / "diagnosis" / "base")
+    assert_said(project, {"sites": ["own"], "effects_folder": "results/diagnosis/base"}, said, config.STUDY)
+
+
 def test_a_file_that_is_no_effect_is_missed_before_anything_runs(project, own_effects):
     (project / "mine" / "bad.py").write_text("effect = (")
     with pytest.raises(InputError, match="bad.py: cannot be loaded: SyntaxError"):

@@ -22,6 +22,7 @@ from .vocabulary import CALIBRATED
 STUDY = Path("config/study.yaml")
 SITES = Path("config/sites")
 STANDIN = Path("config/standin.yaml")
+RESULTS = Path("results")
 
 TAKEN = frozenset(
     "all compare diagnose report blind survey road inspect measured realigned calibrate sample simulate handed_in space thresholds "
@@ -189,6 +190,9 @@ def _check_effects(study: Study, given: list[str]) -> None:
     folder = study.effects_folder
     if folder is not None and not folder.is_dir():
         raise InputError(f"no such folder {str(folder)!r}", file=_source("effects_folder", given), place="effects_folder")
+    if folder is not None and folder.resolve().is_relative_to((study.folder / RESULTS).resolve()):  # a diagnosis deletes the forms of the one before it
+        problem = f"{str(folder)!r} is in {RESULTS}/, expected a folder of your own, into which files are copied from there"
+        raise InputError(problem, file=_source("effects_folder", given), place="effects_folder")
     if folder is not None:
         library.find(folder)  # a file there that is no effect would end the diagnosis only
     named = [name for entry in study.settings["effects"] for name in ([entry] if isinstance(entry, str) else entry)]
