@@ -10,6 +10,7 @@ import xarray as xr
 from ridecomfort import store
 from ridecomfort.road import clean, crg
 from ridecomfort.steps import inspect
+from ridecomfort.vehicle import driver
 from tests.described import undescribed
 
 LENGTH = 260.0
@@ -66,6 +67,13 @@ def test_smoothing_takes_noise_from_the_spectrum_the_iri_and_the_drive(found):
     variance = float(stages[0]["acceleration_psd"].integrate("frequency"))
     assert variance == pytest.approx(float(stages[0]["a_z_rms"]) ** 2, rel=0.3)
     assert found.attrs["used"] == "repaired"
+
+
+def test_the_speed_that_drives_of_the_site_aim_for_is_told_to_other_simulators(found, road):
+    limits = {name: SETTINGS["speed"][name] for name in ("lateral_acceleration", "acceleration", "deceleration")}
+    expected = driver.speed_profile(crg.read(road), limit=60 / 3.6, **limits)
+    np.testing.assert_allclose(found["speed"].interp(u=expected["u"]), expected)
+    assert found["speed"].attrs["units"] == "m/s"
 
 
 def test_the_cutoff_is_that_of_the_least_error(found):

@@ -41,7 +41,7 @@ def inspect(
     short, or has holes or none of it in a track. Over ``stage``: root mean square ``a_z_rms`` and
     largest ``a_z_peak`` in m/s2, and ``acceleration_psd`` (stage, frequency) of the
     vertical acceleration of one drive of the vehicle at the site's speed profile, ``lateral``
-    m to the left of the reference line, NaN as measured. ``trial_cutoff`` (direction, trial): the cut-offs tried in m, with the error ``held_out_error``
+    m to the left of the reference line, NaN as measured; that profile as ``speed`` (u) in m/s. ``trial_cutoff`` (direction, trial): the cut-offs tried in m, with the error ``held_out_error``
     (direction, trial) of each against held-out points, and ``cutoff`` (direction) in m
     with its ``penalty`` in m4. Over ``defect``: `defects.find`. Attributes give
     counts and shares of treated cells, and the largest change.
@@ -99,6 +99,7 @@ def _drives(stages: Mapping[str, xr.Dataset], vehicle, speed, lateral, step, rat
             "a_z_rms": ("stage", np.array(rms)),
             "a_z_peak": ("stage", np.array(peak)),
             "acceleration_psd": (("stage", "frequency"), np.array(density)),
+            "speed": profile,
         },
         coords={"stage": list(STAGES), "frequency": frequency},
     )
