@@ -148,7 +148,8 @@ COMPILED = tuple(name for name in PORTS if name not in IN_PYTHON)
 class Parameter:
     """A size of an effect: unit, the value at which it changes nothing, a usual one, what is plausible.
 
-    Where ``neutral`` equals ``typical`` the parameter is no size: it only shapes the effect.
+    Where ``neutral`` equals ``typical`` the parameter is no size: it only shapes the effect. But beside a size of the same unit and the same
+    ``neutral`` it is a size, too, one that is typically nil.
     """
 
     name: str
