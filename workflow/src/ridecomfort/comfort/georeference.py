@@ -16,7 +16,7 @@ ECCENTRICITY2 = FLATTENING * (2.0 - FLATTENING)
 class GeoReference:
     """Where a road's x = y = 0 lies (WGS 84, degrees), and by how many degrees its x axis is turned from east to north.
 
-    The plane touches the ellipsoid there: 10 km off, a distance is wrong by less than 1 part in a million.
+    The plane touches the ellipsoid there: 10 km off, a distance from there is wrong by less than 1 part in a million.
     """
 
     longitude: float

@@ -94,7 +94,7 @@ def find_outliers(elevation: np.ndarray, vouched: np.ndarray | None = None) -> n
     larger than a cell or two. A smaller dip looks like an outlier in the grid and
     is kept only where ``vouched`` (u, v) is True: many points of a scan saw it. A
     bump above `BUMP` is an outlier unless it extends along the road or across it.
-    Repeated without those found, until none is.
+    Repeated without those found until none is, `_PASSES` times at most.
     """
     found = np.zeros(elevation.shape, dtype=bool)
     vouched = found.copy() if vouched is None else vouched
