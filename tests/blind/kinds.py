@@ -114,7 +114,7 @@ def _set_otherwise(rng, names, number) -> Draw:
     """An effect shaped otherwise than is typical: at another clearance, knee, frequency or place."""
     able = [*_plain(names), "bump_stop"]  # with a smaller clearance more drives meet it
     known = {name: candidate(library.find()[name].effect).shapes for name in able}
-    known = {name: shapes for name, shapes in known.items() if len(shapes) > 1}
+    known = {name: shapes for name, shapes in known.items() if any(shape != shapes[0] for shape in shapes)}
     name = list(known)[number % len(known)]
     settings = {}
     for key in known[name][0]:

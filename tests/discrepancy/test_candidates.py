@@ -22,6 +22,14 @@ def test_an_effect_is_tried_at_the_settings_that_may_turn_it_round():
     assert min(ahead) < -0.8 < 0.0 < max(ahead)
 
 
+def test_an_effect_is_tried_over_a_quarter_of_its_typical_sizes_and_over_those_that_it_names():
+    known = {name: candidate(entry.effect) for name, entry in library.find().items()}
+    bushings = known.pop("wheel_compliance")
+    assert [bushings.reach(shape) for shape in range(len(bushings.shapes))] == [1.0, 4.0, 8.0]
+    assert all(shape == bushings.shapes[0] for shape in bushings.shapes)
+    assert {own.reach(shape) for own in known.values() for shape in range(len(own.shapes))} == {1.0}
+
+
 def test_what_alignment_takes_out_is_known_by_its_name_and_an_error_of_the_measurement():
     found = {name: candidate(entry.effect) for name, entry in library.find().items()}
     assert {name for name, own in found.items() if own.is_aligned} == set(ALIGNED)

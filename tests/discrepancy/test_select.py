@@ -247,6 +247,33 @@ def test_a_setting_that_was_tried_and_not_fitted_is_said():
     assert (held["parameter"], held["size"], held["is_typical"]) == ("setting", 0.5, False)
 
 
+class Turning(Linear):
+    """The same where effect_2 does at its typical size, 0.4, nothing of what it does at a quarter of that."""
+
+    def __init__(self, seed, reaches):
+        super().__init__(seed, {"stiffness": 0.7})
+        self.candidates = tuple(
+            replace(one, shapes=({},) * len(reaches), reaches=reaches) if one.name == "effect_2" else one for one in self.candidates
+        )
+        rng = np.random.default_rng([seed, 5])
+        own = {condition: coloured(rng, SAMPLES) for condition in ("usual", "slow")}
+        self.turned = [own[record.condition] for record in self.records]
+
+    def residual(self, values, index):
+        angle = lambda size: 0.5 * np.pi * np.clip((size - 0.1) / 0.3, 0.0, 1.0)
+        does = lambda size: size * (np.cos(angle(size)) * self.columns[index]["effect_2.size"] + np.sin(angle(size)) * self.turned[index])
+        others = {key: value for key, value in values.items() if key != "effect_2.size"}
+        return super().residual(others, index) + does(values.get("effect_2.size", 0.0)) - does(0.5)
+
+
+@pytest.mark.parametrize("reaches, names", [((1.0,), []), ((1.0, 4.0), ["effect_2"])])
+def test_an_effect_that_does_something_else_at_a_typical_size_is_found_by_what_it_does_there(reaches, names):
+    selection, _ = judged(Turning(8, reaches))
+    assert list(selection.accepted) == names
+    if names:
+        assert selection.final.values["effect_2.size"] == pytest.approx(0.5, rel=0.1)
+
+
 class Bent(Linear):
     """The same where effect_2 bends as it grows, while at a setting beside the typical one, 0, it does at any size what it does there at a
     quarter."""

@@ -107,6 +107,14 @@ def test_refuses_what_its_port_does_not_have(tmp_path):
         (tmp_path / "mine.py").unlink()
 
 
+@pytest.mark.parametrize("shares", ["2.0", "(1.0, 0.0)", "(1.0, 'twice')"])
+def test_refuses_sizes_to_be_looked_for_with_that_are_none(tmp_path, shares):
+    text = EFFECT.format(name="mine", port="suspension").replace("vehicle, share", "wheel, share")
+    (tmp_path / "mine.py").write_text(text + f"\neffect = effect.__class__('mine', 'A.', 'a', 'suspension', (), also_probed={shares})\n")
+    with pytest.raises(InputError, match=r"mine.py: also_probed: .*, expected a tuple of positive numbers"):
+        library.find(tmp_path)
+
+
 @pytest.mark.parametrize("text", ["effect = 1\n", "import nothing_of_that_name\n", "def act(:\n"])
 def test_refuses_files_that_hold_no_effect(tmp_path, text):
     (tmp_path / "mine.py").write_text(text)

@@ -41,10 +41,12 @@ def candidate(effect: Effect) -> Candidate:
         keys = [f"{effect.name}.{parameter.name}" for parameter in varied]
         moved = (dict(zip(keys, values)) for values in zip(*map(_moved, varied), strict=True))
         shapes += [{**typical, **own} for own in moved if {**typical, **own} != typical]
+    reaches = [1.0] * len(shapes) + [share / PROBE for share in effect.also_probed]
+    shapes += [typical] * len(effect.also_probed)
     instrument = effect.port in ("sensor", "path") or effect.name in OF_THE_ROAD
     return Candidate(
         effect.name, tuple(_size(p, effect) for p in sizes), tuple(shapes), tuple(shaping_size(p, f"{effect.name}.{p.name}") for p in shaping),
-        effect.sentence, instrument, effect.port, effect.name in ALIGNED,
+        effect.sentence, instrument, effect.port, effect.name in ALIGNED, tuple(reaches),
     )  # fmt: skip
 
 

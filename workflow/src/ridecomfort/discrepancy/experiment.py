@@ -85,6 +85,12 @@ class Candidate:
     """Where it acts; two at one port may stand in for one another."""
     is_aligned: bool = False
     """Whether it is what alignment takes out of every drive."""
+    reaches: tuple[float, ...] = ()
+    """Probes that its sizes are tried over in each of the ``shapes``, where that is not one in all of them."""
+
+    def reach(self, shape: int) -> float:
+        """Probes that its sizes are tried over in a shape."""
+        return self.reaches[shape] if self.reaches else 1.0
 
     def at(self, shares: Mapping[str, float], shape: int = 0) -> dict[str, float]:
         """Values with each size at this many probes from neutral, the others neutral."""

@@ -21,9 +21,9 @@ Raw = Mapping[str, Mapping[int, np.ndarray]]
 
 @dataclass(frozen=True)
 class Probe:
-    """The change of the residuals per probe of every size of a candidate in one shape, by key; what cannot be simulated, or
-    changes nothing, is left out. Called with (candidate, number of its shape); a pool can be handed it. Raises ActFails for a mistake in an
-    effect's file."""
+    """The change of the residuals per probe of every size of a candidate in one shape, over as many as that is tried with, by key; what cannot be
+    simulated, or changes nothing, is left out. Called with (candidate, number of its shape); a pool can be handed it. Raises ActFails for a
+    mistake in an effect's file."""
 
     experiment: Experiment
     values: Mapping[str, float]
@@ -31,17 +31,17 @@ class Probe:
 
     def __call__(self, job: Job) -> dict[str, dict[int, np.ndarray]]:
         candidate = next(c for c in self.experiment.candidates if c.name == job[0])
-        columns = {}
+        columns, reach = {}, candidate.reach(job[1])
         for size in candidate.sizes:
             try:
                 moved = exp.simulate(
-                    self.experiment, {**self.values, **candidate.at({size.key: 1.0}, job[1])}, self.residuals
+                    self.experiment, {**self.values, **candidate.at({size.key: reach}, job[1])}, self.residuals
                 )
             except ActFails:
                 raise
             except (InputError, ValueError):
                 continue
-            column = {i: (moved[i] - self.residuals[i]).astype(np.float32) for i in moved}
+            column = {i: ((moved[i] - self.residuals[i]) / reach).astype(np.float32) for i in moved}
             if any(np.any(part) for part in column.values()):
                 columns[size.key] = column
         return columns

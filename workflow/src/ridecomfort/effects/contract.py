@@ -181,6 +181,8 @@ class Effect:
     """What it takes of what its port may see."""
     also_returns: tuple[str, ...] = ()
     """What it returns of what its port may return."""
+    also_probed: tuple[float, ...] = ()
+    """Times its typical sizes that it is looked for with beside a quarter of these, where large ones do something else than small ones."""
 
     @property
     def rank(self) -> tuple[int, str]:

@@ -147,6 +147,8 @@ def _load(path: Path, changed: int) -> Entry:
         found = getattr(effect, what)
         if not (isinstance(found, tuple) and all(one in known for one in found)):
             raise InputError(f"{found!r:.60}, expected a tuple of names among {known}, what port {effect.port} has", file=path, place=what)
+    if not (isinstance(effect.also_probed, tuple) and all(_is_number(share) and share > 0 for share in effect.also_probed)):
+        raise InputError(f"{effect.also_probed!r:.60}, expected a tuple of positive numbers", file=path, place="also_probed")
     _check_parameters(effect, path)
     _check_arguments(effect, act, path)
     return Entry(effect, act, path)

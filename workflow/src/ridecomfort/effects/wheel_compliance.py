@@ -29,6 +29,7 @@ effect = Effect(
     states=("place", "rate"),
     order=1,
     also_sees=("surge", "pull"),
+    also_probed=(1.0, 2.0),  # where a wheel swings goes by its compliance: at 33 Hz with a quarter of what is typical, at 12 Hz with twice as much
 )
 
 
