@@ -274,6 +274,38 @@ def test_an_effect_that_does_something_else_at_a_typical_size_is_found_by_what_i
         assert selection.final.values["effect_2.size"] == pytest.approx(0.5, rel=0.1)
 
 
+class TurningAxles(Linear):
+    """The same with a size for each axle, both of which do nearly the same, and turn from one thing to another as they grow."""
+
+    def __init__(self, seed):
+        super().__init__(seed, {"stiffness": 0.7})
+        sizes = tuple(Size(f"effect_2.{axle}", "1", 0.0, 0.0, 5.0, 0.1) for axle in ("front", "rear"))
+        self.candidates = tuple(
+            replace(one, sizes=sizes, shapes=({}, {}), reaches=(1.0, 4.0)) if one.name == "effect_2" else one for one in self.candidates
+        )
+        rng = np.random.default_rng([seed, 6])
+        alike = {condition: [coloured(rng, SAMPLES) for _ in range(2)] for condition in ("usual", "slow")}
+        self.parts = {}
+        for size in sizes:
+            own = {condition: [part + 0.2 * coloured(rng, SAMPLES) for part in alike[condition]] for condition in alike}
+            self.parts[size.key] = [own[record.condition] for record in self.records]
+
+    def does(self, key, size, index):
+        first, second = self.parts[key][index]
+        angle = np.pi * min(size / 0.6, 1.0)
+        return size * (np.cos(angle) * first + np.sin(angle) * second)
+
+    def residual(self, values, index):
+        others = {key: value for key, value in values.items() if not key.startswith("effect_2.")}
+        return super().residual(others, index) + sum(self.does(key, values.get(key, 0.0), index) - self.does(key, 0.55, index) for key in self.parts)
+
+
+@pytest.mark.parametrize("seed", range(1, 5))
+def test_both_axles_of_such_an_effect_are_fitted_from_where_it_was_found(seed):
+    final = select.select(TurningAxles(seed), {"stiffness": 0.7}, most=1).final
+    assert [final.values[f"effect_2.{axle}"] for axle in ("front", "rear")] == pytest.approx([0.55, 0.55], abs=0.05)
+
+
 class Bent(Linear):
     """The same where effect_2 bends as it grows, while at a setting beside the typical one, 0, it does at any size what it does there at a
     quarter."""

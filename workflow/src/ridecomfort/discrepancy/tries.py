@@ -79,7 +79,7 @@ class Tries:
                 does = inside.loss - fit.loss < CHANCE or before - inside.loss > CONTENT * (before - fit.loss)
                 fit = inside if does else fit
             fit = self._begun(fit, [size for size in candidate.sizes if size.key in columns], columns)
-            fit = self._from_typical(fit, start, sizes, columns, own)
+            fit = self._from_far(fit, start, sizes, columns, own, candidate.reach(job[1]))
             fit = self._from_plausible(fit, start, sizes, columns, candidate.sizes)
             return self._trial(candidate, shape, self._lengthened(fit, sizes))
         except (InputError, ValueError):
@@ -104,25 +104,27 @@ class Tries:
             return fit
         return replace(fit, values=reached, residuals=residuals, loss=float(np.sum(frame.flat(residuals) ** 2)))
 
-    def _from_typical(
-        self, fit: Fit, start: Mapping[str, float], sizes: Sequence[Size], columns: Mapping[str, np.ndarray], own: Sequence[str]
+    def _from_far(
+        self, fit: Fit, start: Mapping[str, float], sizes: Sequence[Size], columns: Mapping[str, np.ndarray], own: Sequence[str], reach: float
     ) -> Fit:
         """A fit from ``start`` that reached less than its columns foresee, or the one from typical sizes of the candidate where drives are
-        likelier with these; ``own``: their keys.
+        likelier with these; ``own``: their keys. Of a candidate that is tried over more than a probe, ``reach``, whatever the first reached, from
+        sizes of as much.
 
         Wheels on their bushings shake at 50 Hz where these hardly give way and at 17 Hz as they do: between nothing and what is missing
-        lies what is much worse than both.
+        lies what is much worse than both, for each axle alone, too.
         """
         rung, frame, before = self.rung, self.rung.frame, self.rung.fit
         matrix, flat = np.stack([columns[size.key] for size in sizes]), frame.flat(before.residuals)
         _, foreseen = refit.stepped(before.values, sizes, matrix, flat)
-        if before.loss - fit.loss > REACHED * foreseen:
+        if reach == 1.0 and before.loss - fit.loss > REACHED * foreseen:
             return fit
         sought = [size for size in sizes if size.key in own]
-        typical = {**start, **_typical(sought)}
+        typical = {**start, **_typical(sought, probes=TYPICAL if reach == 1.0 else reach)}
         try:
             residuals = exp.simulate(rung.experiment, typical, frame.indices)
-            if refit.information(frame, residuals) < max(self.likely, refit.information(frame, fit.residuals)) + refit.WORTHWHILE:
+            likely = max(self.likely, refit.information(frame, fit.residuals))
+            if reach == 1.0 and refit.information(frame, residuals) < likely + refit.WORTHWHILE:
                 return fit
             raw = probe.secants(rung.experiment, typical, residuals, sought, self.each)
             there = {**columns, **probe.white(frame, raw)}
@@ -290,10 +292,11 @@ class Tries:
         return Trial(candidate.name, shape, replace(fit, columns=np.zeros((0, 0))), gain, bic, *unknown, "")
 
 
-def _typical(sizes: Sequence[Size], values: Mapping[str, float] = {}) -> dict[str, float]:
-    """Typical values of ``sizes`` that are plausible, by key; on the side of the neutral one on which they lie, of those that have ``values``."""
+def _typical(sizes: Sequence[Size], values: Mapping[str, float] = {}, probes: float = TYPICAL) -> dict[str, float]:
+    """Typical values of ``sizes``, so many ``probes`` from neutral, that are plausible, by key; on the side of the neutral one on which they lie, of
+    those that have ``values``."""
     way = {size.key: -1.0 if (values.get(size.key, size.neutral) - size.neutral) * size.probe < 0 else 1.0 for size in sizes}
-    return {size.key: float(np.clip(size.neutral + way[size.key] * TYPICAL * size.probe, size.lower, size.upper)) for size in sizes}
+    return {size.key: float(np.clip(size.neutral + way[size.key] * probes * size.probe, size.lower, size.upper)) for size in sizes}
 
 
 def own_sizes(candidate: Candidate, fitted: Collection[str]) -> list[Size]:
