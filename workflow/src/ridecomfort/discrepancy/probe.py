@@ -51,7 +51,7 @@ class Probe:
         candidate, why = next(c for c in self.experiment.candidates if c.name == job[0]), ""
         for size in candidate.sizes:
             try:
-                exp.simulate(self.experiment, {**self.values, **candidate.at({size.key: 1.0}, job[1])}, self.residuals)
+                exp.simulate(self.experiment, {**self.values, **candidate.at({size.key: candidate.reach(job[1])}, job[1])}, self.residuals)
                 return ""
             except (InputError, ValueError) as problem:
                 why = str(problem)
