@@ -42,6 +42,8 @@ def test_what_went_with_an_effect_that_has_no_name_does_not_count_as_explained(b
     found = judge.judge(perhaps_chance(selection, name), model.candidates, is_material=False)
     assert found.verdict == "outside" and [effect.name for effect in found.effects] == [other]
     assert (found.share, found.held_out_share) == pytest.approx(shares_of(selection, other))
+    whole = found.whole()
+    assert (whole.share, whole.held_out_share) == pytest.approx(balance.total_shares(selection)) and whole.share > found.share + 0.1
     assert f"{name} may be chance: no drive held out meets it" in found.reasons
     assert f"{100 * found.share:.0f} % of the explainable error is removed on the fitted drives, by {other}" in found.reasons
     assert any(reason.endswith(f" with {name} as well") for reason in found.reasons) and "that is less than half of what repeats share" in found.reasons

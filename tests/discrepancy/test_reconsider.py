@@ -291,3 +291,11 @@ def test_what_explains_most_is_named_unless_such_a_force_leaves_half():
 def test_on_a_road_that_may_be_another_such_a_force_counts_where_it_leaves_half():
     assert reconsidered(LITTLE, WITH_FRICTION, is_road_open=True) is LITTLE
     assert reconsidered(LITTLE, replace(WITH_FRICTION, share=0.45), is_road_open=True).verdict == "named"
+
+
+def test_a_force_is_held_against_all_that_the_library_found_with_what_has_no_name_of_it():
+    """Alone an effect removes 55 % and with another, whose size may as well be none, 84 %: a force that removes 85 % is no better."""
+    force = replace(SURE, share=0.85, held_out_share=0.8)
+    named = replace(NOTHING, verdict="named", effects=(FOUND,), share=0.55, held_out_share=0.5)
+    assert reconsidered(named, force).verdict == "outside"
+    assert reconsidered(replace(named, of_all=(0.84, 0.82)), force).verdict == "named"

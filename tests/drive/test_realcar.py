@@ -153,7 +153,7 @@ def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_fil
     """Within a tenth or two of a file of another car: three of the effects that are found where its inertias and bars are calibrated, and a force at
     the tyre; with these put right, or told beside them. What comes first is a matter of rounding: as well four or five of those effects (the
     recession of its wheels may not be among them), where it is told that the second search was made; or three of them and those parameters, as good; or
-    two that are sure of six that were found, those parameters, and no force, or one at the contact of the tyre that removes less than the effects do."""
+    two that are sure of six that were found, those parameters, and no force, or one at the contact of the tyre that removes less than the six do."""
     _, verdict, proposal = diagnose({"realcar": (road, drives)}, car, calibration=calibration, bounds=BOUNDS)
     other = verdict.beyond_bounds
     beyond = {one.parameter: one.value for one in (*other.parameters, *other.less_sure)} if other else {}
@@ -161,10 +161,12 @@ def test_the_diagnosis_says_what_it_can_explain_what_it_cannot_and_where_the_fil
         assert verdict.verdict == "outside" and "That is less than half" in verdict.words() and verdict.remainder["yaw_rate"] > 0.9
         assert {effect.name for effect in verdict.effects} == {"damper_asymmetry", "wheel_recession"}
         assert "damper_knee is not named for that: it may make good what another shape of damper_asymmetry, wheel_recession would do" in verdict.words()
-        assert verdict.share > 0.45 and verdict.held_out_share > 0.55
+        of_all = verdict.whole()  # with the four that have no name
+        assert of_all.share > 0.45 and of_all.held_out_share > 0.55 and verdict.share > 0.2 and verdict.held_out_share > 0.3
+        assert f"{100 * of_all.share:.0f} % and {100 * of_all.held_out_share:.0f} % with damper_knee, " in verdict.words()
         assert beyond["anti_roll_stiffness_rear"] > 2 * car["anti_roll_stiffness_rear"] and min(other.share, other.held_out_share) > 0.1
         if proposal.place:
-            assert proposal.share < verdict.share - 0.05 and proposal.held_out_share < verdict.held_out_share - 0.05
+            assert proposal.share < of_all.share - 0.05 and proposal.held_out_share < of_all.held_out_share - 0.05
             assert beyond["cornering_stiffness"] < 0.5 * car["cornering_stiffness"] and not other.less_sure
         else:
             assert beyond["roll_inertia"] < 0.8 * car["roll_inertia"]

@@ -59,7 +59,7 @@ def diagnose(
     verdict, proposal = outcome.verdict, outcome.proposed
     if proposal is not None and verdict.verdict == "outside":
         is_beside = found is not None and not (found.is_first or found.is_instead)
-        if is_beside and proposal.share > verdict.share + found.share:
+        if is_beside and proposal.share > verdict.whole().share + found.share:
             found = None
         verdict = beside_a_force(verdict, proposal)
     beside_file = _beside_the_file(verdict, outcome, found)
@@ -98,7 +98,7 @@ def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Out
     table = search.table
     verdict = heard(search.verdict, table.attrs["turns"], table.attrs["suspected"] == "road")
     is_road_open = table.attrs["floor"] == REPEATS and bool(table.attrs["road"]) and not table.attrs["turns"]
-    is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.share < NEARLY_ALL
+    is_error_alone = verdict.verdict == "suspect" and not table.attrs["suspected"] and verdict.whole().share < NEARLY_ALL
     is_road_alone = verdict.verdict == "suspect" and table.attrs["suspected"] == "road"
     if not (is_doubtful(verdict) or verdict.verdict in ("outside", "nothing") or is_road_alone or is_error_alone):
         return Outcome(table, verdict, None, search.selection, search.rung)

@@ -42,7 +42,8 @@ def judge(
     effects, reasons, unnamed = _kept(selection, found, by_name)
     of_those_but = lambda names: balanced(selection, notes, is_material, material_left, names)
     balance = of_those_but(unnamed)
-    is_vain = bool(found) and total_shares(selection)[0] <= 0
+    of_all = total_shares(selection)
+    is_vain = bool(found) and of_all[0] <= 0
     if is_vain:
         effects, reasons, balance = [], [reasoning.in_vain(found)], replace(balance, share=0.0, held_out=0.0)
     reasons += notes
@@ -88,7 +89,10 @@ def judge(
     said = (*reasons, *reasoning.of_drives(selection, bool(effects)), *bursts.words(selection.floor_time_share))
     left = balance.is_left, balance.is_shared or not selection.has_repeats
     moments = tuple(bursts.of_moments(selection.floor_time_share))
-    return Verdict(kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=told.is_like_error, of_moments=moments)
+    return Verdict(
+        kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=told.is_like_error, of_moments=moments,
+        of_all=of_all if effects and unnamed else None,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -33,12 +33,12 @@ removed less than DOUBTFUL, the z of a force were at most 2.2 on fitted and 1.8 
 def is_doubtful(verdict: Verdict) -> bool:
     """Whether what is named explains so little, or is so large, that it may stand in for something else."""
     most = 1.0 - WORTH / (1.0 - HALF) if verdict.may_be_shared else DOUBTFUL
-    return verdict.verdict in ("named", "cluster") and (verdict.share < most or _is_in_doubt(verdict))
+    return verdict.verdict in ("named", "cluster") and (verdict.whole().share < most or _is_in_doubt(verdict))
 
 
 def _is_in_doubt(verdict: Verdict) -> bool:
     """Whether what was found explains less than DOUBTFUL, of fitted drives or of these and those held out together, or is too large."""
-    return min(verdict.share, 1.0 - left(verdict)) < DOUBTFUL or _is_too_large(verdict)
+    return min(verdict.whole().share, 1.0 - left(verdict)) < DOUBTFUL or _is_too_large(verdict)
 
 
 def _is_too_large(verdict: Verdict) -> bool:
@@ -110,7 +110,7 @@ def _error_or_force(verdict: Verdict, proposal: Discovery, said: str, fits_bette
 def _road_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
     """Where the road may be another than that of its file, "outside" becomes what the library has, "suspect" if that is little, unless a
     force explains BETTER as much and is sure, or, beside so little, is more than that road could be."""
-    is_more = _leaves_half(verdict, proposal) if proposal.beside else proposal.share > BETTER * verdict.share
+    is_more = _leaves_half(verdict, proposal) if proposal.beside else proposal.share > BETTER * verdict.whole().share
     if not verdict.effects or is_sure(proposal) and is_more:
         return verdict
     if not verdict.share >= LITTLE:
@@ -129,6 +129,7 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
     fitted drives and not much less of the others will do, or, where little is left, leaving HALF of that. With effects of the library beside
     it, a force ``fits_better`` and leaves HALF (``_leaves_half``).
     """
+    verdict = verdict.whole()
     held_out = verdict.held_out_share if np.isfinite(verdict.held_out_share) else -np.inf
     if not is_sure(proposal):
         return False
@@ -143,6 +144,7 @@ def _is_better(verdict: Verdict, proposal: Discovery, fits_better: bool) -> bool
 
 def left(found: Verdict | Discovery) -> float:
     """Share of the explainable error that is left, the mean of fitted drives and of those held out, if any."""
+    found = found.whole() if isinstance(found, Verdict) else found
     known = [share for share in (found.share, found.held_out_share) if np.isfinite(share)]
     return 1.0 - float(np.mean(known)) if known else 1.0
 
@@ -162,6 +164,7 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     if verdict.verdict != "outside" or not verdict.effects or not min(shares, default=0.0) >= ENOUGH or verdict.is_like_error:
         return verdict
     theirs = [share for share in (proposal.share, proposal.held_out_share) if np.isfinite(share)] if is_sure(proposal) else []
+    shares = [share for share in (verdict.whole().share, verdict.whole().held_out_share) if np.isfinite(share)]
     is_better = _leaves_half(verdict, proposal) if proposal.beside else any(share > own + EQUAL for share, own in zip(theirs, shares))
     if theirs and is_better:
         return verdict
@@ -190,7 +193,7 @@ def _not_named(effect: Named) -> str:
 
 def _is_much(effect: Named, verdict: Verdict) -> bool:
     """Whether an effect removes no LITTLE against what all leave, on fitted drives and on those held out, if any."""
-    pairs = (effect.share, verdict.share), (effect.held_out_share, verdict.held_out_share)
+    pairs = (effect.share, verdict.whole().share), (effect.held_out_share, verdict.whole().held_out_share)
     return all(share >= LITTLE * (1.0 - whole) for share, whole in pairs if np.isfinite(share))
 
 
@@ -200,7 +203,7 @@ def heard(verdict: Verdict, turns: str, is_road_alone: bool) -> Verdict:
     if not turns:
         return verdict
     is_silent = verdict.verdict == "nothing" or verdict.verdict == "suspect" and is_road_alone
-    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.share < DOUBTFUL
+    is_doubtful = verdict.verdict in ("named", "cluster") and verdict.whole().share < DOUBTFUL
     return replace(with_reason(verdict, "outside" if is_silent or is_doubtful else verdict.verdict, turns), may_be_more=True)
 
 
@@ -217,6 +220,7 @@ def humming(before: Verdict, verdict: Verdict, unit: str, proposal: Discovery) -
 def _leaves_half(verdict: Verdict, proposal: Discovery) -> bool:
     """Whether what a force and effects beside it leave is HALF of what the library alone does at most, and MOST_LEFT of that on fitted drives
     and on those held out alike."""
+    verdict = verdict.whole()
     pairs = (proposal.share, verdict.share), (proposal.held_out_share, verdict.held_out_share)
     known = [(1.0 - ours, 1.0 - theirs) for ours, theirs in pairs if np.isfinite(ours) and np.isfinite(theirs)]
     return left(proposal) <= HALF * left(verdict) and all(ours <= MOST_LEFT * theirs for ours, theirs in known)
@@ -225,7 +229,8 @@ def _leaves_half(verdict: Verdict, proposal: Discovery) -> bool:
 def beside_a_force(verdict: Verdict, proposal: Discovery) -> Verdict:
     """The verdict "outside" with the effects that are missing beside a force which leaves MOST_LEFT at most, in place of those that the library
     would do with alone, which may stand in for it."""
-    is_more = is_sure(proposal) and left(proposal) <= MOST_LEFT * left(verdict) and not proposal.held_out_share < verdict.held_out_share - EQUAL
+    held_out = verdict.whole().held_out_share
+    is_more = is_sure(proposal) and left(proposal) <= MOST_LEFT * left(verdict) and not proposal.held_out_share < held_out - EQUAL
     if verdict.verdict != "outside" or not is_more:
         return verdict
     alone = ", ".join(effect.name for effect in verdict.effects)
@@ -233,11 +238,13 @@ def beside_a_force(verdict: Verdict, proposal: Discovery) -> Verdict:
     said = _said_of(proposal)
     reasons = reasons if any(reason.startswith(said) for reason in reasons) else (*reasons, f"{said} explains more: {_explained(proposal)}")
     share, held_out = (sum((getattr(effect, key) for effect in proposal.beside), 0.0) for key in ("share", "held_out_share"))
-    return replace(verdict, effects=proposal.beside, reasons=reasons, share=share, held_out_share=held_out, is_beside_form=bool(proposal.beside))
+    is_beside = bool(proposal.beside)
+    return replace(verdict, effects=proposal.beside, reasons=reasons, share=share, held_out_share=held_out, is_beside_form=is_beside, of_all=None)
 
 
 def _leaves_less(verdict: Verdict, proposal: Discovery) -> bool:
     """Whether a force leaves hardly half of what the library does, on fitted drives and on those held out, if any."""
+    verdict = verdict.whole()
     better = proposal.share - verdict.share > WORTH and 1.0 - proposal.share < HALF * (1.0 - verdict.share)
     return better and not 1.0 - proposal.held_out_share > HALF * (1.0 - verdict.held_out_share)
 
@@ -247,7 +254,7 @@ def _is_simpler(verdict: Verdict, proposal: Discovery) -> bool:
     numbers = sum(map(len, proposal.terms.values()))
     for term, values in proposal.settings.items():
         numbers += sum(values[own.name] != own.typical for own in shaping(proposal.place, term) if own.name in values)
-    fewer = numbers < sum(len(effect.sizes) for effect in verdict.effects)
+    verdict, fewer = verdict.whole(), numbers < sum(len(effect.sizes) for effect in verdict.effects)
     return fewer and proposal.share > verdict.share - EQUAL and not proposal.held_out_share < verdict.held_out_share - EQUAL
 
 
@@ -255,7 +262,7 @@ def _of_vehicle(verdict: Verdict) -> Verdict:
     """A verdict without the errors of the measurement that it found, which stood in for something else."""
     effects = tuple(effect for effect in verdict.effects if not effect.is_of_measurement)
     share, held_out = (sum((getattr(effect, key) for effect in effects), 0.0) for key in ("share", "held_out_share"))
-    return replace(verdict, effects=effects, share=share, held_out_share=held_out, is_like_error=True)
+    return replace(verdict, effects=effects, share=share, held_out_share=held_out, is_like_error=True, of_all=None)
 
 
 def with_reason(verdict: Verdict, kind: str, reason: str) -> Verdict:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
 
@@ -96,6 +96,8 @@ class Verdict:
     is_beside_form: bool = False
     """Whether the effects are those that are missing beside the proposed form, and shares of what goes beside it; else of what the library
     does alone."""
+    of_all: tuple[float, float] | None = None
+    """Shares that go with all effects of the model that it was found with, fitted and held out, where some of them have no name."""
     is_like_force: bool = False
     """Whether a force of another form explains as much as the effects."""
     is_like_error: bool = False
@@ -109,6 +111,10 @@ class Verdict:
     may_be_more: bool = False
     """Whether more than parameters of the vehicle may be missing: an error comes back with the way or the time, or drives held out hardly confirm an
     effect beside them."""
+
+    def whole(self) -> Verdict:
+        """The same with the shares of the model that it was found with (``of_all``), against which a force of another form is held."""
+        return self if self.of_all is None else replace(self, share=self.of_all[0], held_out_share=self.of_all[1], of_all=None)
 
     def json(self) -> dict:
         """Plain numbers, text and lists; null where a number is not known."""
