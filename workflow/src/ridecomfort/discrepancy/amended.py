@@ -49,7 +49,8 @@ def with_parameters(verdict: Verdict, found: BeyondBounds | None) -> Verdict:
     if found.is_first and verdict.verdict in ("named", "cluster") and verdict.held_out_share < CONFIRMED:
         names = ", ".join(effect.name for effect in verdict.effects)
         reasons = (*reasons, f"{names} may be what these leave: too little on drives held out to be what is missing")
-        return replace(verdict, verdict="outside", effects=(), reasons=reasons, share=0.0, held_out_share=0.0, beyond_bounds=found, may_be_more=True)
+        said = replace(verdict, verdict="outside", effects=(), reasons=reasons, share=0.0, held_out_share=0.0, of_all=None)
+        return replace(said, beyond_bounds=found, may_be_more=True)
     kind = "outside" if found.is_first and verdict.verdict == "nothing" else verdict.verdict
     kind = "cluster" if found.is_another_name and kind == "named" else kind
     return replace(verdict, verdict=kind, reasons=reasons, beyond_bounds=found)
