@@ -50,6 +50,14 @@ def shared() -> Path:
     return folder
 
 
+@pytest.fixture(scope="session")
+def nominal(repository):
+    """The mid-size car of the study, as quarter cars drive it."""
+    from tests import quarter_cars  # not before Numba knows where its cache lies
+
+    return quarter_cars.vehicle(repository)
+
+
 @pytest.fixture
 def project(repository, tmp_path):
     """A project folder with a copy of the configuration and a user's site without drives."""

@@ -25,11 +25,6 @@ def road():
     return quarter_cars.road(length=460.0)
 
 
-@pytest.fixture(scope="module")
-def nominal(repository):
-    return quarter_cars.vehicle(repository)
-
-
 def measured(road, vehicle, *, noise=1.0, count=2, roles=("fit", "fit"), simulator=quarter_cars.run):
     """Aligned drives of a vehicle, each with its own speed and noise."""
     u, drives = road["u"].values, []

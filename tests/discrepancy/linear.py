@@ -62,6 +62,11 @@ class Linear:
         return self, residuals
 
 
+def rounds(model, most):
+    """What came of each round of a search of at most so many."""
+    return select.select(model, {"stiffness": 0.0}, most=most).rounds
+
+
 def judged(model, suspicions=()):
     """What a search of at most three rounds found on such a model, and the verdict on it."""
     selection = select.select(model, {"stiffness": 0.0}, most=3)

@@ -36,11 +36,6 @@ def road():
     return quarter_cars.road(length=400.0)
 
 
-@pytest.fixture(scope="module")
-def nominal(repository):
-    return quarter_cars.vehicle(repository)
-
-
 def measured(road, vehicle, folder, *, role="fit", lateral=0.0, clock=0.0):
     """A drive as another simulator hands it over: a NetCDF file of the drive schema."""
     speed = xr.DataArray(18 + np.sin(road["u"].values / 20), {"u": road["u"]}, "u")

@@ -20,23 +20,8 @@ from tests.quarter_cars import LATERAL, driven
 
 
 @pytest.fixture(scope="module")
-def road():
-    return quarter_cars.road(length=560.0)
-
-
-@pytest.fixture(scope="module")
-def nominal(repository):
-    return quarter_cars.vehicle(repository)
-
-
-@pytest.fixture(scope="module")
 def truth(nominal):
     return quarter_cars.other(nominal)
-
-
-@pytest.fixture(scope="module")
-def drive(road, truth):
-    return driven(road, truth)
 
 
 def aligned(recorded, road, nominal):

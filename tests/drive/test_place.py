@@ -11,21 +11,6 @@ from tests import quarter_cars
 from tests.quarter_cars import LATERAL
 
 
-@pytest.fixture(scope="module")
-def road():
-    return quarter_cars.road(length=560.0)
-
-
-@pytest.fixture(scope="module")
-def nominal(repository):
-    return quarter_cars.vehicle(repository)
-
-
-@pytest.fixture(scope="module")
-def drive(road, nominal):
-    return quarter_cars.driven(road, quarter_cars.other(nominal))
-
-
 def on_hills(road, vehicle, *, speed, lateral=0.0, **options):
     """``quarter_cars.run`` with the speed along the body: uphill and outside of a bend it passes less of the reference line."""
     aside = np.interp(road["u"], lateral["u"], lateral) if isinstance(lateral, xr.DataArray) else lateral
