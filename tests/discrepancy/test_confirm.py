@@ -7,17 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ridecomfort.discrepancy import confirm, select
+from ridecomfort.discrepancy import confirm
 from ridecomfort.discrepancy.experiment import simulate
 from ridecomfort.discrepancy.propose import CERTAIN, HELD_OUT_Z
 from ridecomfort.discrepancy.rung import begin
 from ridecomfort.discrepancy.selection import State, Trial
 
-from .linear import Linear
-
-
-def rounds(model, most):
-    return select.select(model, {"stiffness": 0.0}, most=most).rounds
+from .linear import Linear, rounds
 
 
 @pytest.mark.parametrize(("met", "share", "is_kept"), [(True, 0.03, True), (False, 0.03, False), (False, 0.3, True)])

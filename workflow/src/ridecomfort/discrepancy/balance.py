@@ -80,7 +80,7 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     """The balance of a selection; ``notes`` say that the road may be another than that of its file, ``matters`` whether what repeats share
     is worth explaining, ``left`` which share of what was is left (``worth_explaining``). ``unnamed``: effects of its last model that do not stand:
     what went with them is not explained."""
-    share, held_out = total_shares(selection) if not unnamed else named_shares(selection, unnamed)
+    share, held_out = named_shares(selection, unnamed)
     band = selection.remaining.band
     # A road that is another makes errors that repeats share, but fast ones.
     in_band = band is not None and band.z > SHARED_BAND_Z and (not notes or is_slow(selection))
@@ -129,10 +129,11 @@ def _gone(selection: Selection, unnamed: Collection[str]) -> _Gone:
 
 def named_shares(selection: Selection, unnamed: Collection[str]) -> tuple[float, float]:
     """Share of the explainable error that the last model removes, fitted and held out (nan without), less what went with the ``unnamed``."""
-    if set(unnamed) >= set(selection.kept):  # nothing is left of it but what rounding does
+    if unnamed and set(unnamed) >= set(selection.kept):  # nothing is left of it but what rounding does
         return 0.0, 0.0 * total_shares(selection)[1]
-    fitted, held_out = np.subtract(total_shares(selection), np.sum([shares_of(selection, name) for name in unnamed], axis=0))
-    return float(fitted), float(held_out)
+    without = [shares_of(selection, name) for name in unnamed]
+    fitted, held_out = (whole - sum(parts) for whole, *parts in zip(total_shares(selection), *without))
+    return fitted, held_out
 
 
 def total_shares(selection: Selection) -> tuple[float, float]:

@@ -10,7 +10,7 @@ import numpy as np
 from ..effects.in_python import ActFails
 from ..errors import InputError
 from . import experiment as exp
-from .experiment import Experiment, Frame, Size
+from .experiment import Candidate, Experiment, Frame, Size
 
 Job = tuple[str, int]
 """A candidate and the number of its shape."""
@@ -34,9 +34,7 @@ class Probe:
         columns, reach = {}, candidate.reach(job[1])
         for size in candidate.sizes:
             try:
-                moved = exp.simulate(
-                    self.experiment, {**self.values, **candidate.at({size.key: reach}, job[1])}, self.residuals
-                )
+                moved = self._moved(candidate, size, job[1])
             except ActFails:
                 raise
             except (InputError, ValueError):
@@ -51,11 +49,15 @@ class Probe:
         candidate, why = next(c for c in self.experiment.candidates if c.name == job[0]), ""
         for size in candidate.sizes:
             try:
-                exp.simulate(self.experiment, {**self.values, **candidate.at({size.key: candidate.reach(job[1])}, job[1])}, self.residuals)
+                self._moved(candidate, size, job[1])
                 return ""
             except (InputError, ValueError) as problem:
                 why = str(problem)
         return why
+
+    def _moved(self, candidate: Candidate, size: Size, shape: int) -> dict[int, np.ndarray]:
+        """The residuals with one size of a candidate as large as that is tried with in a shape."""
+        return exp.simulate(self.experiment, {**self.values, **candidate.at({size.key: candidate.reach(shape)}, shape)}, self.residuals)
 
 
 def coarsely(
