@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.signal import butter, sosfiltfilt
 
 from ridecomfort.drive.slow import smooth, speed_bandwidth, speed_noise
 
@@ -29,6 +30,14 @@ def test_what_is_asked_for_beyond_it_would_be_noise():
         np.std((np.gradient(smooth(noisy, RATE, bandwidth) - true, time))[300:-300]) for bandwidth in (speed_bandwidth(noisy, RATE), 1.0)
     )
     assert found < 0.5 * full
+
+
+@pytest.mark.parametrize("shape", [(2000,), (6, 500), (2, 3, 400), (1,), (40,)])
+def test_what_is_slow_is_what_scipy_filters_forwards_and_backwards(shape):
+    """Records of many periods of the filter and of fewer than its ends are continued by, of one and of several channels."""
+    values = 3.0 + np.random.default_rng(6).standard_normal(shape).cumsum(axis=-1)
+    expected = sosfiltfilt(butter(4, 0.4, fs=RATE, output="sos"), values, padlen=min(shape[-1] - 1, 750))
+    np.testing.assert_array_equal(smooth(values, RATE, 0.4, order=4), expected)
 
 
 def test_the_noise_of_a_short_record_of_20_hz_is_known():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -39,6 +40,15 @@ def test_a_changed_file_is_read_again(tmp_path):
     assert library.find(tmp_path)["mine"].effect.port == "vehicle"
     put(tmp_path, "mine", port="sensor")
     assert library.find(tmp_path)["mine"].effect.port == "sensor"
+
+
+def test_a_folder_that_nobody_changes_is_read_once(tmp_path):
+    put(tmp_path, "mine")
+    folder = library.Unchanging(tmp_path)
+    put(tmp_path, "mine", port="sensor")
+    put(tmp_path, "yours")
+    assert set(library.find(folder)) == set(library.find()) | {"mine"} and library.find(folder)["mine"].effect.port == "vehicle"
+    assert Path(folder) == tmp_path
 
 
 def test_what_editors_leave_behind_is_no_effect_and_a_link_to_nothing_is_named(tmp_path):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import xarray as xr
@@ -15,7 +15,7 @@ from .effects import compose, in_python, library
 from .errors import InputError
 from .road import edges, surface
 from .vehicle import driver
-from .vehicle.constants import constants, wheel_table
+from .vehicle.constants import Constants, constants, wheel_table
 from .vehicle.ground import Surface
 from .vehicle.motion import COLUMNS, SENSED
 from .vehicle.parameters import Vehicle
@@ -52,12 +52,18 @@ class Course:
         if isinstance(target, xr.DataArray):
             if target.dims != ("u",):
                 raise InputError(f"has dimensions {target.dims}, expected ('u',)", place=what)
-            values = np.interp(self.u, target.u.values, target.values)
+            own = target.u.values
+            values = target.values.astype(float) if np.array_equal(own, self.u) else np.interp(self.u, own, target.values)
         else:
             values = np.full(self.u.size, float(target))
         if not np.isfinite(values).all():
             raise InputError("is not finite everywhere", place=what)
         return values
+
+    @cached_property
+    def spacing(self) -> np.ndarray:
+        """Way in m for which each point of the road stands, (u,)."""
+        return np.gradient(self.u)
 
     def otherwise(self) -> Course:
         """The same with the other interpolation between the points: linear for cubic, cubic for linear."""
@@ -134,7 +140,7 @@ def run(
         record[:, COLUMNS.index("e")] -= np.interp(record[:, COLUMNS.index("s")], course.u, driven - believed)
     record[:, COLUMNS.index("s")] += back
     drive = xr.Dataset(
-        {name: ("time", column) for name, column in zip(COLUMNS, record.T, strict=True)},
+        {name: xr.Variable("time", column) for name, column in zip(COLUMNS, record.T, strict=True)},
         coords={"time": np.arange(len(record)) * own / (every * rate)},
         attrs={"sensor_x": sensor[0], "sensor_y": sensor[1], "sensor_z": sensor[2], "vehicle": vehicle.name},
     )
@@ -253,7 +259,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     slowest = targets[along, 0].min()
     if not slowest >= driver.SLOWEST:
         raise InputError(f"falls to {slowest:g} m/s, expected at least {driver.SLOWEST:g} m/s", place="speed")
-    seconds = 1.2 * np.sum(np.gradient(course.u)[along] / targets[along, 0]) + 5.0
+    seconds = 1.2 * np.sum(course.spacing[along] / targets[along, 0]) + 5.0
 
     connected = compose.in_company(chosen)
     entries = [entry for entry, _ in connected]
@@ -263,7 +269,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     sensed = np.empty((6, steps))
     try:
         records, steps = compiled.drive(
-            constants(vehicle), wheel_table(vehicle), course.surface, course.elevation, targets, float(friction),
+            *_of_vehicle(tuple(vehicle.values.items())), course.surface, course.elevation, targets, float(friction),
             float(start), float(end), float(step), every, tuple(float(place) for place in sensor),
             compose.parameters(connected), compiled.state_count, record, sensed,
         )  # fmt: skip
@@ -289,6 +295,13 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     else:
         _low_pass(sensed, steps, _taps(every), every, record[:, SENSED])
     return record
+
+
+@lru_cache
+def _of_vehicle(values: tuple[tuple[str, float], ...]) -> tuple[Constants, np.ndarray]:
+    """What the kernel needs of a vehicle with these values; a model is driven with the same ones many times."""
+    vehicle = Vehicle("", dict(values))
+    return constants(vehicle), wheel_table(vehicle)
 
 
 @lru_cache

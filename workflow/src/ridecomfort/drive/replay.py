@@ -185,17 +185,18 @@ class Replay:
     def sample(self, run: xr.Dataset, clock: float = 0.0) -> Simulated:
         """A simulated drive at the places where the vehicle was at the measured instants minus ``clock``."""
         place = np.interp(self.time - clock, self.time, self.place)
-        travelled = np.maximum.accumulate(run["s"].values)
+        recorded = run.variables
+        travelled = np.maximum.accumulate(recorded["s"].values)
         goal = place[self.compared][-1]
         if not travelled[-1] >= goal - SPACING:
             raise InputError(
                 f"the model stops at s = {travelled[-1]:.1f} m (expected to reach {goal:.1f} m)",
                 place=f"drive {self.drive.attrs['name']}",
             )
-        time = run["time"].values
+        time = recorded["time"].values
         interval = float(time[1] - time[0])
         places = (np.interp(place, travelled, time) - time[0]) / interval
-        values = np.stack([run[name].values for name in (*SIGNALS, "roll", "pitch")])
+        values = np.stack([recorded[name].values for name in (*SIGNALS, "roll", "pitch")])
         source = (values, interval, places, float(self.drive.attrs["cut_off"]))
         found = resampled(*source)
         return Simulated(found[: len(SIGNALS)], found[-2], found[-1], source)
@@ -230,7 +231,7 @@ class Replay:
         """
         found, rate, driven = {}, rate_of(self.time), self.driven(run)
         for quantity, name in (("speed", "v_x"), ("lateral", "e")):
-            missing = self.kept_to.get(name, self.drive[name].values) - driven[name]
+            missing = self.kept_to.get(name, self.drive.variables[name].values) - driven[name]
             if not np.isfinite(missing).all():
                 continue
             if quantity == "lateral" or self.by_foot is None:
@@ -259,8 +260,8 @@ class Replay:
 
     def driven(self, run: xr.Dataset) -> dict[str, np.ndarray]:
         """Speed ``v_x`` and path ``e`` of a simulated drive at the places of the measured instants, (time,)."""
-        travelled = np.maximum.accumulate(run["s"].values)
-        return {name: np.interp(self.place, travelled, run[name].values) for name in ("v_x", "e")}
+        travelled = np.maximum.accumulate(run.variables["s"].values)
+        return {name: np.interp(self.place, travelled, run.variables[name].values) for name in ("v_x", "e")}
 
     def corrected(self, missing: Mapping[str, np.ndarray]) -> Replay:
         """The same, asking the driver for so much more speed (m/s), and for a path so much farther left (m), at the measured instants."""
@@ -285,6 +286,10 @@ class Replay:
 
     def measured(self) -> np.ndarray:
         """The measured signals, (6, time), in the order of SIGNALS."""
+        return self._measured.copy()
+
+    @cached_property
+    def _measured(self) -> np.ndarray:
         return np.stack([self.drive[name].values for name in SIGNALS])
 
     @cached_property
@@ -299,7 +304,7 @@ class Replay:
         own (``roll``, ``pitch`` of the drive). Specific force is compared with specific force:
         the attitude of this simulation replaces that one.
         """
-        difference = simulated.signals - self.measured()
+        difference = simulated.signals - self._measured
         if self.drive.attrs.get("gravity", 0):
             difference[:3] += STANDARD_GRAVITY * (upward(simulated.roll, simulated.pitch) - self.up)
         difference[:, ~self.compared] = np.nan

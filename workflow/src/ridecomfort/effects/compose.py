@@ -23,7 +23,7 @@ import numpy as np
 
 from ..errors import InputError
 from .contract import COMPILED, PORTS, Effect
-from .library import FOLDER, Entry, of_the_library
+from .library import Entry, of_the_library
 
 PACKAGE = Path(__file__).parent.parent
 SOURCES = ("vehicle/kernel.py", "vehicle/ground.py", "vehicle/driver.py", "vehicle/motion.py",
@@ -62,7 +62,7 @@ def in_company(chosen: Sequence[tuple[Entry, Mapping[str, float]]]) -> list[tupl
     One kernel serves for all sets of the library's effects then: a neutral one costs half a percent of a drive, a kernel of
     its own fifteen seconds.
     """
-    if not any(entry.path.parent == FOLDER and entry.effect.port in COMPILED for entry, _ in chosen):
+    if not any(entry.is_of_library and entry.effect.port in COMPILED for entry, _ in chosen):
         return list(chosen)
     company = _neutral() | {entry.effect.name: (entry, values) for entry, values in chosen}
     return sorted(company.values(), key=lambda one: one[0].effect.rank)
@@ -88,7 +88,7 @@ def refusal(entries: Sequence[Entry], problem: Exception) -> InputError:
     """What to say to a user whose effect numba does not compile, in one line that names its file."""
     text = str(problem)
     named = [entry for entry in entries if f"_{entry.effect.name}.py" in text or f"= act_{entry.effect.name}(" in text]
-    own = [entry for entry in entries if entry.path.parent != FOLDER]
+    own = [entry for entry in entries if not entry.is_of_library]
     guilty = next((entry for entry in own if entry in named), next(iter(own or entries)))
     said = (line.strip() for line in text.splitlines() if line.strip() and not line.startswith("Failed in nopython mode"))
     returned = [*PORTS[guilty.effect.port].returns, *guilty.effect.also_returns, *(f"d{state}/dt" for state in guilty.effect.states)]

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 
@@ -195,7 +196,7 @@ class Effect:
         values.update(sizes or {})
         return values
 
-    @property
-    def neutral(self) -> dict[str, float]:
+    @cached_property
+    def neutral(self) -> Mapping[str, float]:
         """The values at which the effect changes nothing."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}

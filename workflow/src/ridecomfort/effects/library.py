@@ -9,7 +9,7 @@ import math
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
@@ -33,13 +33,31 @@ class Entry:
     act: Callable
     path: Path
 
+    @cached_property
+    def is_of_library(self) -> bool:
+        """Whether it is one of this folder, not of a user's."""
+        return self.path.parent == FOLDER
 
-def find(folder=None) -> dict[str, Entry]:
+
+class Unchanging(os.PathLike):
+    """A ``folder`` of effects whose files nobody changes as long as it is used: they are read once, not looked after before every drive."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.entries = MappingProxyType(find(folder))
+
+    def __fspath__(self) -> str:
+        return str(self.folder)
+
+
+def find(folder=None) -> Mapping[str, Entry]:
     """Every effect by name: the library's own and, with ``folder``, those of a user's folder.
 
     Raises InputError for a file that is not an effect, for a name that does not match its
     file and for a user's effect that takes the name of one of the library.
     """
+    if isinstance(folder, Unchanging):
+        return folder.entries
     entries = dict(of_the_library())
     if folder is not None:
         folder = Path(folder)
@@ -69,10 +87,9 @@ def choose(effects: str | Iterable[str] | Mapping[str, Mapping[str, float]] | No
             otherwise = "known are" if folder else "effects_folder names no folder with others; known are"
             raise InputError(f"unknown effect {name!r}; {hint(name, sorted(entries), otherwise)}")
         effect = entries[name].effect
-        known = [parameter.name for parameter in effect.parameters]
         for parameter in sizes[name] or {}:
-            if parameter not in known:
-                raise InputError(f"effect {name!r} has no parameter {parameter!r}; {hint(parameter, known, 'it has')}")
+            if parameter not in effect.neutral:
+                raise InputError(f"effect {name!r} has no parameter {parameter!r}; {hint(parameter, list(effect.neutral), 'it has')}")
         chosen.append((entries[name], effect.values(sizes[name])))
     return sorted(chosen, key=lambda one: one[0].effect.rank)
 
