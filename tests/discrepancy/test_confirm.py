@@ -26,6 +26,19 @@ def test_what_no_held_out_drive_meets_must_remove_more(met, share, is_kept):
     assert objection == ("" if is_kept else "removes 3.0 % of the explainable error, and no drive held out meets it")
 
 
+@pytest.mark.parametrize(
+    ("z", "share", "is_certain", "is_kept"),
+    [(6.0, -0.01, True, True), (6.0, -0.01, False, True), (1.0, 0.01, True, True), (1.0, 0.01, False, False), (1.0, -0.01, True, False), (-1.0, 0.1, True, False)],
+)  # fmt: skip
+def test_drives_held_out_that_are_sure_confirm_whatever_fitted_ones_say_and_others_where_these_leave_no_doubt(z, share, is_certain, is_kept):
+    """An effect of which the fitted drives left no doubt was refused at a z of 6 to 11, where one of which they did not was accepted."""
+    model = Linear(1, {"effect_2.size": 1.0})
+    rung = begin(model, {"stiffness": 0.0})
+    fit = replace(rung.fit, values={"stiffness": 0.0, "effect_2.size": 1.0})
+    trial = Trial("effect_2", {}, fit, 100.0, 90.0, float(np.sign(z)), z, 0.5, share, "", met=True)
+    assert confirm.objection(trial, model.candidates[2], is_certain, 1.0) == ("" if is_kept else "not surely better on drives held out")
+
+
 @pytest.mark.parametrize(("gone", "met", "is_kept"), [(0.4, True, True), (0.1, True, False), (float("nan"), True, False), (0.4, False, False)])
 def test_what_is_small_beside_a_large_effect_counts_by_what_it_takes_of_all_that_repeats_share_yet(gone, met, is_kept):
     model = Linear(1, {"effect_2.size": 1.0})

@@ -130,7 +130,7 @@ def objection(trial: Trial, candidate: Candidate, is_weak: bool, left: float) ->
     if trial.bic <= 0:
         return "not worth its sizes (BIC)"
     if np.isfinite(trial.held_out_gain):
-        enough = trial.held_out_z > 0 and not trial.held_out_share <= 0 if is_weak else trial.held_out_z > HELD_OUT_Z
+        enough = trial.held_out_z > HELD_OUT_Z or is_weak and trial.held_out_z > 0 and not trial.held_out_share <= 0
         if not (trial.held_out_gain > 0 and enough):
             return "not surely better on drives held out"
     is_most_of_rest = trial.met and (trial.share > MOST_OF_REST * left or trial.rest_gone > OF_SHARED)
