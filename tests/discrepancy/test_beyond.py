@@ -212,3 +212,20 @@ def test_what_lies_beyond_but_not_surely_is_told_apart_if_it_does_as_much():
     assert "roll_inertia 1.5 kg m2 (1.4 to 1.6) for 1, less surely pitch_inertia 1.5 kg m2 (0.8 to 2.2) for 1, of which" in told.words(is_more=False)
     unsure = {**intervals, "roll_inertia": (0.8, 2.2)}
     assert beyond._beyond(before, SimpleNamespace(free=free), fit, unsure, 0.4, 0.3) is None
+
+
+@pytest.mark.long
+def test_springs_beyond_their_bounds_are_told_and_no_gain_of_an_instrument(repository, monkeypatch):
+    """Within the bounds an accelerometer of 1.03 fits a van best whose rear springs are 9 % stiffer than its file says, and are kept 2 % above."""
+    van = parameters.read(repository / "config" / "vehicles" / "van.yaml")
+    for name, value in {"SPEED": 12.0, "ACCELEROMETER": 0.06, "GYROSCOPE": 0.002}.items():
+        monkeypatch.setattr(trials, name, value)
+    own = opening.bounds_of(van)
+    monkeypatch.setattr(trials, "BOUNDS", {name: (0.8 * van[name], 1.2 * van[name]) for name in own})
+    trial = trials.make(8000, van, {})
+    stiffness = trial.truth["car"]["spring_stiffness_rear"]
+    assert stiffness > own["spring_stiffness_rear"][1]
+    _, verdict, _ = diagnose(trial.measured, van, workers=1)
+    (found,) = verdict.beyond_bounds.parameters
+    assert verdict.verdict == "outside" and not verdict.effects and not any("gain" in reason for reason in verdict.reasons)
+    assert found.parameter == "spring_stiffness_rear" and holds(found, stiffness)

@@ -55,3 +55,10 @@ def test_where_next_to_nothing_is_left_they_are_told_however_little_there_was_to
     monkeypatch.setitem(_beside_the_file.__globals__, "off_file", lambda selection, told: HELD)
     verdict = replace(NOTHING, verdict="named", share=0.63, held_out_share=0.84, remainder=remainder)
     assert _beside_the_file(verdict, Outcome(None, verdict, None, None, None), None) is (HELD if is_told else None)
+
+
+@pytest.mark.parametrize(("suspected", "is_tried"), [("", True), ("fit", True), ("data", False), ("road", False)])
+def test_a_gain_or_clock_that_only_the_fit_tells_may_be_a_vehicle_beyond_its_bounds(monkeypatch, suspected, is_tried):
+    monkeypatch.setattr(diagnosis, "ends_at_bounds", lambda selection: True)
+    search = Ranked(SimpleNamespace(attrs={"suspected": suspected}), replace(NOTHING, verdict="suspect" if suspected else "outside"), None, None)
+    assert diagnosis._may_lie_beyond(search) is is_tried

@@ -33,7 +33,7 @@ def doubts(spoilt: np.ndarray) -> list[str]:
         states=(state, state), has_repeats=True, floor_squares=np.zeros((1, 6)), accepted=(), frame=SimpleNamespace(indices=[0]),
         check={1: simulated[1] - measured[1]},
     )  # fmt: skip
-    return naming.suspicions(came, selection, False, False)
+    return naming.suspicions(came, selection)
 
 
 def test_the_sign_and_the_unit_of_a_signal_of_a_drive_held_out_are_asked_about_too(asked_of_signals):

@@ -88,9 +88,9 @@ def _beside_the_file(verdict: Verdict, outcome: Outcome, found: BeyondBounds | N
 
 
 def _may_lie_beyond(first: Ranked) -> bool:
-    """Whether parameters of the vehicle beyond their bounds may explain what a search leaves."""
-    is_explained = left(first.verdict) < 1.0 - NEARLY_ALL
-    return not (first.table.attrs["suspected"] or first.verdict.verdict == "nothing" or is_explained) and ends_at_bounds(first.selection)
+    """Whether parameters of the vehicle beyond their bounds may explain what a search leaves, or the gain or clock that it fits by itself."""
+    is_suspect, is_explained = first.table.attrs["suspected"] in ("data", "road"), left(first.verdict) < 1.0 - NEARLY_ALL
+    return not (is_suspect or first.verdict.verdict == "nothing" or is_explained) and ends_at_bounds(first.selection)
 
 
 def _outcome(search: Ranked, experiment: Car, name: str, common: Mapping) -> Outcome:

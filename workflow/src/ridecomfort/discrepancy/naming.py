@@ -55,7 +55,7 @@ def rank(
     Returns the Dataset of ranking.nc and a Verdict. Over ``effect``: p_value over the whole library, gain (fall of twice
     the negative log-likelihood) by the score test, absorbed (share that calibration had taken up); over ``trial``: the refits with
     their gains, shares and objections; over ``model``: the mean squares of its states; and ``smoothness`` of the road (``suspect.smoothness``). In the attributes ``road`` what speaks for another road than that of the file, if that may be all that
-    repeats share, ``suspected`` whether the "data" are or the "road" alone, and ``turns`` what comes back with the
+    repeats share, ``suspected`` whether the "data" are, by the "fit" of the model alone, or the "road" alone, and ``turns`` what comes back with the
     way or the time (``turns.line``). Raises InputError.
     """
     experiment = opening.opened(
@@ -78,8 +78,11 @@ def ranked(
     mattered, matters, left = worth_explaining(selection, measured)
     of_road = suspect.of_road(experiment, selection.frame, smoothness)
     is_explained = stands and total_shares(selection)[0] >= ENOUGH
-    doubts = suspicions(experiment, selection, is_explained, matters and (may_share(selection) or not selection.has_repeats))
-    said_of_road, is_road_alone = "; ".join(of_road), not doubts
+    is_left = matters and (may_share(selection) or not selection.has_repeats)
+    of_fit = suspicions_of_fit(experiment, selection, is_explained, is_left)
+    of_data, of_noise = suspicions(experiment, selection), suspicions_of_road(experiment, selection)
+    doubts = [*of_data, *of_fit, *of_noise]
+    said_of_road = "; ".join(of_road)
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
         of_road, doubts = [], [*of_road, *doubts]
     verdict = judge(selection, experiment.candidates, doubts, of_road, matters, mattered, left)
@@ -90,7 +93,7 @@ def ranked(
     line = turns.left_by(selection)
     table.attrs["turns"] = "" if line is None else line.words(float(experiment.vehicle["tyre_radius"]))
     has_decoys = any(turn.decoy_ranks for turn in selection.rounds)
-    table.attrs["suspected"] = "" if not (doubts or has_decoys) else "road" if is_road_alone and not has_decoys else "data"
+    table.attrs["suspected"] = "data" if of_data or has_decoys else "fit" if of_fit else "road" if doubts else ""
     return table, verdict, selection
 
 
@@ -116,17 +119,27 @@ def _best_share(selection: Selection) -> float:
     return max((trial.share for turn in selection.rounds for trial in turn.trials if np.isfinite(trial.share)), default=0.0)
 
 
-def suspicions(experiment: Car, selection: Selection, is_explained: bool, is_left: bool) -> list[str]:
-    """Reasons to doubt the data: the road's noise where it could cause the error, signals of any drive, clocks and gains; ``is_explained``: whether effects
-    explain most of the error, ``is_left``: whether repeats share one still, or drives that were not repeated leave one."""
-    reasons = suspect.of_drives(experiment)
-    first, last = selection.states[0], selection.states[-1]
-    reasons += suspect.of_signals(experiment, {**first.fit.residuals, **selection.check})  # those held out decide as much
-    reasons += suspect.of_clocks(experiment, selection.frame)
+def suspicions_of_fit(experiment: Car, selection: Selection, is_explained: bool, is_left: bool) -> list[str]:
+    """Reasons to doubt the clocks and gains of drives by what the model makes of them; ``is_explained``: whether effects explain most of the error,
+    ``is_left``: whether repeats share one still, or drives that were not repeated leave one."""
     # Without repeats clock and gains of what an effect does to every signal pass for those of the record.
     is_asked = selection.has_repeats or selection.floor_squares.any() and not selection.accepted
-    if is_asked and not is_explained and not is_left:
-        reasons += suspect.of_fit(experiment, selection.frame, last.fit.residuals)
+    if not is_asked or is_explained or is_left:
+        return []
+    return suspect.of_fit(experiment, selection.frame, selection.states[-1].fit.residuals)
+
+
+def suspicions(experiment: Car, selection: Selection) -> list[str]:
+    """Reasons to doubt the drives whatever the model fits: faults of any, signals, clocks that jump."""
+    reasons = suspect.of_drives(experiment)
+    first = selection.states[0]
+    reasons += suspect.of_signals(experiment, {**first.fit.residuals, **selection.check})  # those held out decide as much
+    return reasons + suspect.of_clocks(experiment, selection.frame)
+
+
+def suspicions_of_road(experiment: Car, selection: Selection) -> list[str]:
+    """Reasons to doubt the roads of the fitted drives: noise between their points, where that could cause the error."""
+    reasons, first = [], selection.states[0]
     sites = {experiment.records[index].site: index for index in reversed(selection.frame.indices)}
     for index in sites.values():
         row = selection.frame.indices.index(index)

@@ -47,7 +47,7 @@ class Ranked:
         """Whether it explains the drives better than a search within bounds, or sees that the data are wrong."""
         if self.parameters is not None and self.parameters.is_instead:
             return False
-        return self.verdict.verdict in ("named", "cluster", "nothing") or self.table.attrs["suspected"] == "data"
+        return self.verdict.verdict in ("named", "cluster", "nothing") or self.table.attrs["suspected"] in ("data", "fit")
 
 
 @dataclass(frozen=True)
