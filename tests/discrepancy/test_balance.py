@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -78,3 +79,42 @@ def test_an_error_that_repeats_share_for_certain_and_of_which_all_went_with_what
     assert judge.judge(unsure, model.candidates, is_material=False, was_material=False).verdict == "nothing"
     by_chance = replace(unsure, shared_z=1.0)
     assert judge.judge(by_chance, model.candidates, is_material=False).verdict == "nothing"
+
+
+@pytest.fixture(scope="module")
+def with_much_left():
+    """A selection whose effect removes half, and leaves an error that repeats share for certain."""
+    model = Linear(1, {"effect_2.size": 1.0, "effect_4.size": 0.9})
+    model.candidates = model.candidates[:4]
+    selection, _ = judged(model)
+    assert selection.accepted == ("effect_2",) and balance.something_left(selection)
+    return selection
+
+
+@pytest.mark.parametrize(("upper", "is_little"), [(balance.IN_WAVES, True), (balance.IN_WAVES + 10.0, False)])
+def test_an_error_that_no_other_road_makes_asks_as_much_of_what_is_named_as_on_any_road(with_much_left, monkeypatch, upper, is_little):
+    """A road that may be another makes fast errors; a slow one that repeats share for certain is not its."""
+    monkeypatch.setattr(balance, "named_shares", lambda selection, unnamed: (0.6, 0.6))
+    band = SimpleNamespace(upper=upper, z=9.5)
+    selection = replace(with_much_left, remaining=replace(with_much_left.remaining, band=band))
+    assert balance.balanced(selection, ["the drives fit another road"], True, 1.0).is_little is is_little
+    assert balance.balanced(selection, [], True, 1.0).is_little
+
+
+@pytest.mark.parametrize(("held_out", "is_all"), [(0.2, True), (-0.4, False), (float("nan"), True)])
+def test_what_was_worth_explaining_is_not_explained_by_what_makes_drives_held_out_worse(with_much_left, monkeypatch, held_out, is_all):
+    monkeypatch.setattr(balance, "named_shares", lambda selection, unnamed: (0.3, held_out))
+    monkeypatch.setattr(balance, "_gone", lambda selection, unnamed: balance._Gone(0.3, 0.3, 9.0))
+    found = balance.balanced(with_much_left, (), False, 0.1)
+    assert found.is_all_that_matters is is_all and found.is_little is not is_all
+
+
+def test_a_force_is_held_against_what_effects_without_a_name_removed_also_where_none_is_named_or_the_data_are_suspect():
+    model = Linear(1, {"effect_2.size": 1.0})
+    selection, _ = judged(model)
+    unsure, whole = replace(selection, sure=frozenset()), pytest.approx(balance.total_shares(selection))
+    found = judge.judge(unsure, model.candidates, material_left=0.02)
+    assert (found.verdict, found.effects, found.of_all) == ("outside", (), whole)
+    suspect = judge.judge(unsure, model.candidates, ["drive_1: the model fits a gain of 1.030"])
+    assert (suspect.verdict, suspect.of_all) == ("suspect", whole)
+    assert judge.judge(selection, model.candidates).of_all is None

@@ -213,6 +213,15 @@ def test_nor_is_what_a_force_does_better_than(better):
     assert named_all_the_same(left, replace(SURE, **better)) is left
 
 
+@pytest.mark.parametrize(("share", "is_named"), [(0.42, False), (0.52, True)])
+def test_nor_is_what_removes_half_only_with_what_has_no_name(share, is_named):
+    """Beside an effect that may be a part of what is left."""
+    much, small = replace(FOUND, share=share, held_out_share=share), replace(KNEE, share=0.02, held_out_share=0.02)
+    left = replace(OUTSIDE, effects=(much, small), share=share + 0.09, held_out_share=share + 0.09)
+    found = named_all_the_same(left, replace(SURE, share=0.3, held_out_share=0.3))
+    assert (found.effects == (much,) and found.verdict == "named") if is_named else found is left
+
+
 LITTLE = replace(NOTHING, verdict="outside", effects=(FOUND,), share=0.3, held_out_share=0.3)
 
 
@@ -224,6 +233,12 @@ def test_noise_of_the_road_does_not_speak_against_what_was_found():
     assert reconsidered(alike, weak, is_road_open=True).verdict == "cluster"
     none_too = replace(LITTLE, effects=(replace(FOUND, is_open=True),))
     assert reconsidered(none_too, weak, is_road_open=True).words().startswith("Missing: friction or something else; the data do not tell")
+
+
+def test_what_drives_held_out_refute_has_no_name_on_such_a_road_either():
+    weak = replace(SURE, share=0.2)
+    for held_out, kind in ((-0.4, "outside"), (0.1, "outside"), (0.3, "named"), (float("nan"), "named")):
+        assert reconsidered(replace(LITTLE, held_out_share=held_out), weak, is_road_open=True).verdict == kind
 
 
 def test_little_on_such_a_road_may_be_the_road():

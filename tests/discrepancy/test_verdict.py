@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from tests.discrepancy.verdicts import NOTHING
+from ridecomfort.discrepancy.beyond import Beyond, BeyondBounds
+from ridecomfort.discrepancy.verdict import is_of_little, left_of
+from tests.discrepancy.verdicts import FOUND, NOTHING
 
 
 def test_a_question_among_the_reasons_stays_one():
@@ -15,3 +17,21 @@ def test_a_question_among_the_reasons_stays_one():
 def test_names_that_begin_a_reason_are_written_as_they_are():
     said = replace(NOTHING, reasons=("crosswind: not surely better on drives held out", "top_mount helps", "less than half"))
     assert said.words().endswith("crosswind: not surely better on drives held out. top_mount helps. Less than half.")
+
+
+def test_what_is_left_where_nothing_is_named_is_what_was_there_at_first():
+    """Whatever was tried and is not switched on."""
+    said = replace(NOTHING, at_first={"a_x": 0.055}, remainder={"a_x": 0.01})
+    assert said.words().startswith("Nothing is missing that would have a name; what is left above the floor") and left_of(said.json()) == {"a_x": 0.055}
+    named = replace(said, verdict="named", effects=(FOUND,))
+    assert left_of(named.json()) == {"a_x": 0.01} and left_of(replace(NOTHING, remainder={"a_x": 0.01}).json()) == {"a_x": 0.01}
+
+
+def test_it_is_not_called_little_where_parameters_of_the_vehicle_were_put_right_before():
+    """They took most of an error that was large; what was there to explain then is what they left."""
+    said = replace(NOTHING, verdict="named", effects=(FOUND,), at_first={"a_x": 0.012})
+    assert "It is little" in said.words()
+    stiffer = Beyond("spring_stiffness_rear", "N/m", 39000.0, (15000.0, 40000.0), (7500.0, 80000.0), 42940.0, (42450.0, 43420.0))
+    right = replace(said, beyond_bounds=BeyondBounds((stiffer,), 0.9, 0.88, is_first=True))
+    assert "It is little" not in right.words() and not is_of_little(right.json())
+    assert "It is little" in replace(said, beyond_bounds=BeyondBounds((stiffer,), 0.1, 0.1)).words()

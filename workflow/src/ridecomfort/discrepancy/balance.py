@@ -82,8 +82,8 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     what went with them is not explained."""
     share, held_out = named_shares(selection, unnamed)
     band = selection.remaining.band
-    # A road that is another makes errors that repeats share, but fast ones.
-    in_band = band is not None and band.z > SHARED_BAND_Z and (not notes or is_slow(selection))
+    may_be_road = bool(notes) and not is_slow(selection)  # a road that is another makes errors that repeats share, but fast ones
+    in_band = band is not None and band.z > SHARED_BAND_Z and not may_be_road
     still = something_left(selection) or in_band
     is_left = matters and (still or bool(answered(selection)))
     gone = _gone(selection, unnamed)
@@ -92,11 +92,11 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     is_refuted = is_met and held_out < CONFIRMED
     was_shared = selection.shared_z > SHARED_Z or not selection.has_repeats
     may_be_left = gone.left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
-    enough = ENOUGH if notes else DOUBTFUL  # another road makes errors that repeats share, whatever was named
+    enough = ENOUGH if may_be_road else DOUBTFUL  # another road makes errors that repeats share, whatever was named
     is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
     worth_gone = gone.part * (1.0 - left)
-    is_all = is_little and not matters and worth_gone > ENOUGH
-    is_most = is_little and not (matters or is_all or notes or held_out <= 0) and selection.faster_z > SHARED_Z and gone.faster >= ENOUGH
+    is_all = is_little and not (matters or held_out <= 0) and worth_gone > ENOUGH
+    is_most = is_little and not (matters or is_all or may_be_road or held_out <= 0) and selection.faster_z > SHARED_Z and gone.faster >= ENOUGH
     is_little = is_little and not (is_all or is_most)
     return Balance(share, held_out, explained, is_refuted, still, is_left, is_little, is_all, bool(is_most), worth_gone, gone.faster)
 

@@ -92,7 +92,7 @@ class AtBound:
 class BeyondBounds:
     """``parameters`` that lie beyond their bounds, and the ``share`` of the explainable error that goes on fitted and on held-out drives
     (nan where not known) when they may: beside effects that were found without; where ``is_first``, before any effect; where ``is_instead``,
-    alone, as another explanation, which removes less than that of the verdict, or ``is_as_good``. ``less_sure``: parameters whose values lie
+    alone, as another explanation, which is no better than that of the verdict, or ``is_as_good``. ``less_sure``: parameters whose values lie
     beyond their bounds, too, and do much there, but whose intervals reach back into them. ``effects``: names of the fewer effects that remove
     as much as those of the verdict where parameters may lie beyond their bounds; shares are of both then."""
 
@@ -113,7 +113,7 @@ class BeyondBounds:
         checked = f", {100 * self.held_out_share:.0f} % on drives held out" if np.isfinite(self.held_out_share) else ""
         gone = f"{100 * self.share:.0f} % of the explainable error{checked}"
         if self.is_instead:
-            how, alone = "as good" if self.is_as_good else "which removes less", f"{', '.join(self.effects)} alone, with " if self.effects else ""
+            how, alone = "as good" if self.is_as_good else "which is no better", f"{', '.join(self.effects)} alone, with " if self.effects else ""
             return f"another explanation, {how}, {gone}: {alone}parameters of the vehicle beyond their bounds, {names}"
         share = f"{gone}{',' if checked else ''} goes with parameters of the vehicle beyond their bounds: {names}"
         if self.is_first and not _is_enough((self.share, self.held_out_share)):

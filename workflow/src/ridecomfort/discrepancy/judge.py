@@ -59,7 +59,8 @@ def judge(
         reasons.append("a decoy that explains nothing ranks first: the errors are not what the test takes them for")
     if told.is_wrong or decoys or suspicions:
         said = (*reasons, *suspicions)
-        return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, balance.is_left, balance.is_shared)
+        left = balance.is_left, balance.is_shared
+        return Verdict("suspect", tuple(effects), said, balance.share, balance.held_out, *left, of_all=of_all if unnamed else None)
     if is_little and not (was_material or balance.is_left):
         if effects:
             names = ", ".join(effect.name for effect in effects)
@@ -91,7 +92,7 @@ def judge(
     moments = tuple(bursts.of_moments(selection.floor_time_share))
     return Verdict(
         kind, tuple(effects), said, balance.share, balance.held_out, *left, is_like_error=told.is_like_error, of_moments=moments,
-        of_all=of_all if effects and unnamed else None,
+        of_all=of_all if unnamed else None,
     )  # fmt: skip
 
 

@@ -109,7 +109,8 @@ def _error_or_force(verdict: Verdict, proposal: Discovery, said: str, fits_bette
 
 def _road_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
     """Where the road may be another than that of its file, "outside" becomes what the library has, "suspect" if that is little, unless a
-    force explains BETTER as much and is sure, or, beside so little, is more than that road could be."""
+    force explains BETTER as much and is sure, or, beside so little, is more than that road could be. What drives held out refute has no name
+    on any road."""
     is_more = _leaves_half(verdict, proposal) if proposal.beside else proposal.share > BETTER * verdict.whole().share
     if not verdict.effects or is_sure(proposal) and is_more:
         return verdict
@@ -117,6 +118,8 @@ def _road_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
         if is_more and _is_more_than_noise(proposal):
             return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}")
         return with_reason(verdict, "suspect", "no form of a force that was tried explains more, and what the road is otherwise may be all of it")
+    if verdict.held_out_share < CONFIRMED:
+        return verdict
     named = with_reason(verdict, kind_of(verdict.effects), "no form of a force that was tried explains more, and what the road is otherwise is shared by repeats, too")
     return replace(named, reasons=(*named.reasons, *not_sure_of(named.effects)))
 
@@ -158,7 +161,7 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     many small things that a model lacks none explains the rest (but where an error of the measurement does some of that).
 
     An effect that removes LITTLE of the rest, on fitted drives or on those held out, may be a part of it, and is not named; nor are effects
-    each of which may as well be none.
+    each of which may as well be none, nor the others where they alone remove less than half.
     """
     shares = [share for share in (verdict.share, verdict.held_out_share) if np.isfinite(share)]
     if verdict.verdict != "outside" or not verdict.effects or not min(shares, default=0.0) >= ENOUGH or verdict.is_like_error:
@@ -169,11 +172,12 @@ def named_all_the_same(verdict: Verdict, proposal: Discovery) -> Verdict:
     if theirs and is_better:
         return verdict
     kept = tuple(effect for effect in verdict.effects if _is_much(effect, verdict)) or verdict.effects[:1]
-    if are_open(kept):
+    share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
+    is_most = len(kept) == len(verdict.effects) or min(own for own in (share, held_out) if np.isfinite(own)) >= ENOUGH
+    if are_open(kept) or not is_most:
         return verdict
     reasons = [*verdict.reasons, *not_sure_of(kept), _no_better(theirs, shares, proposal)]
     reasons += [_not_named(effect) for effect in verdict.effects if effect not in kept]
-    share, held_out = (sum(getattr(effect, key) for effect in kept) for key in ("share", "held_out_share"))
     return replace(verdict, verdict=kind_of(kept), effects=kept, reasons=tuple(reasons), share=share, held_out_share=held_out)
 
 

@@ -170,8 +170,8 @@ def is_file_alone(said: Mapping) -> bool:
 
 def first_sentence(said: Mapping, names: Sequence[str]) -> str:
     """What a verdict, as ``Verdict.json`` gives it, begins with; ``names`` of its effects, each with what it is not told from."""
-    kind, remainder, at_first = said["verdict"], said.get("remainder") or {}, said.get("at_first") or {}
-    if kind == "nothing" and max(remainder.values(), default=0.0) >= SMALL:
+    kind, at_first = said["verdict"], said.get("at_first") or {}
+    if kind == "nothing" and max(left_of(said).values(), default=0.0) >= SMALL:
         return UNNAMED
     if kind == "nothing" and said.get("of_moments"):
         return BESIDE_MOMENTS.format(signals=", ".join(said["of_moments"]))
@@ -180,12 +180,20 @@ def first_sentence(said: Mapping, names: Sequence[str]) -> str:
     other = not_told_from(said)
     told = ", ".join(names) + (f" or {other}" if other else "")
     first = SAID[kind].format(names=f": {told}" if kind == "suspect" and told else told)
-    return first + LITTLE_TO_EXPLAIN.format(most=at_most(max(at_first.values()))) if is_of_little(kind, at_first) else first
+    return first + LITTLE_TO_EXPLAIN.format(most=at_most(max(at_first.values()))) if is_of_little(said) else first
 
 
-def is_of_little(kind: str, at_first: Mapping[str, float]) -> bool:
-    """Whether something is missing, and all that it could explain ``at_first``, by signal, is SMALL."""
-    return kind in IS_MISSING and max(at_first.values(), default=1.0) < SMALL
+def left_of(said: Mapping) -> Mapping[str, float]:
+    """Share of the power of each signal that the model leaves above the floor with what a verdict, as ``Verdict.json`` gives it, finds: where that
+    is nothing, what it left at first, whatever was tried."""
+    return (said.get("at_first") if said["verdict"] == "nothing" else None) or said.get("remainder") or {}
+
+
+def is_of_little(said: Mapping) -> bool:
+    """Whether something is missing by a verdict, as ``Verdict.json`` gives it, and all that it could explain, by signal, is SMALL; not where
+    parameters of the vehicle were put right before, for which there was more to explain."""
+    most = max((said.get("at_first") or {}).values(), default=1.0)
+    return said["verdict"] in IS_MISSING and most < SMALL and not is_vehicle_first(said)
 
 
 def at_most(share: float) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from ...discrepancy.balance import ENOUGH, LITTLE
 from ...discrepancy.confirm import EQUAL
 from ...discrepancy.explain import NIL
-from ...discrepancy.verdict import SMALL, at_most, is_file_alone, is_of_little, is_vehicle_first, told_beyond
+from ...discrepancy.verdict import SMALL, at_most, is_file_alone, is_of_little, is_vehicle_first, left_of, told_beyond
 from ...effects import library
 from ...schema import as_written, as_yaml
 from ...vehicle.parameters import PARAMETERS
@@ -172,12 +172,12 @@ def _shares(one: Mapping) -> tuple[float, float]:
 def _may_end(verdict: Mapping, *found: Mapping) -> str:
     """What is said before one of those ``found`` is to be switched on, of which none removes most of an error that is little."""
     is_most = any(min(_shares(one)) >= ENOUGH for one in found)
-    return MAY_END if is_of_little(verdict["verdict"], verdict.get("at_first") or {}) and not is_most else ""
+    return MAY_END if is_of_little(verdict) and not is_most else ""
 
 
 def _left(verdict: Mapping) -> str:
     """Whether what is left matters."""
-    remainder = verdict.get("remainder") or {}
+    remainder = left_of(verdict)
     if not remainder:
         return "See where the error lies (compare)."
     signal = max(remainder, key=remainder.get)
