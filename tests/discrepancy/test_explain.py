@@ -60,6 +60,20 @@ def test_what_one_of_two_repeats_does_not_record_is_not_the_others_noise():
     assert explain(compared)["floor_rmse"].values.ravel() == pytest.approx(2 * [up_to_both.std()], rel=0.1)
 
 
+def test_a_short_repeat_leaves_the_floors_of_the_others_as_they_are():
+    """Behind 600 m of 1,200 noise is three times and what is shared five times as large; the third of three repeats ends there."""
+    _, compared = comparison()
+    behind = (compared["s"] > 600.0).isel(drive=0).values
+    random = np.random.default_rng(4)
+    noise = np.stack([coloured(random, 6000) for _ in range(3)]) * np.where(behind, 3.0, 1.0)
+    residual = noise + 2.0 * coloured(random, 6000) * np.where(behind, 5.0, 1.0)
+    residual[2, :, behind] = np.nan
+    dims = compared["residual"].dims
+    found = explain(compared.isel(state=[0]).assign(residual=(dims, residual[None])))["floor_rmse"].values
+    true = [judged(own[:, :n], 100.0, ["a_z"] * noise.shape[1]).std(axis=-1) for own, n in zip(noise, (6000, 6000, 3000))]
+    assert np.mean(found / true, axis=1) == pytest.approx(np.ones(3), abs=0.15)
+
+
 def test_the_squares_by_stretch_are_parts_of_the_whole():
     found = explain(comparison()[1])
     whole = found["explainable_rmse"] ** 2 + found["floor_rmse"] ** 2

@@ -13,7 +13,7 @@ import xarray as xr
 from ..drive.sampling import rate_of
 from ..vocabulary import VARIABLES
 from .experiment import Record
-from .floor import deviations
+from .floor import apart
 from .judged import band, judged, lowest
 
 SAME_SPEED, COMMON, SAME_PATH, SAME_SENSOR = 0.05, 0.5, 0.3, 0.05
@@ -74,12 +74,13 @@ class Passage(NamedTuple):
 
 @dataclass(frozen=True)
 class OwnNoise:
-    """What a repeat has of its own, of what is judged: ``noise`` (signal, sample) in the units of the signals, ``place`` in m; and ``square``
-    (signal,), the mean square of all of its error there."""
+    """What a repeat has of its own, of what is judged: ``noise`` (signal, sample) in the units of the signals, ``place`` in m; and the mean squares
+    (signal,) of all of its error there, ``square``, and of what repeats share of it, ``common``."""
 
     place: np.ndarray
     noise: np.ndarray
     square: np.ndarray
+    common: np.ndarray
 
 
 def explain(
@@ -103,10 +104,7 @@ def explain(
         own = own_noise(comparison, name)
         for group in groups:
             # Noise of a quiet and of a loud repeat is known as their mean; what they share is the same for both, and the rest of either its own.
-            squares = np.stack([own[drive].square for drive in group])
-            noise = np.mean([np.mean(own[drive].noise ** 2, axis=1) for drive in group], axis=0)
-            common = np.maximum(squares.mean(axis=0) - noise, 0.0)
-            floors[state, group] = np.maximum(squares - common, 0.0)
+            floors[state, group] = [np.maximum(own[drive].square - np.maximum(own[drive].common, 0.0), 0.0) for drive in group]
     square, by_stretch, starts = _squares(comparison)
     if np.isfinite(floors).any():
         floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
@@ -131,7 +129,8 @@ def explain(
 
 
 def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
-    """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise, up to where all hold it."""
+    """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise, up to the frequency to which all
+    hold it and wherever another drove as well."""
     found, signals = {}, comparison["signal"].values
     rate = rate_of(comparison["time"].values)
     for group in repeats(comparison):
@@ -144,10 +143,9 @@ def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
             place = row["s"].values[kept]
             records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
             residuals.append(band(judged(residual[:, kept], rate, signals), rate, (0.0, upper)))
-        start, end = max(record.place[0] for record in records), min(record.place[-1] for record in records)
-        for drive, record, residual, part in zip(group, records, residuals, deviations(records, residuals)):
-            inside = (record.place >= start) & (record.place <= end)
-            found[drive] = OwnNoise(record.place[inside], part, np.mean(residual[:, inside] ** 2, axis=1))
+        for drive, record, residual, own in zip(group, records, residuals, apart(records, residuals)):
+            square = np.mean(residual[:, own.inside] ** 2, axis=1)
+            found[drive] = OwnNoise(record.place[own.inside], own.noise, square, own.common)
     return found
 
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
+from operator import add
+from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
@@ -19,23 +22,43 @@ LEAST = 0.02
 """Sum over the channels of the explainable shares of their errors, below which nothing is there to be explained."""
 
 
-def deviations(records: Sequence[Record], residuals: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """What every repeat has of its own at equal place, (channel, sample), its power that of one drive's noise.
+class Own(NamedTuple):
+    """What a repeat has of its own at equal place: ``inside`` (sample,), where another drove as well; ``noise`` (channel, sample) there, its power that
+    of one drive's noise; and ``common`` (channel,), the mean square there of what those that drove there share, by chance below nil."""
 
-    Residuals are compared on the places of each record in turn; those that others do not reach are left
-    out at the ends. With n repeats a deviation from the mean holds (n - 1)/n of the power, which is made up for.
+    inside: np.ndarray
+    noise: np.ndarray
+    common: np.ndarray
+
+
+def deviations(records: Sequence[Record], residuals: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """What every repeat has of its own at equal place, (channel, sample), its power that of one drive's noise: the ``noise`` of ``apart``."""
+    return [own.noise for own in apart(records, residuals)]
+
+
+def apart(records: Sequence[Record], residuals: Sequence[np.ndarray]) -> list[Own]:
+    """What every repeat has of its own of its residual (channel, sample).
+
+    Residuals are compared on the places of each record in turn, everywhere with those that reach there: a short one tells nothing of the rest of
+    the way, where noise may be another. What no other reaches is left out. With n repeats a deviation from the mean holds (n - 1)/n of the power,
+    which is made up for.
     """
-    count = len(records)
-    start = max(record.place[0] for record in records)
-    end = min(record.place[-1] for record in records)
     splines = [make_interp_spline(*_rising(*denser(record.place, residual))) for record, residual in zip(records, residuals)]
-    parts = []
+    found = []
     for record, residual in zip(records, residuals):
-        inside = (record.place >= start) & (record.place <= end)
-        place = record.place[inside]
-        mean = sum(spline(place) for spline in splines).T / count
-        parts.append((residual[:, inside] - mean) * np.sqrt(count / (count - 1)))
-    return parts
+        reached = np.stack([(record.place >= other.place[0]) & (record.place <= other.place[-1]) for other in records])
+        inside = reached.sum(axis=0) > 1
+        place, reached = record.place[inside], reached[:, inside]
+        count = reached.sum(axis=0)
+        total, square = np.zeros((2, len(residual), place.size))
+        for spline, there in zip(splines, reached):
+            own = spline(place[there]).T
+            total[:, there] += own
+            square[:, there] += own**2
+        noise = (residual[:, inside] - total / count) * np.sqrt(count / (count - 1))
+        # The mean product of two of them: noise of one knows nothing of another's.
+        found.append(Own(inside, noise, np.mean((total**2 - square) / (count * (count - 1)), axis=1)))
+    return found
 
 
 def denser(place: np.ndarray, residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -62,9 +85,13 @@ def repeats(experiment: Experiment, indices: Iterable[int]) -> dict[str, list[in
 
 
 def floor(experiment: Experiment, cleaned: Mapping[int, np.ndarray]) -> dict[str, Spectrum]:
-    """Spectrum of the noise of every condition that was driven at least twice, from its residuals less nuisances."""
+    """Spectrum of the noise of every condition that was driven at least twice, from its residuals less nuisances.
+
+    Its records weigh alike, however long, as in the squares of an error (``squares``) that it is held against.
+    """
     return {
-        record.condition: cross_spectrum(parts, record.rate, record.lowest) for record, parts in own_noises(experiment, cleaned)
+        record.condition: reduce(add, (cross_spectrum([part], record.rate, record.lowest) for part in parts)) * (1.0 / len(parts))
+        for record, parts in own_noises(experiment, cleaned)
     }
 
 
