@@ -10,6 +10,7 @@ from . import evidence, refit
 from . import experiment as exp
 from .experiment import Experiment, Frame
 from .selection import Trial
+from .tries import implausible
 
 APART = 2.0
 """z of the difference of two refits below which the data do not tell them apart."""
@@ -30,16 +31,16 @@ def cluster(
 
     ``frames``: of the fitted and, where there are any, of the held-out records. ``before``: values of the model that both
     were added to. ``columns``: projected columns by ((candidate, shape), key). What does as well by changing the
-    signals otherwise is not like the winner: both may be missing.
+    signals otherwise is not like the winner: both may be missing. Nor is what would do as well with a size that is not plausible.
     """
-    port = {candidate.name: candidate.port for candidate in experiment.candidates}
+    by_name = {candidate.name: candidate for candidate in experiment.candidates}
     rows = lambda name: np.stack([row for (job, _), row in columns.items() if job[0] == name])
     like, correlation, apart = [], {}, {}
     for trial in trials:
         if trial is winner:
             continue
         correlation[trial.name] = evidence.canonical_correlation(rows(winner.name), rows(trial.name))
-        if trial.gain < COMPARABLE * winner.gain:
+        if trial.gain < COMPARABLE * winner.gain or implausible(by_name[trial.name], trial.fit.values):
             continue
         z, power, changes = [], {}, []
         for frame in frames:
@@ -51,7 +52,8 @@ def cluster(
             power |= {i: float(np.mean(frame.whitening[i](one[i] - other[i]) ** 2)) for i in frame.indices}
         one, other = np.concatenate(changes, axis=1).astype(float)
         alike = max(correlation[trial.name], one @ other / np.sqrt((one @ one) * (other @ other)))
-        at_one = port[trial.name] and port[trial.name] == port[winner.name]
+        port = by_name[trial.name].port
+        at_one = port and port == by_name[winner.name].port
         if alike > (SAME_PORT if at_one else evidence.SAME) and sum(z) / np.sqrt(len(z)) < APART:
             like.append(trial.name)
             apart[trial.name] = experiment.records[max(power, key=power.get)].name

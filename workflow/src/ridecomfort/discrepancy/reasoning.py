@@ -12,6 +12,7 @@ from .experiment import Candidate
 from .found import turn_of
 from .propose import LEVEL
 from .selection import Round, Selection, shares
+from .tries import implausible
 from .verdict import Named, are_open, percent
 
 UNSURE = "what is missing may be something else: no size of what helps is surely another than none"
@@ -90,15 +91,16 @@ def not_sure_of(effects: Sequence[Named]) -> list[str]:
 
 
 def nearly_as_good(selection: Selection, effect: Named) -> list[str]:
-    """What would have done nearly as much in the place of an effect, in words."""
+    """What would have done nearly as much in the place of an effect, of a plausible size, in words."""
     turn = turn_of(selection, effect.name)
+    by_name = {candidate.name: candidate for candidate in selection.frame.experiment.candidates}
     removed = lambda trial: shares(selection, trial.before, trial.after)
     told = []
     for trial in turn.trials:
         known = [(own, most) for own, most in zip(removed(trial), removed(turn.winner)) if np.isfinite(own) and np.isfinite(most)]
         is_less_likely = trial.gain < turn.winner.gain
         is_rival = is_less_likely and trial.name not in (*selection.accepted, *effect.like) and all(own >= NEARLY * most > 0.0 for own, most in known)
-        if is_rival and known and not _is_missing_too(selection, turn, trial.name):
+        if is_rival and known and not (implausible(by_name[trial.name], trial.fit.values) or _is_missing_too(selection, turn, trial.name)):
             much, less = " and ".join(percent(own) for own, _ in known), turn.winner.gain - trial.gain
             as_much = "as much" if all(own >= most for own, most in known) else "nearly as much"
             told.append(f"{trial.name} in the place of {effect.name} removes {as_much} ({much}), but drives are less likely with it: 2 ln L is lower by {less:.0f}")
