@@ -42,6 +42,17 @@ def test_what_a_vehicle_has_not_is_no_size_of_it(made):
     assert {"anti_roll_stiffness_rear"} == {size.key for size in made.free} - {size.key for size in free}
 
 
+def test_an_effect_of_a_folder_that_has_no_size_to_fit_is_a_candidate_and_in_no_simulation(made, tmp_path):
+    (tmp_path / "push.py").write_text(
+        "from ridecomfort.effects.contract import Effect, Parameter\n"
+        "effect = Effect('push', 'A strut that pushes.', 'a source', 'suspension', (Parameter('force', 'N', 90.0, 90.0, (0.0, 500.0), 'a force'),))\n"
+        "def act(wheel, deflection, velocity, stiffness, damping, force_x, force_y, force):\n    return force\n"
+    )
+    site = opening.Site("trial", made.replays[0].road, [made.replays[0].drive])
+    found = opening.car([site], made.vehicle, library_names=["crosswind", "push"], effects_folder=tmp_path)
+    assert {one.name: bool(one.sizes) for one in found.candidates} == {"crosswind": True, "push": False} and set(found.quiet) == {"crosswind"}
+
+
 def test_a_roll_centre_below_the_ground_may_be_wrong_by_a_share_of_its_depth(made):
     below = made.vehicle.replace(roll_centre_height_front=-0.05)
     site = opening.Site("trial", made.replays[0].road, [made.replays[0].drive])

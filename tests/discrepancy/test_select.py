@@ -235,6 +235,17 @@ def test_what_cannot_be_driven_at_its_probe_is_told_with_the_reason():
     assert "effect_4: could not be simulated: came to a stand" in found.reasons
 
 
+def test_what_has_no_size_to_fit_is_told_and_not_driven():
+    model = Linear(1, {"effect_2.size": 1.5})
+    model.candidates = tuple(replace(one, sizes=()) if one.name == "effect_4" else one for one in model.candidates)
+    first, *others = rounds(model, 2)
+    assert "effect_4" not in first.names and first.passed_over["effect_4"].startswith("no size to fit")
+    assert first.winner.name == "effect_2" and all("effect_4" not in turn.passed_over for turn in others)
+    model.candidates = tuple(one for one in model.candidates if one.name == "effect_4")
+    found = judged(model)[1]
+    assert found.verdict == "outside" and any(reason.startswith("effect_4: no size to fit") for reason in found.reasons)
+
+
 def test_a_mistake_in_the_file_of_an_effect_ends_the_search():
     with pytest.raises(InputError, match="my_drift.py: act failed: NameError"):
         rounds(refusing(ActFails, "own/my_drift.py: act failed: NameError"), 1)

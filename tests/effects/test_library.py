@@ -198,6 +198,7 @@ def test_a_name_that_means_something_else_is_no_name_of_an_effect(tmp_path, name
         (f"({SHARE.replace('0.0, 0.5', 'None, 0.5')},)", r"share: neutral is None \(expected a finite number\)"),
         (f"({SHARE.replace('0.5', '1e999')},)", r"share: typical is inf \(expected a finite number\)"),
         (f"({SHARE.replace('0.5', 'True')},)", "share: typical is True"),
+        (f"({SHARE.replace('0.5', '2000.0')},)", r"share: typical is 2000 \(expected a value that is plausible, 0 to 1\)"),
         (f"({SHARE.replace('(0.0, 1.0)', repr(('0', '1')))},)", r"share: plausible is \('0', '1'\) \(expected two numbers"),
         (f"({SHARE.replace(repr('share'), '3')},)", "parameters: 3 is no name of a parameter"),
         (f"({SHARE.replace(repr('share'), repr('a share'), 1)},)", "parameters: 'a share' is no name of a parameter"),

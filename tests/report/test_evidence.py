@@ -167,12 +167,13 @@ def test_the_figure_says_why_an_effect_was_not_refitted(why, said):
     assert said in [text.get_text() for text in each.findobj(Text)]
 
 
-def test_what_could_not_be_tested_is_told_with_the_reason_below_what_was():
+@pytest.mark.parametrize("why", ["could not be simulated: came to a stand", contest.UNSIZED])
+def test_what_could_not_be_tested_is_told_with_the_reason_below_what_was(why):
     found = made_up.ranking()
     found["passed_over"] = found["passed_over"].astype(object)
     for name in ("p_value", "gain", "absorbed"):
         found[name].values[0, 2] = np.nan
-    found["passed_over"].values[0, 2] = why = "could not be simulated: came to a stand"
+    found["passed_over"].values[0, 2] = why
     told = [row for row in rows(diagnosed.tables(replace(made_up.diagnosis(), ranking=found))["evidence"]) if row["round"] == 1]
     assert told[-1]["outcome"] == why and told[-1]["p_value"] is None and told[-1]["effect"]
     with style.styled():

@@ -32,7 +32,10 @@ SETTLED, FAR = 3, 0.25
 fitted, too, if that is no less than LEAST_SHARE of the first effect's."""
 
 UNDRIVEN = "could not be simulated"
-"""What is said of a candidate that the model could not be driven with."""
+"""What is said of a candidate that the model could not be driven with..."""
+
+UNSIZED = "no size to fit: no parameter of it is typically another than the value that changes nothing"
+"""...and of one that no size switches on."""
 
 
 @dataclass

@@ -128,12 +128,13 @@ def car(
         free += [replace(size, neutral=sizes[name]) for size, name in own if name not in known_sizes]
     wanted = [name for name in sorted(known if library_names is None else library_names) if name not in effects]
     candidates = tuple(candidate(known[name].effect) for name in wanted)
-    quiet = {name: known[name].effect.neutral for name in wanted if known[name].effect.port in COMPILED}
+    # One without a size is not driven: no value of it is known to change nothing.
+    quiet = {one.name: known[one.name].effect.neutral for one in candidates if one.sizes and one.port in COMPILED}
     answers = each_record(lambda again: [answer(again, vehicle, {**quiet, **effects}) for answer in (steered, paced)], replays)
     steering, pace = map(dict, map(enumerate, zip(*answers)))
     return Car(
         _records(sites, fitted_on, replays, noise_density or {}), replays, vehicle, effects, tuple(free),
-        tuple(c for c in candidates if c.sizes), quiet, each_record=each_record, steered=steering, paced=pace, set_aside=set_aside,
+        candidates, quiet, each_record=each_record, steered=steering, paced=pace, set_aside=set_aside,
     )  # fmt: skip
 
 

@@ -20,7 +20,7 @@ from .allowance import Allowance
 from .balance import ENOUGH
 from .confirm import LEAST_SHARE
 from .consistency import birge_ratio
-from .contest import UNDRIVEN, Contest
+from .contest import UNDRIVEN, UNSIZED, Contest
 from .experiment import Experiment, Frame
 from .probe import Job, Raw
 from .refit import Fit
@@ -93,10 +93,12 @@ class _Search:
     needless: set[str] = field(default_factory=set)
     """Names of accepted effects that the last fit does without."""
     refused: dict[str, str] = field(default_factory=dict)
-    """Why candidates are not tested of which no size could be simulated, by name."""
+    """Why candidates are not tested that have no size, or of which none could be simulated, by name."""
 
     def __post_init__(self):
-        self.by_name = {candidate.name: candidate for candidate in self.rung.experiment.candidates}
+        candidates = self.rung.experiment.candidates
+        self.by_name = {candidate.name: candidate for candidate in candidates if candidate.sizes}
+        self.refused |= {candidate.name: UNSIZED for candidate in candidates if not candidate.sizes}
 
     def run(self) -> Selection:
         states = [State.of(self.rung, "calibrated", self.rung.fit, self.rung.check)]
@@ -239,13 +241,13 @@ class _Search:
 
     def _probe(self, residuals: Mapping[int, np.ndarray]) -> dict[Job, Raw]:
         """Change of the ``residuals`` in longer steps per probe of every size of every candidate and shape, in single precision."""
-        jobs = [(c.name, shape) for c in self.rung.experiment.candidates for shape in range(len(c.shapes))]
+        jobs = [(name, shape) for name, candidate in self.by_name.items() for shape in range(len(candidate.shapes))]
         unknown, own = [job for job in jobs if job not in self.probed], probe.Probe(self.sooner, self.rung.fit.values, residuals)
         found = self.each(own, unknown)
         self.probed = {**self.probed, **dict(zip(unknown, found))}
         silent = [name for name in self.by_name if not any(self.probed[job] for job in jobs if job[0] == name)]
         refusals = zip(silent, self.each(own.refusal, [(name, 0) for name in silent]))
-        self.refused = {name: f"{UNDRIVEN}: {why}" for name, why in refusals if why}
+        self.refused |= {name: f"{UNDRIVEN}: {why}" for name, why in refusals if why}
         kept = {job: self.probed[job] for job in jobs if self.probed[job]}
         least = lambda name: ALIAS if self.by_name[name].is_aligned else LEAST_OWN
         return {job: found for job, found in kept.items() if self.rung.frame.own_shares(list(found.values())).max() > least(job[0])}

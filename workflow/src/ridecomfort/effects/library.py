@@ -172,7 +172,8 @@ def _load(path: Path, changed: int) -> Entry:
 
 
 def _check_parameters(effect: Effect, path: Path) -> None:
-    """Raise InputError unless the parameters of an effect are Parameters with a name, two values and a range each, and its states names."""
+    """Raise InputError unless the parameters of an effect are Parameters with a name, two values and a range, which holds the typical
+    one, each, and its states names."""
     for what, kind in (("parameters", Parameter), ("states", str)):
         found = getattr(effect, what)
         if not isinstance(found, tuple) or not all(isinstance(one, kind) for one in found):
@@ -189,6 +190,8 @@ def _check_parameters(effect: Effect, path: Path) -> None:
             low, high = None, None
         if not (_is_number(low) and _is_number(high) and low < high):
             raise InputError(f"plausible is {parameter.plausible!r} (expected two numbers, the lower one first)", file=path, place=parameter.name)
+        if not low <= parameter.typical <= high:
+            raise InputError(f"typical is {parameter.typical:g} (expected a value that is plausible, {low:g} to {high:g})", file=path, place=parameter.name)
 
 
 def _is_number(value) -> bool:

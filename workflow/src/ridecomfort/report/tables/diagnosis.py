@@ -9,7 +9,7 @@ import xarray as xr
 
 from ...discrepancy import ranking
 from ...discrepancy.balance import LITTLE
-from ...discrepancy.contest import UNDRIVEN
+from ...discrepancy.contest import UNDRIVEN, UNSIZED
 from ...discrepancy.form import names_in
 from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
@@ -310,7 +310,7 @@ def _rounds(tested: xr.Dataset) -> Iterator[tuple[int, dict[str, tuple]]]:
                 )  # fmt: skip
             score = float(one["p_value"][place]), float(gain[place]), _percent(float(one["absorbed"][place]))
             told[name] = (*score, *refit, came[name])
-        told |= {name: (*(None,) * 3, "", *(None,) * 4, why) for name, why in came.items() if name not in told and why.startswith(UNDRIVEN)}
+        told |= {name: (*(None,) * 3, "", *(None,) * 4, why) for name, why in came.items() if name not in told and why.startswith((UNDRIVEN, UNSIZED))}
         yield int(turn), told
 
 
