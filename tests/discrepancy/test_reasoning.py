@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import balance, judge, reasoning, select
+from ridecomfort.errors import InputError
 
 from .linear import Linear, alone, judged
 
@@ -28,6 +29,22 @@ def test_where_nothing_that_was_looked_among_has_a_size_no_candidate_was_tested(
     model.candidates = ()
     _, found = judged(model)
     assert found.verdict == "nothing" and "no candidate was tested: no effect that was looked among has a size to fit" in found.reasons
+
+
+@pytest.mark.parametrize("size", [1.0, 0.15])
+def test_what_the_drives_speak_for_and_no_drive_held_out_can_be_driven_with_is_told(size):
+    model = Linear(1, {"effect_2.size": size})
+    plain = model.residual
+
+    def residual(values, index):
+        if index == 3 and values.get("effect_2.size", 0.0) > 0.05:
+            raise InputError("left the road")
+        return plain(values, index)
+
+    model.residual = residual
+    selection, found = judged(model)
+    assert not selection.accepted and selection.rounds[0].p_value.min() < 0.05 and not selection.rounds[0].trials
+    assert "effect_2: could not be simulated" in found.reasons
 
 
 @pytest.mark.parametrize(("part", "is_told"), [(0.95, True), (0.8, False)])

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import floor
 from .balance import CONFIRMED, ENOUGH, Balance, answered, total_shares
+from .contest import UNDRIVEN
 from .experiment import Candidate
 from .found import turn_of
 from .propose import LEVEL
@@ -56,7 +57,9 @@ def none_accepted(selection: Selection) -> list[str]:
     best = float(np.min(first.p_value))
     if best > LEVEL:
         return [f"the smallest p-value over the whole library, of {len(first.names)} candidates that were tested, is {best:.2g}"]
-    return [f"{trial.name}: {trial.objection}" for trial in first.trials if trial.objection]
+    undriven = [(name, first.passed_over.get(name, "")) for name, p_value in zip(first.names, first.p_value) if p_value <= LEVEL]
+    said = [*((trial.name, trial.objection) for trial in first.trials), *(one for one in undriven if one[1].startswith(UNDRIVEN))]
+    return [f"{name}: {why}" for name, why in said if why]
 
 
 def unexplained(selection: Selection, balance: Balance, is_little: bool, unnamed: Collection[str] = ()) -> str:
