@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import balance, judge, select
@@ -118,3 +119,19 @@ def test_a_force_is_held_against_what_effects_without_a_name_removed_also_where_
     suspect = judge.judge(unsure, model.candidates, ["drive_1: the model fits a gain of 1.030"])
     assert (suspect.verdict, suspect.of_all) == ("suspect", whole)
     assert judge.judge(selection, model.candidates).of_all is None
+
+
+@pytest.mark.parametrize(("gone", "left_z", "is_material", "verdict"), [(0.1, 6.0, True, "outside"), (0.9, 0.0, False, "named"), (0.6, 0.0, True, "outside")])
+def test_where_hardly_anything_lies_above_the_floor_half_is_asked_of_what_repeats_share(gone, left_z, is_material, verdict):
+    """A hundredth of the power of one signal: what share of that goes nobody knows; repeats share an error for certain, at first and still."""
+    model = Linear(1, {"effect_2.size": 1.0})
+    selection, _ = judged(model)
+    first, last = selection.states
+    above = dict(floor_squares=0.9975 * first.squares, held_out_floor_squares=0.9975 * first.held_out_squares)
+    last = replace(last, squares=0.999 * first.squares, held_out_squares=0.999 * first.held_out_squares)
+    still = replace(selection.remaining, z=8.0, share=0.06)
+    selection = replace(selection, states=(first, last), **above, shared_gone=gone, left_z=left_z, shared_z=12.0, remaining=still)
+    found = balance.balanced(selection, (), is_material, 1.0)
+    assert np.isnan(found.share) and found.explained == gone
+    told = judge.judge(selection, model.candidates, is_material=is_material)
+    assert told.verdict == verdict and "the error hardly rises above the floor, too little to tell shares of it" in told.reasons

@@ -48,6 +48,29 @@ def test_what_is_small_beside_a_large_effect_counts_by_what_it_takes_of_all_that
     assert (confirm.objection(trial, model.candidates[2], False, 0.1) == "") is is_kept
 
 
+@pytest.mark.parametrize(("gone", "objection"), [(0.4, ""), (0.1, "removes 10.0 % of what repeats share yet"), (float("nan"), "")])
+def test_where_hardly_anything_lies_above_the_floor_it_is_asked_what_goes_of_what_repeats_share_for_certain(gone, objection):
+    model = Linear(1, {"effect_2.size": 1.0})
+    rung, nothing = begin(model, {"stiffness": 0.0}), float("nan")
+    fit = replace(rung.fit, values={"stiffness": 0.0, "effect_2.size": 1.0})
+    trial = Trial("effect_2", {}, fit, 100.0, 90.0, nothing, nothing, nothing, nothing, "", rest_gone=gone)
+    assert confirm.objection(trial, model.candidates[2], False, nothing) == objection
+
+
+@pytest.mark.parametrize("is_first", [True, False])
+def test_that_is_asked_of_what_comes_after_a_first_effect(is_first):
+    """A floor as high as the error, of which a fit to half of what is missing leaves a part that repeats share."""
+    model = Linear(1, {"effect_2.size": 1.0})
+    rung = begin(model, {"stiffness": 0.0})
+    first = State.of(rung, "", rung.fit, rung.check)
+    rung = replace(rung, floor_squares=first.squares, held_out_floor_squares=first.held_out_squares)
+    values = {**rung.fit.values, "effect_2.size": 0.5}
+    fit = replace(rung.fit, values=values, residuals=simulate(model, values, rung.frame.indices))
+    trial = Trial("effect_2", {}, fit, 100.0, 90.0, *(float("nan"),) * 4, "")
+    found = confirm.Confirmation(rung, {"effect_2": model.candidates[2]}, first, (), ("effect_2",), is_first)(trial)
+    assert np.isnan(found.share) and bool(np.isnan(found.rest_gone)) is is_first
+
+
 def gone_with(truth, values):
     """Share of what repeats have in common that is gone with these values of the effects, in a model that lacks those of the ``truth``."""
     model = Linear(1, truth)

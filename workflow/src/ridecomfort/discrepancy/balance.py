@@ -87,13 +87,15 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     still = something_left(selection) or in_band
     is_left = matters and (still or bool(answered(selection)))
     gone = _gone(selection, unnamed)
-    explained = max(share, gone.shared) if selection.has_repeats else share
+    # Where hardly anything lies above the floor nobody knows a share of it: what repeats share is asked alone.
+    known = gone.shared if np.isnan(share) else share
+    explained = max(known, gone.shared) if selection.has_repeats else share
     is_met = all(turn.winner.met for turn in selection.rounds if turn.winner is not None and turn.winner.name not in unnamed)
     is_refuted = is_met and held_out < CONFIRMED
     was_shared = selection.shared_z > SHARED_Z or not selection.has_repeats
-    may_be_left = gone.left_z > LEFT_Z or (share < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
+    may_be_left = gone.left_z > LEFT_Z or (known < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
     enough = ENOUGH if may_be_road else DOUBTFUL  # another road makes errors that repeats share, whatever was named
-    is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (share < enough and is_left)
+    is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (known < enough and is_left)
     worth_gone = gone.part * (1.0 - left)
     is_all = is_little and not (matters or held_out <= 0) and worth_gone > ENOUGH
     is_most = is_little and not (matters or is_all or may_be_road or held_out <= 0) and selection.faster_z > SHARED_Z and gone.faster >= ENOUGH

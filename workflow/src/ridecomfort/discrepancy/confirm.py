@@ -83,7 +83,7 @@ class Confirmation:
             trial, held_out_gain=held_out_gain, held_out_z=held_out_z, share=share, held_out_share=held_out_share, met=met,
             before=before, after=now,
         )  # fmt: skip
-        if met and share < LEAST_SHARE and rung.has_repeats and not self.is_first:
+        if met and not share >= LEAST_SHARE and rung.has_repeats and not self.is_first:
             trial = replace(trial, rest_gone=self._rest_gone(fit))
         left = floor.explained_share(before.squares, rung.floor_squares, first.squares, rung.floor_squares)
         return replace(trial, objection=objection(trial, candidate, is_weak, left))
@@ -134,6 +134,8 @@ def objection(trial: Trial, candidate: Candidate, is_weak: bool, left: float) ->
         if not (trial.held_out_gain > 0 and enough):
             return "not surely better on drives held out"
     is_most_of_rest = trial.met and (trial.share > MOST_OF_REST * left or trial.rest_gone > OF_SHARED)
+    if np.isnan(trial.share) and trial.rest_gone <= OF_SHARED:  # hardly anything lies above the floor, and repeats share something for certain
+        return f"removes {100 * trial.rest_gone:.1f} % of what repeats share yet"
     if trial.share < (LEAST_SHARE if trial.met else LEAST_UNMET) and not is_most_of_rest:
         return f"removes {100 * trial.share:.1f} % of the explainable error" + ("" if trial.met else ", and no drive held out meets it")
     return ""

@@ -22,6 +22,9 @@ UNSURE = "what is missing may be something else: no size of what helps is surely
 OF_DRIVER = "the rest is no more than a driver's foot and hands may make"
 """What is said of the rest where what was found is most of what is worth explaining, or of what is faster than a driver."""
 
+NIL = "the error hardly rises above the floor, too little to tell shares of it"
+"""What is said where a share of the explainable error is not known."""
+
 TOO_NOISY = 1.5
 """Times the error that is left, the median of the signals, from which on noise that is told of instruments is asked about."""
 
@@ -36,8 +39,9 @@ def removed_by(balance: Balance, selection: Selection, unnamed: Collection[str] 
     removed = (balance.share, balance.held_out) if named else every
     held_out = [f"{percent(removed[1])} on drives held out"] if np.isfinite(removed[1]) else []
     with_all = " and ".join(percent(share) for share in every if np.isfinite(share))
+    nil = [NIL] if np.isnan(removed[0]) else []
     more = [f"{with_all} with {', '.join(unnamed)} as well"] if named and unnamed else []
-    return [f"{percent(removed[0])} of the explainable error is removed on the fitted drives, by {', '.join(named or selection.kept)}", *held_out, *more]
+    return [f"{percent(removed[0])} of the explainable error is removed on the fitted drives, by {', '.join(named or selection.kept)}", *nil, *held_out, *more]
 
 
 def in_vain(found: Sequence[Named]) -> str:

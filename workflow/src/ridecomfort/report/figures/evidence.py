@@ -48,6 +48,7 @@ OBJECTIONS = {
     "lies outside what is plausible": "size not plausible",
     "not surely better on drives held out": "not surely better held out",
     "of the explainable error": "removes too little",
+    "of what repeats share yet": "removes too little",
     "that gain most were": "not refitted",
     "its refit gains less": "refit gains too little",
     "opposite sign": "not refitted: opposite sign",
