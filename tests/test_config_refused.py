@@ -260,7 +260,7 @@ def test_mistake_in_a_site(project, content, said):
 
 def calibrated(project, **on):
     for site, other in on.items():
-        (project / f"{site}.csv").write_text(HEADER)
+        (project / f"{site}.csv").write_text(f"{HEADER}{','.join([str(ord(site))] * 8)}\n")  # records of their own
         write(project, site, {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": f"{site}.csv"}], "calibrated_on": other})
 
 
@@ -287,6 +287,24 @@ def test_a_record_is_not_both_fitted_and_held_out(project):
     write(project, "second", {"road": {"file": "road.crg"}, "drives": [{**twice[0], "role": "check"}], "calibrated_on": "own"})
     said = "drives: entry 1: file: 'drive.csv' is fitted on 'own', on which this site is calibrated"
     assert_said(project, {"sites": ["own", "second"]}, said, config.SITES / "second.yaml")
+
+
+def test_a_copy_of_a_record_is_no_other_record(project):
+    """Its noise would be what repeats share, and what a model explains of a drive that nothing was fitted to."""
+    row = "0,20,0,0,9.81,0,0,0\n"
+    for name, text in (("first", HEADER + row), ("again", HEADER + row), ("other", HEADER + row.replace("20", "21"))):
+        (project / f"{name}.csv").write_text(text)
+    first, again, other = ({**DRIVE, "file": f"{name}.csv", "columns": columns()} for name in ("first", "again", "other"))
+    said = "drives: entry 3: file: 'again.csv' holds the same as 'first.csv', which is entry 1 already, expected a record once"
+    for role in ("fit", "check"):
+        write(project, "own", {"road": {"file": "road.crg"}, "drives": [first, other, {**again, "role": role}]})
+        assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [first, {**other, "role": "check"}]})
+    write(project, "second", {"road": {"file": "road.crg"}, "drives": [other, again], "calibrated_on": "own"})
+    said = "drives: entry 2: file: 'again.csv' holds the same as 'first.csv', which is fitted on 'own', on which this site is calibrated"
+    assert_said(project, {"sites": ["own", "second"]}, said, config.SITES / "second.yaml")
+    write(project, "second", {"road": {"file": "road.crg"}, "drives": [other], "calibrated_on": "own"})
+    config.load({"sites": ["own", "second"]}, project)  # it is held out on both
 
 
 def wide(project, width):

@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 
 from ridecomfort import simulate, store
+from ridecomfort.errors import InputError
 from ridecomfort.steps import calibrate, compare, measured, realigned
 from ridecomfort.steps.command import NOTE
 from ridecomfort.vocabulary import CALIBRATED, SIGNALS, STANDARD_GRAVITY
@@ -74,6 +75,20 @@ def test_what_was_done_to_a_record_is_told_on_the_screen(files, car_file, tmp_pa
     config = {"site": "here", "drives": [ENTRY | {"name": "one"}], "simulation": SIMULATION, "alignment": {"search": 0.5}}
     measured.main(files / "road.nc", car_file, [tmp_path / "stood.csv"], config, tmp_path / "measured.nc", workers=1)
     assert f"{NOTE}here: one: s, which stands still while the vehicle drives on, interpolated there" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("rows", [slice(None), slice(300, 1200)], ids=["again", "cut"])
+def test_a_record_under_two_names_is_refused_by_its_samples(files, car_file, tmp_path, rows):
+    """A second export of one record, with other digits in another column, from its beginning or cut, and a clock of its own."""
+    table = pd.read_csv(files / "fit.csv").iloc[rows]
+    table.assign(t=table["t"] - table["t"].iloc[0], ahead=0.0).to_csv(tmp_path / "copy.csv", index=False)
+    entries = [ENTRY | {"name": "one"}, ENTRY | {"name": "two", "role": "check"}]
+    config = {"site": "here", "drives": entries, "simulation": SIMULATION, "alignment": {"search": 0.5}}
+    drives = [files / "fit.csv", tmp_path / "copy.csv"]
+    with pytest.raises(InputError) as problem:
+        measured.main(files / "road.nc", car_file, drives, config, tmp_path / "measured.nc", workers=1)
+    assert str(problem.value).startswith(f"{drives[1]}: a_z: is that of {drives[0]} sample by sample, expected a record once")
+    assert not (tmp_path / "measured.nc").exists()
 
 
 def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):

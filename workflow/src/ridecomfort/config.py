@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import filecmp
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from statistics import NormalDist
@@ -143,17 +144,29 @@ def _site(name: str, folder: Path, standin: Mapping) -> dict:
     names = [drive.setdefault("name", Path(drive["file"]).stem) for drive in site["drives"]]
     for twice in sorted({drive for drive in names if names.count(drive) > 1}):
         raise InputError(f"two drives are named {twice!r}", file=file, place="drives")
-    records = [_record_of(drive) for drive in site["drives"]]
-    for number, (drive, own) in enumerate(zip(site["drives"], records), start=1):
-        if own in records[: number - 1]:
-            problem = f"{drive['file']!r} is entry {records.index(own) + 1} already, expected a record once, either fitted or held out"
-            raise InputError(problem, file=file, place=f"drives: entry {number}: file")
+    for number, drive in enumerate(site["drives"], start=1):
+        for entry, earlier in enumerate(site["drives"][: number - 1], start=1):
+            if said := _same_record(drive, earlier, folder):
+                problem = f"{drive['file']!r} {said} entry {entry} already, expected a record once, either fitted or held out"
+                raise InputError(problem, file=file, place=f"drives: entry {number}: file")
     return site
 
 
-def _record_of(drive: Mapping) -> tuple:
-    """What tells a record from another: its file, which may hold those of several instruments, and the columns that are read of it."""
-    return Path(drive["file"]).resolve(), drive.get("columns")
+def _same_record(drive: Mapping, other: Mapping, folder: Path) -> str:
+    """How a drive is the record of the other, by file or as a copy of it, in words that come before the other's name; empty where it is not.
+
+    A file may hold records of several instruments: the columns that are read tell them apart. Contents are read of files of equal size only,
+    up to the first difference, which two records show in their first lines. ``steps.measured`` knows copies by their samples that are not
+    equal byte by byte.
+    """
+    if drive.get("columns") != other.get("columns"):
+        return ""
+    files = [folder / each["file"] for each in (drive, other)]
+    if files[0].resolve() == files[1].resolve():
+        return "is"
+    if all(file.is_file() for file in files) and filecmp.cmp(*files, shallow=False):  # those of a stand-in are made later
+        return f"holds the same as {other['file']!r}, which is"
+    return ""
 
 
 def _check_drive(drive: Mapping, file, place: str) -> None:
@@ -363,10 +376,10 @@ def _check_calibrations(study: Study) -> None:
         if study.vehicle(other) != study.vehicle(name):
             raise InputError(f"site {other!r} has another vehicle", file=file, place=place)
         _check_circle(study, name, file, place)
-        fitted = [_record_of(drive) for drive in study.sites[other]["drives"] if drive["role"] == "fit"]
+        fitted = [drive for drive in study.sites[other]["drives"] if drive["role"] == "fit"]
         for number, drive in enumerate(study.sites[name]["drives"] if other != name else (), start=1):
-            if _record_of(drive) in fitted:
-                problem = f"{drive['file']!r} is fitted on {other!r}, on which this site is calibrated, expected a drive that is held out here"
+            if said := next(filter(None, (_same_record(drive, one, study.folder) for one in fitted)), ""):
+                problem = f"{drive['file']!r} {said} fitted on {other!r}, on which this site is calibrated, expected a drive that is held out here"
                 raise InputError(problem, file=file, place=f"drives: entry {number}: file")
 
 

@@ -1,7 +1,9 @@
 """Read a site's measured drives and bring them into line with its road: clock, speed, path, mounting."""
 
 from collections.abc import Mapping, Sequence
+from itertools import combinations
 
+import numpy as np
 import xarray as xr
 
 from ridecomfort import pool, simulate, store
@@ -29,6 +31,7 @@ def of_files(
     """The drives of a ``car`` in files, aligned with the road, and what speaks against their distances; aligned for the car as it is
     supposed to be, its ``own`` vehicle with ``effects``."""
     read = [configured.read(path, entry, car, rate=config["simulation"]["rate"]) for path, entry in zip(files, config["drives"], strict=True)]
+    _check_once(files, read)
     options = {"step": config["simulation"]["step"], "effects_folder": config.get("effects_folder")}
 
     def found(path, drive: xr.Dataset) -> xr.Dataset:
@@ -43,6 +46,20 @@ def of_files(
     is_of_front_axle = all(entry.get("distance_of") == "front_axle" for entry in config["drives"])
     doubt = "" if metres is None else lead.words(metres, car["cg_to_front_axle"], is_of_front_axle)
     return record.stack(aligned).assign_attrs(distance_doubt=doubt)
+
+
+def _check_once(files: Sequence, drives: Sequence[xr.Dataset]) -> None:
+    """InputError where two drives are one record: exported twice, cut, or under other names of its columns. As repeats they would differ by
+    no noise, and what one of them taught would be confirmed by the other.
+
+    No instrument reads the same a_z twice, sample by sample, on a whole half of a drive (the middle one of the shorter: filters leave traces
+    at the ends of a cut).
+    """
+    readings = [np.round(drive["a_z"].values / record.FINEST).astype(np.int64) for drive in drives]
+    for (other, one), (file, two) in combinations(zip(files, readings), 2):
+        short, long = sorted((one, two), key=len)
+        if short[len(short) // 4 : len(short) - len(short) // 4].tobytes() in long.tobytes():
+            raise InputError(f"is that of {other} sample by sample, expected a record once, either fitted or held out", file=file, place="a_z")
 
 
 if __name__ == "__main__":
