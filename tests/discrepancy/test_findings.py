@@ -163,3 +163,19 @@ def test_every_condition_that_is_located_has_its_words():
     series = {name: 10.0 + rng.standard_normal(1000) for name in held}
     assert set(classes.conditions(series, 100.0)) == set(findings.CONDITIONS)
     assert findings.CONDITIONS["curvature"][0](0.01) == "radii below 100 m"
+
+
+@pytest.mark.parametrize(
+    ("condition", "edge", "above", "below"),
+    [
+        ("curvature", 4.7e-5, "bends", "straight stretches"),
+        ("curvature", 0.002, "radii below 500 m", "radii above 500 m"),
+        ("lateral_acceleration", 0.0341, "lateral accelerations above 0.034 m/s²", "lateral accelerations below 0.034 m/s²"),
+        ("longitudinal_acceleration", 1.349, "braking or driving above 1.3 m/s²", "braking or driving below 1.3 m/s²"),
+        ("suspension_velocity", 0.00041, "suspension velocities above 0.00041 m/s", "suspension velocities below 0.00041 m/s"),
+        ("tyre_velocity", 0.2, "tyre velocities above 0.2 m/s", "tyre velocities below 0.2 m/s"),
+    ],
+)
+def test_edges_near_nil_are_said_as_what_they_are(condition, edge, above, below):
+    """On a road with a straight the lowest class ends where an edge in tenths reads 0.0."""
+    assert [said(edge) for said in findings.CONDITIONS[condition]] == [above, below]

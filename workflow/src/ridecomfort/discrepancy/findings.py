@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -41,25 +42,30 @@ STRAIGHT = 3000.0
 """m of radius above which a road is called straight."""
 
 
+def _tighter(curvature: float) -> str:
+    radius = 1 / max(curvature, 1e-6)
+    return "bends" if radius > STRAIGHT else f"radii below {radius:.0f} m"
+
+
 def _straighter(curvature: float) -> str:
     radius = 1 / max(curvature, 1e-6)
     return "straight stretches" if radius > STRAIGHT else f"radii above {radius:.0f} m"
 
 
+def _of_size(what: str, unit: str) -> tuple[Callable[[float], str], Callable[[float], str]]:
+    """Both sides of an edge of a size that begins at nil: two digits, for an edge that is printed as nil says nothing, or what cannot be."""
+    digits = partial(np.format_float_positional, precision=2, fractional=False, trim="-")
+    return lambda edge: f"{what} above {digits(edge)} {unit}", lambda edge: f"{what} below {digits(edge)} {unit}"
+
+
 CONDITIONS: dict[str, tuple[Callable[[float], str], Callable[[float], str]]] = {
     "speed": (lambda v: f"speeds above {3.6 * v:.0f} km/h", lambda v: f"speeds below {3.6 * v:.0f} km/h"),
-    "curvature": (lambda c: f"radii below {1 / max(c, 1e-6):.0f} m", _straighter),
-    "lateral_acceleration": (
-        lambda a: f"lateral accelerations above {a:.1f} m/s²", lambda a: f"lateral accelerations below {a:.1f} m/s²",
-    ),
-    "longitudinal_acceleration": (
-        lambda a: f"braking or driving above {a:.1f} m/s²", lambda a: f"braking or driving below {a:.1f} m/s²",
-    ),
-    "suspension_velocity": (
-        lambda v: f"suspension velocities above {v:.2f} m/s", lambda v: f"suspension velocities below {v:.2f} m/s",
-    ),
-    "tyre_velocity": (lambda v: f"tyre velocities above {v:.2f} m/s", lambda v: f"tyre velocities below {v:.2f} m/s"),
-}  # fmt: skip
+    "curvature": (_tighter, _straighter),
+    "lateral_acceleration": _of_size("lateral accelerations", "m/s²"),
+    "longitudinal_acceleration": _of_size("braking or driving", "m/s²"),
+    "suspension_velocity": _of_size("suspension velocities", "m/s"),
+    "tyre_velocity": _of_size("tyre velocities", "m/s"),
+}
 """How the upper and the lower classes of a condition are said."""
 
 
