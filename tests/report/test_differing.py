@@ -380,6 +380,25 @@ def test_what_the_100_percent_of_a_site_are_is_said_where_sites_differ_in_it(stu
         assert any(f"{start}the uncalibrated base model" in note for note in of_none[name].notes)
 
 
+def test_where_nothing_is_calibrated_the_ladder_says_so_and_not_that_models_are(study):
+    """Effects are compared at the sizes that they are configured with then; that one does not help may mean a wrong size only."""
+    start, none = "Every model is calibrated anew on the fitted drives", "Nothing is calibrated{}: effects have the sizes that they are configured with"
+    rmse = study.ladder["rmse"].copy()
+    rmse.loc[{"rung": "calibrated", "site": "ts2"}] = np.nan
+    mixed = " ".join(notes_of_ladder(study, rmse))
+    rmse.loc[{"rung": "calibrated"}] = np.nan
+    of_none = " ".join(notes_of_ladder(study, rmse, reference="uncalibrated"))
+    of_all = " ".join(notes_of_ladder(study, study.ladder["rmse"]))
+    assert start in of_all and "Nothing is calibrated" not in of_all
+    assert f"{start} ({none.format(' on Ts2')}" in mixed
+    assert none.format("") in of_none and "calibrated anew" not in of_none and "fitted to the others" not in of_none
+
+
+def notes_of_ladder(study, rmse, **attributes):
+    """Notes below the error ladder with these errors."""
+    return differing.tables(replace(study, ladder=study.ladder.assign(rmse=rmse).assign_attrs(attributes)))["error_ladder"].notes
+
+
 def test_repeats_of_all_drives_count_by_their_sections(study):
     """1800 sections of which 5 % differ and 60 of which half do are 6.5 % of all, not 27.5 %."""
     found = study.ladder.sel(site="ts1").copy(deep=True)

@@ -83,8 +83,8 @@ SCORE_TABLES = {
 }
 
 DIFFERENCE_FIGURES = {
-    "error_ladder": "The error ladder: share of the explainable error that each model, calibrated anew, leaves on fitted and on held-out "
-    "drives, and sections that the replays grade otherwise than the measured drives; dashed, repeats against one another.",
+    "error_ladder": "The error ladder: share of the explainable error that each model, calibrated anew where drives are fitted, leaves on "
+    "fitted and on held-out drives, and sections that the replays grade otherwise than the measured drives; dashed, repeats against one another.",
 }
 
 DIAGNOSIS_FIGURES = {

@@ -17,6 +17,11 @@ from ..units import printed
 METHODS = {key: notation.METHODS[key] for key in critical.METHODS}
 FLOOR = "lowest floor"
 
+NOT_CALIBRATED = (
+    "Nothing is calibrated{where}: effects have the sizes that they are configured with, and one that does not help may only have the wrong size"
+)
+"""What is said of a ladder, or of the sites in it, whose models have no calibrated vehicle."""
+
 
 def rung_title(name: str) -> str:
     """A rung in print: names of effects in words."""
@@ -72,8 +77,7 @@ def error_ladder(study: Difference) -> Table:
     notes = (
         f"RMSE: of the error from {judged.IN_WORDS}; slower errors are drifts of instruments and what the driver makes of the path. "
         f"Left: error above the floor, as a share of what {_reference(study)} leaves; – where a signal had nothing above the floor. "
-        "Every model is calibrated anew on the fitted drives, and all drives are aligned for it (for uncalibrated as for calibrated); nothing else is ever fitted to the others. All "
-        "signals: each weighs as "
+        f"{_how_calibrated(study)} All signals: each weighs as "
         f"much as there was to explain of its own error. Fall: from the row above, and in how many of the stretches of {STRETCH:g} m that "
         f"these drives have. A model helps where chance makes it fall so in at most one of {1 / rungs.LEVEL:.0f} cases (Wilcoxon's signed ranks of "
         f"the stretches), little where it falls by less than {100 * rungs.WORTHWHILE:g} %. What helps drives held out on no site is to be taken out "
@@ -136,9 +140,26 @@ def _reference(study: Difference) -> str:
     """The model whose error is the 100 %; a site on which nothing is calibrated has another than those beside it."""
     if study.ladder.attrs["reference"] == rungs.UNCALIBRATED:
         return "the uncalibrated base model"
-    has_none = ~np.isfinite(study.ladder["rmse"].sel(rung=rungs.CALIBRATED)).any(["group", "signal"])
-    others = ", ".join(catalogue.label(site) for site in study.ladder["site"].values[has_none].tolist())
+    others = ", ".join(_uncalibrated(study))
     return "the calibrated base model" + (f" (on {others} the uncalibrated one)" if others else "")
+
+
+def _uncalibrated(study: Difference) -> list[str]:
+    """Sites in print on which nothing is calibrated."""
+    has_none = ~np.isfinite(study.ladder["rmse"].sel(rung=rungs.CALIBRATED)).any(["group", "signal"])
+    return [catalogue.label(site) for site in study.ladder["site"].values[has_none].tolist()]
+
+
+def _how_calibrated(study: Difference) -> str:
+    """What is fitted to which drives before models are compared, in sentences."""
+    uncalibrated = _uncalibrated(study)
+    if len(uncalibrated) == study.ladder.sizes["site"]:
+        return f"{NOT_CALIBRATED.format(where='')}. All drives are aligned for each model."
+    but = f" ({NOT_CALIBRATED.format(where=' on ' + ', '.join(uncalibrated))})" if uncalibrated else ""
+    return (
+        f"Every model is calibrated anew on the fitted drives{but}, and all drives are aligned for it (for uncalibrated as for calibrated); "
+        "nothing else is ever fitted to the others."
+    )
 
 
 def _of_reference(study: Difference) -> list[str]:
