@@ -188,6 +188,29 @@ def test_a_vehicle_outside_of_the_bounds_it_would_be_calibrated_in_is_refused_wi
     config.load({"sites": ["own"]}, project)
 
 
+def test_what_a_vehicle_has_not_is_calibrated_in_bounds_of_ones_own(project):
+    """Half and twice nil are no interval; no one would know of them when the step ends."""
+    (project / "drive.csv").write_text(HEADER)
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [DRIVE]})
+    file = project / config.VEHICLES / "midsize.yaml"
+    vehicle = yaml.safe_load(file.read_text())
+    vehicle["parameters"]["anti_roll_stiffness_rear"]["value"] = 0.0
+    file.write_text(yaml.safe_dump(vehicle))
+    chosen = {"parameters": ["anti_roll_stiffness_rear"]}
+    said = "calibration: bounds: config/vehicles/midsize.yaml has anti_roll_stiffness_rear 0, half and twice which are no bounds, expected some within 0 to"
+    assert_said(project, {"sites": ["own"], "calibration": chosen}, said, config.STUDY)
+    config.load({"sites": ["own"], "calibration": {**chosen, "bounds": {"anti_roll_stiffness_rear": [0, 20000]}}}, project)
+
+
+def test_starting_values_lie_within_the_bounds_that_the_vehicle_gives(project):
+    (project / "drive.csv").write_text(HEADER)
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": [DRIVE]})
+    start = {"parameters": ["damping_front"], "start": [{"damping_front": 2000}, {"damping_front": 9000}]}
+    said = "calibration: start: damping_front: 9000, expected within 1050 to 4200, half and twice the value of config/vehicles/midsize.yaml"
+    assert_said(project, {"sites": ["own"], "calibration": start}, said, config.STUDY)
+    config.load({"sites": ["own"], "calibration": {**start, "bounds": {"damping_front": [1000, 10000]}}}, project)
+
+
 SITE_MISTAKES = [
     ({"road": {"file": "gone.crg"}}, "road: file: no such file 'gone.crg'"),
     ({"rode": {"file": "road.crg"}}, "'rode'"),

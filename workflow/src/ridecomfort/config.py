@@ -253,7 +253,7 @@ def _check_parameters(calibration: Mapping, source) -> None:
         if name not in chosen:
             what = f"{name!r} is not calibrated; expected of {', '.join(chosen)}"
             raise InputError(what, file=source, place="calibration: start")
-        lower, upper = calibration["bounds"].get(name, (value, value))  # else those that the vehicle's own value gives
+        lower, upper = calibration["bounds"].get(name, (value, value))  # else ``_check_own_bounds``
         if not lower <= value <= upper:
             what = f"{value:g}, expected within the bounds {lower:g} to {upper:g}"
             raise InputError(what, file=source, place=f"calibration: start: {name}")
@@ -301,6 +301,25 @@ def _check_bounds(study: Study, given: list[str]) -> None:
                 file=_source("calibration", given),
                 place="calibration: bounds",
             )
+        _check_own_bounds(vehicle, study.vehicle(name), block, _source("calibration", given))
+
+
+def _check_own_bounds(vehicle, file, block: Mapping, source) -> None:
+    """Bounds that no one wrote, which a vehicle's own values give, are intervals and hold the starting values."""
+    own = {name: vehicle.about(name) for name in block["parameters"] if name not in block["bounds"]}
+    for name, (lower, upper) in own.items():
+        if not lower < upper:
+            span = parameters.PARAMETERS[name]
+            what = (
+                f"{file} has {name} {vehicle[name]:g}, half and twice which are no bounds, "
+                f"expected some within {span.lower:g} to {span.upper:g}, or {name} not among parameters"
+            )
+            raise InputError(what, file=source, place="calibration: bounds")
+    for name, value in (pair for start in block["start"] for pair in start.items()):
+        lower, upper = own.get(name, (value, value))
+        if not lower <= value <= upper:
+            what = f"{value:g}, expected within {lower:g} to {upper:g}, half and twice the value of {file}, or bounds that hold it"
+            raise InputError(what, file=source, place=f"calibration: start: {name}")
 
 
 def _check_width(study: Study, given: list[str]) -> None:
