@@ -20,10 +20,10 @@ STRIDE = 13
 """By how many effects the turn of a seed begins later than that of the seed before: one round is not always of the first of the library. Odd,
 so that kinds by turns alternate between seeds, too."""
 
-FAINT = ("aerodynamic_lift", "anti_dive", "anti_squat", "bump_stop", "drivetrain_lag", "gear_shift", "rebound_stop", "steering_compliance",
+FAINT = ("aerodynamic_lift", "anti_dive", "anti_squat", "bump_stop", "drivetrain_lag", "gear_shift", "rebound_stop",
          "tyre_enveloping", "tyre_progression", "wheel_compliance")  # fmt: skip
-"""Effects whose plausible sizes, typically shaped, come up to no kappa of 0.3 on such drives, bump stops on few of them (two roads of 13); they are
-drawn alone only."""
+"""Effects whose plausible sizes, typically shaped, come up to no kappa of 0.3 (``score.level``) on such drives, bump stops on few of them (two
+roads of 13); they are drawn alone only."""
 
 MADE_UP = ("body_in_roll", "damper_by_travel", "damper_worn", "friction_by_travel", "propeller_shaft", "spring_cubic",
            "tyre_hysteresis", "tyre_oval", "damper_cavitation", "frequency_selective_damper", "joint_backlash", "orifice_damping",
