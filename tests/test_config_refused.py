@@ -166,6 +166,32 @@ def test_mistake_on_the_command_line(project, change, said):
         config.load({"sites": ["own"], **change}, project, given=["runs"])
 
 
+def merged(project, file, line):
+    """Settings as Snakemake hands them over: a block of the command line merged into that of the file."""
+    (project / config.STUDY).write_text(yaml.safe_dump({"sites": ["own"], "calibration": file}))
+    return {"sites": ["own"], "calibration": {**file, **line}}
+
+
+@pytest.mark.parametrize(
+    ("file", "line", "source"),
+    [
+        ({"tolerance": 5}, {"restarts": "3"}, config.STUDY),
+        ({"tolerance": 5}, {"tolerance": "6"}, "--config"),
+        ({}, {"tolerance": "5"}, "--config"),
+        ({"start": [{"damping_rear": 1}]}, {"restarts": "3"}, config.STUDY),
+        ({"parameters": ["damping_front"]}, {"start": [{"damping_rear": "1"}]}, "--config"),
+    ],
+)
+def test_a_mistake_of_the_file_is_not_blamed_on_the_command_line(project, file, line, source):
+    with pytest.raises(InputError, match=f"^{source}: calibration: (tolerance: .* expected at most|start: 'damping_rear' is not calibrated)"):
+        config.load(merged(project, file, line), project, given=["calibration"])
+
+
+def test_a_mistake_of_the_file_that_the_command_line_mends_is_none(project):
+    study = config.load(merged(project, {"tolerance": 5}, {"tolerance": "0.01"}), project, given=["calibration"])
+    assert study.settings["calibration"]["tolerance"] == 0.01
+
+
 def test_a_bracket_on_the_command_line_that_is_not_closed_is_one_line(project):
     with pytest.raises(InputError, match="--config: '.damper_knee' is not valid YAML") as problem:
         config.load({"sites": ["own"], "effects": "[damper_knee"}, project, given=["effects"])

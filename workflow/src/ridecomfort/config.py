@@ -24,6 +24,7 @@ STUDY = Path("config/study.yaml")
 SITES = Path("config/sites")
 STANDIN = Path("config/standin.yaml")
 RESULTS = Path("results")
+COMMAND_LINE = "--config"
 
 TAKEN = frozenset(
     "all compare diagnose report blind survey road inspect measured realigned calibrate sample simulate handed_in space thresholds "
@@ -40,8 +41,28 @@ def load(settings: Mapping, folder: Path | str = ".", given: Iterable[str] = ())
     not looked for in the file. Raises InputError on the first mistake found, in the study,
     its sites or its vehicles.
     """
-    folder = Path(folder)
     given = list(given)
+    try:
+        return _load(settings, Path(folder), given)
+    except InputError as problem:
+        if str(problem).startswith(COMMAND_LINE):
+            _load_own(settings, Path(folder), given, problem)
+        raise
+
+
+def _load_own(settings: Mapping, folder: Path, given: list[str], problem: InputError) -> None:
+    """Raise the ``problem`` that seems to be one of the command line as one of the file, if it stands there as well: Snakemake merges a block
+    of the command line into that of the file."""
+    file = read_yaml(folder / STUDY) if (folder / STUDY).is_file() else {}
+    own = {key: file[key] for key in given if key in file and key != "sites"}
+    try:
+        _load({**settings, **own}, folder, [key for key in given if key not in own])
+    except InputError as of_file:
+        if str(of_file) == str(problem).replace(COMMAND_LINE, str(STUDY), 1):
+            raise of_file from None
+
+
+def _load(settings: Mapping, folder: Path, given: list[str]) -> Study:
     settings = _study({**settings, **{key: _typed(settings[key]) for key in given}}, given)
     standin = _standin(folder)
     known = sorted(path.stem for path in (folder / SITES).glob("*.yaml"))
@@ -81,17 +102,17 @@ def _typed(value):
     try:
         return yaml.safe_load(value) if isinstance(value, str) else value
     except yaml.YAMLError:
-        raise InputError(f"{value!r} is not valid YAML (expected a value as in {STUDY.as_posix()}; is a bracket or a quote not closed?)", file="--config") from None
+        raise InputError(f"{value!r} is not valid YAML (expected a value as in {STUDY.as_posix()}; is a bracket or a quote not closed?)", file=COMMAND_LINE) from None
 
 
 def _source(key: str, given: Iterable[str]):
-    return "--config" if key in given else STUDY
+    return COMMAND_LINE if key in given else STUDY
 
 
 def _study(settings: Mapping, given: list[str]) -> dict:
     own = {key: value for key, value in settings.items() if key not in given}
     if given:
-        validate({"sites": ["any"], **{key: settings[key] for key in given}}, "study", "--config")
+        validate({"sites": ["any"], **{key: settings[key] for key in given}}, "study", COMMAND_LINE)
         if "sites" in given:
             own["sites"] = settings["sites"]
     validate(own, "study", STUDY)
