@@ -148,6 +148,15 @@ def test_a_plan_says_which_settings_changed(tmp_path):
     assert stream.getvalue() == "iri one: Settings have changed: iri: segment: 50 -> 25; Code has changed\n"
 
 
+@pytest.mark.parametrize(("asked", "hint"), [("mysite", "to choose the site append --config sites=[mysite]"), ("other", "see README.md")])
+def test_a_site_that_has_a_file_and_is_not_of_the_study_is_no_unknown_name(watched, tmp_path, monkeypatch, asked, hint):
+    (tmp_path / "config" / "sites").mkdir(parents=True)
+    (tmp_path / "config" / "sites" / "mysite.yaml").touch()
+    monkeypatch.chdir(tmp_path)
+    log(watched, "error", exception="MissingRuleException", msg=f"No rule to produce {asked} (if you use input functions ...)")
+    assert watched.said() == [f"error: {asked}: no site of the study and no target of this name; {hint}"]
+
+
 def test_no_guess_before_the_main_rule_was_timed(watched, clock):
     log(watched, "run_info", stats={"road": 1, "simulate": 10, "total": 11})
     start(watched, 1, "road", site="ts1")

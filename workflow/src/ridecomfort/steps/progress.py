@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
+from ..config import SITES
 from .command import NOTE
 
 SILENCED = ("job_info", "job_started", "job_finished", "job_error", "progress")
@@ -96,9 +97,7 @@ class Progress(logging.Handler):
                 case "job_error":
                     self._failed(record)
                 case "error" if missing := _missing(record):
-                    close = difflib.get_close_matches(missing, self.rules(), n=1)
-                    hint = f"did you mean {close[0]!r}?" if close else "see README.md"
-                    self._write(f"error: {missing}: no site of the study and no target of this name; {hint}")
+                    self._write(f"error: {missing}: no site of the study and no target of this name; {self._meant(missing)}")
         except Exception:  # a study must not end because of a line on the screen
             self.handleError(record)
 
@@ -133,6 +132,13 @@ class Progress(logging.Handler):
         is_written = self.counts["diagnosed"] > 0 and self.todo["diagnosed"] == 0
         if self.counts["diagnosis"] + self.counts["diagnosed"] > 0 and not is_written and Path(VERDICT).is_file():
             self._write(f"{VERDICT} and what stands beside it are of an earlier diagnosis: this run ended before its own were written")
+
+    def _meant(self, missing: str) -> str:
+        """What may have been meant by a target that there is not."""
+        if (SITES / f"{missing}.yaml").is_file():
+            return f"to choose the site append --config sites=[{missing}]"
+        close = difflib.get_close_matches(missing, self.rules(), n=1)
+        return f"did you mean {close[0]!r}?" if close else "see README.md"
 
     def _count(self, stats: Mapping[str, int]) -> None:
         self.counts = Counter({rule: count for rule, count in stats.items() if rule != "total"})
