@@ -121,7 +121,9 @@ def test_a_force_is_held_against_what_effects_without_a_name_removed_also_where_
     assert judge.judge(selection, model.candidates).of_all is None
 
 
-@pytest.mark.parametrize(("gone", "left_z", "is_material", "verdict"), [(0.1, 6.0, True, "outside"), (0.9, 0.0, False, "named"), (0.6, 0.0, True, "outside")])
+@pytest.mark.parametrize(
+    ("gone", "left_z", "is_material", "verdict"), [(0.1, 6.0, True, "outside"), (0.9, 0.0, False, "named"), (0.6, 0.0, True, "outside")]
+)
 def test_where_hardly_anything_lies_above_the_floor_half_is_asked_of_what_repeats_share(gone, left_z, is_material, verdict):
     """A hundredth of the power of one signal: what share of that goes nobody knows; repeats share an error for certain, at first and still."""
     model = Linear(1, {"effect_2.size": 1.0})

@@ -23,8 +23,8 @@ LEAST = 0.02
 
 
 class Own(NamedTuple):
-    """What a repeat has of its own at equal place: ``inside`` (sample,), where another drove as well; ``noise`` (channel, sample) there, its power that
-    of one drive's noise; and ``common`` (channel,), the mean square there of what those that drove there share, by chance below nil."""
+    """What a repeat has of its own at equal place: ``inside`` (sample,), where another drove as well; ``noise`` (channel, sample) there, its power
+    that of one drive's noise; and ``common`` (channel,), the mean square there of what those that drove there share, by chance below nil."""
 
     inside: np.ndarray
     noise: np.ndarray

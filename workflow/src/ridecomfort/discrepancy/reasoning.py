@@ -41,7 +41,8 @@ def removed_by(balance: Balance, selection: Selection, unnamed: Collection[str] 
     with_all = " and ".join(percent(share) for share in every if np.isfinite(share))
     nil = [NIL] if np.isnan(removed[0]) else []
     more = [f"{with_all} with {', '.join(unnamed)} as well"] if named and unnamed else []
-    return [f"{percent(removed[0])} of the explainable error is removed on the fitted drives, by {', '.join(named or selection.kept)}", *nil, *held_out, *more]
+    by = ", ".join(named or selection.kept)
+    return [f"{percent(removed[0])} of the explainable error is removed on the fitted drives, by {by}", *nil, *held_out, *more]
 
 
 def in_vain(found: Sequence[Named]) -> str:

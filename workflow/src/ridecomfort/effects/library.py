@@ -191,7 +191,8 @@ def _check_parameters(effect: Effect, path: Path) -> None:
         if not (_is_number(low) and _is_number(high) and low < high):
             raise InputError(f"plausible is {parameter.plausible!r} (expected two numbers, the lower one first)", file=path, place=parameter.name)
         if not low <= parameter.typical <= high:
-            raise InputError(f"typical is {parameter.typical:g} (expected a value that is plausible, {low:g} to {high:g})", file=path, place=parameter.name)
+            expected = f"expected a value that is plausible, {low:g} to {high:g}"
+            raise InputError(f"typical is {parameter.typical:g} ({expected})", file=path, place=parameter.name)
 
 
 def _is_number(value) -> bool:

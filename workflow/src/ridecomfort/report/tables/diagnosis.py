@@ -310,7 +310,8 @@ def _rounds(tested: xr.Dataset) -> Iterator[tuple[int, dict[str, tuple]]]:
                 )  # fmt: skip
             score = float(one["p_value"][place]), float(gain[place]), _percent(float(one["absorbed"][place]))
             told[name] = (*score, *refit, came[name])
-        told |= {name: (*(None,) * 3, "", *(None,) * 4, why) for name, why in came.items() if name not in told and why.startswith((UNDRIVEN, UNSIZED))}
+        untested = {name: why for name, why in came.items() if name not in told and why.startswith((UNDRIVEN, UNSIZED))}
+        told |= {name: (*(None,) * 3, "", *(None,) * 4, why) for name, why in untested.items()}
         yield int(turn), told
 
 
