@@ -18,7 +18,7 @@ import xarray as xr
 
 from ..errors import InputError
 from ..vocabulary import SIGNALS
-from . import axes, mounting, path, pedals, place, turning
+from . import axes, mounting, path, pedals, place, signs, turning
 from .distance import DIFFERENTIATED
 from .record import acceleration, felt
 from .replay import Following, Simulated, replay
@@ -94,6 +94,8 @@ def align(
         work = place.driven(work, drive, way, scale, offset)
         kept = place.on_road(work, road, place.ODOMETER_REACH, place.ODOMETER_REACH)
         work, drive = place.cut(work, kept), place.cut(drive, kept)
+    wrong = signs.against(work, road, vehicle, simulate, options)
+    work = signs.reversed_in(work, wrong)
     error, fitted, turned = np.nan, mounting.Mounting(), 0.0
     try:
         found = _found(work, road, vehicle, simulate, search, options)
@@ -138,6 +140,7 @@ def align(
             break
     aligned = _without_gravity(work, replace(asked(), by_foot=by_foot).following(vehicle).simulated)
     told = exchanged or "; ".join(filter(None, (doubt or _unsettled(work, last, turned), mounting.words(fitted))))
+    told = "; ".join(filter(None, (signs.words(wrong), told)))
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
         clock_offset=float(clock),
@@ -151,7 +154,7 @@ def align(
         yaw_rate_gain=turning.gyroscope_gain(aligned, getattr(road, "road", road))[0],
         **fitted.attributes(),
     )
-    return aligned
+    return signs.reversed_in(aligned, wrong)
 
 
 def _odometer(work: xr.Dataset, way: place.Way, road, vehicle, simulate, options: Mapping) -> tuple[str, xr.Dataset]:

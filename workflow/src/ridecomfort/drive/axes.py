@@ -21,6 +21,19 @@ times that of the axes as they are: that of an instrument turned by 63 deg, whic
 def agreement(again: Replay, simulated: Simulated) -> np.ndarray:
     """Correlation of record and model, mean over the PAIRS, (4,): as recorded, and of an instrument that is turned to the left by one, two, and
     three quarters. What either does not move in counts nothing; accelerations hold gravity where those of the record do."""
+    own, exchanged = _correlations(again, simulated)
+    right, left = own.mean(), exchanged.mean()
+    return np.array([right, left, -right, -left])
+
+
+def put_right(again: Replay, simulated: Simulated) -> tuple[float, float]:
+    """The same mean with every sign put right, and of an instrument that is turned by the best angle of all."""
+    own, exchanged = _correlations(again, simulated)
+    return float(np.abs(own).mean()), float(np.hypot(own.mean(), exchanged.mean()))
+
+
+def _correlations(again: Replay, simulated: Simulated) -> tuple[np.ndarray, np.ndarray]:
+    """Correlations of record and model, (pair, 2): of each of the PAIRS with itself, and as it is told after a quarter to the left."""
     measured, model = again.measured(), simulated.signals.copy()
     if again.drive.attrs["gravity"]:
         measured[:3], model[:3] = record.felt(again.drive), record.specific_force(model[:3], simulated.roll, simulated.pitch)
@@ -31,9 +44,9 @@ def agreement(again: Replay, simulated: Simulated) -> np.ndarray:
         spread = one.std() * other.std()
         return float(np.mean((one - one.mean()) * (other - other.mean())) / spread) if moves[SIGNALS.index(of)] and spread > 0 else 0.0
 
-    right = np.mean([[correlation(along, along), correlation(across, across)] for along, across in PAIRS])
-    left = np.mean([[-correlation(across, along), correlation(along, across)] for along, across in PAIRS])
-    return np.array([right, left, -right, -left])
+    own = [[correlation(along, along), correlation(across, across)] for along, across in PAIRS]
+    exchanged = [[-correlation(across, along), correlation(along, across)] for along, across in PAIRS]
+    return np.array(own), np.array(exchanged)
 
 
 def words(again: Replay, simulated: Simulated) -> str:

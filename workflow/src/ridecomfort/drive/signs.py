@@ -1,0 +1,107 @@
+"""Whether signals of an instrument have the wrong sign: axes that point to the right, backward or down, rates that turn the other way.
+
+It is asked before clock and path are looked for: what runs against the model hides both, and agrees by chance elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+from scipy.signal import butter, correlate, sosfiltfilt
+
+from ..vocabulary import SIGNALS
+from . import axes, path, record
+from .place import FARTHEST, SHAKEN, SHAKEN_BAND, STANDS_STILL
+from .replay import Replay, Simulated, replay
+
+AGAINST = 0.5
+"""Correlation below minus which a signal has the wrong sign. At the place and on the path that it was driven on, a signal with the right one has 0.75 to
+1.0 (yaw rate on a road without a bend 0.35 or more), half a metre and more aside down to -0.15; one with the wrong sign has the same with a minus."""
+
+SURE = 0.5
+"""Correlation (rms over SHAKEN, whatever their signs) from which a drive is where and on the path that was tried: 0.75 to 0.98 with a nominal
+vehicle, at a wrong place up to 0.3 (``align.LOWEST``)."""
+
+TURNED = 0.8
+"""Share of the agreement with signs put right that an instrument turned by some angle has at least where it is turned: it has all of it then, and
+0.7 at most where one sign or more is wrong and none of these signals is weak."""
+
+POINTS = {"a_x": "the x axis points backward", "a_y": "the y axis points to the right", "a_z": "the z axis points down"}
+"""What an acceleration of the wrong sign tells of its instrument."""
+
+
+def against(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> dict[str, float]:
+    """Signals of a levelled drive (``mounting.level``) that run against the model where it was driven, with their correlations; none where that is
+    not sure, nor those of an instrument that is turned in yaw.
+
+    Looked for at all lags between the inertial signals and the place up to FARTHEST, on the path that was recorded or told, and where nothing
+    agrees there, or none was, on all that the road allows.
+    """
+    short = path.part(work)
+    right, left = path.free(short, road)
+    aside = path.COARSE * np.arange(np.ceil((right - path.TIE) / path.COARSE), np.floor((left + path.TIE) / path.COARSE) + 1)
+    tries = ([0.0], aside) if path.is_known(work) else (aside if aside.size else [0.0],)
+    best, found = 0.0, None
+    for tried in tries:
+        for lateral in map(float, tried):
+            again = replay(short, road, simulate, lateral_correction=lateral, options=options)
+            lags, each = _correlations(again, again(vehicle))
+            agreement = np.sqrt(np.mean(each[[SIGNALS.index(name) for name in SHAKEN]] ** 2, axis=0))
+            at = int(np.argmax(agreement))
+            if agreement[at] > best:
+                best, found = float(agreement[at]), (again, float(lags[at]), each[:, at])
+        if best >= SURE:
+            break
+    if best < SURE:
+        return {}
+    again, lag, each = found
+    wrong = {name: float(own) for name, own in zip(SIGNALS, each) if own < -AGAINST}
+    horizontal = {name for pair in axes.PAIRS for name in pair}
+    if horizontal & set(wrong):
+        put_right, turned = axes.put_right(again, again(vehicle, clock=lag))
+        if turned > TURNED * put_right:
+            wrong = {name: own for name, own in wrong.items() if name not in horizontal}
+    return wrong
+
+
+def _correlations(again: Replay, simulated: Simulated) -> tuple[np.ndarray, np.ndarray]:
+    """Lags (s) of the record behind the model, up to FARTHEST and half the record, and the correlation of every signal at each, (6, lag): of SHAKEN in
+    SHAKEN_BAND, of the others of all that moves them. Accelerations hold gravity where those of the record do."""
+    interval, kept = again.time[1] - again.time[0], again.compared
+    measured, model = again.measured()[:, kept], simulated.signals[:, kept]
+    if again.drive.attrs["gravity"]:
+        model[:3] = record.specific_force(model[:3], simulated.roll[kept], simulated.pitch[kept])
+        measured[:3] = record.felt(again.drive)[:, kept]
+    lower, upper = SHAKEN_BAND
+    band = butter(2, (lower, min(upper, 0.4 / interval)), "bandpass", fs=1 / interval, output="sos")
+    length = measured.shape[1]
+    reach = min(int(round(FARTHEST / interval)), length // 2)
+    found = np.zeros((len(SIGNALS), 2 * reach + 1))
+    for row, (name, *both) in enumerate(zip(SIGNALS, measured, model)):
+        one, other = (sosfiltfilt(band, own, padlen=0) if name in SHAKEN else own - own.mean() for own in both)
+        if other.std() > STANDS_STILL * one.std() > 0:
+            lags = correlate(one, other, mode="full", method="fft") / (length * one.std() * other.std())
+            found[row] = lags[length - 1 - reach : length + reach]
+    return interval * np.arange(-reach, reach + 1), found
+
+
+def reversed_in(drive: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
+    """The drive with the signals of these names reversed, and what is told of their bias with them."""
+    turned = drive.assign({name: drive[name].copy(data=-drive[name].values) for name in names})
+    biases = {name: -float(drive.attrs[name]) for name in (f"{one}_bias" for one in names) if name in drive.attrs}
+    return turned.assign_attrs(biases)
+
+
+def words(wrong: Mapping[str, float]) -> str:
+    """Words on signals that run ``against`` the model, with what to change; empty where none does."""
+    if not wrong:
+        return ""
+    how_far = ", ".join(f"{own:.2f}" for own in wrong.values())
+    points = " and ".join(said for name, said in POINTS.items() if name in wrong) or "turning is counted the other way round"
+    run, signs = ("run", "are their signs") if len(wrong) > 1 else ("runs", "is its sign")
+    return (
+        f"{', '.join(wrong)} {run} against the model (correlation {how_far}): {signs} wrong, as where {points} "
+        "(if so, change the sign of `factor` under `columns`)?"
+    )
