@@ -102,6 +102,7 @@ def align(
     except PlaceNotFound as problem:
         raise (_of_an_odometer(problem, work, way, road, vehicle, simulate, search, options) if measured else problem) from None
     work, clock, lateral = found
+    work, lateral, on_the_other_side = path.mirrored(work, road, vehicle, simulate, options, lateral)
     work = _where_recorded(work, clock) if measured else work
     work = _on_path(work, lateral)
     exchanged, doubt = "", _odometer(work, way, road, vehicle, simulate, options)[0] if measured else ""
@@ -140,7 +141,7 @@ def align(
             break
     aligned = _without_gravity(work, replace(asked(), by_foot=by_foot).following(vehicle).simulated)
     told = exchanged or "; ".join(filter(None, (doubt or _unsettled(work, last, turned), mounting.words(fitted))))
-    told = "; ".join(filter(None, (signs.words(wrong), told)))
+    told = "; ".join(filter(None, (signs.words(wrong), on_the_other_side, told)))
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
         clock_offset=float(clock),
