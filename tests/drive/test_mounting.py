@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -35,6 +37,9 @@ def test_drives_without_gravity_whose_mounting_is_not_sought_are_left_out():
     measured = drives(3.0, 3.1, 3.0, 0.0, 0.0, 0.0, 0.0)
     assert len(mounting.moved(measured)) == 3
     assert mounting.moved(measured.assign(gravity=("drive", [1, 1, 1, 0, 0, 0, 0]))) == []
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert mounting.moved(measured.assign(gravity=("drive", [0] * 7))) == []
 
 
 @pytest.fixture

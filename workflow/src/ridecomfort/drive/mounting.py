@@ -120,9 +120,11 @@ def moved(measured: xr.Dataset) -> list[str]:
     if "gravity" in measured:
         measured = measured.isel(drive=measured["gravity"].values == 1)
     angles = np.stack([measured[f"mounting_{axis}"].values for axis in axes], axis=1)
+    if len(angles) <= 2:
+        return []
     said = []
     for name, off in zip(measured["drive"].values, angles - np.median(angles, axis=0)):
-        if len(angles) > 2 and np.max(np.abs(off)) > TURNED:
+        if np.max(np.abs(off)) > TURNED:
             turned = ", ".join(f"{angle:+.1f} deg in {axis}" for axis, angle in zip(axes, np.degrees(off)))
             said.append(f"{name}: the instrument is turned by {turned} against the other drives: was it moved? (alignment turns it back)")
     return said
