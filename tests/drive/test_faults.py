@@ -168,3 +168,46 @@ def test_samples_that_stand_alone_are_told_and_bumps_of_the_road_are_not():
 
 def test_a_signal_that_never_changes_shows_nothing():
     assert faults.found(signals(lambda name, values: np.zeros_like(values))) == []
+
+
+@pytest.mark.parametrize("names", [SIGNALS, ("a_z",)], ids=["all", "a_z"])
+@pytest.mark.parametrize("samples", [1, 3, 10])
+@pytest.mark.parametrize("step", [0.0, 0.01])
+def test_samples_that_were_filled_with_noughts_are_told_where_gravity_shows_it(names, samples, step):
+    lost = lambda name, values: np.where((np.arange(TIME.size) // samples == 1000 // samples) & (name in names), 0.0, values + 9.81 * (name == "a_z"))
+    (said,) = faults.found(signals(lost, step))
+    many = f"{samples} samples are" if samples > 1 else "1 sample is"
+    assert said.startswith(f"{', '.join(names)}: {many} exactly 0, the first at {1000 // samples * samples / 100:.2f} s") and said.endswith("noughts?")
+
+
+def test_noughts_in_all_signals_are_told_without_gravity_and_not_of_a_vehicle_that_stands():
+    lost = lambda name, values: np.where(abs(TIME - 30.0) < 0.022, 0.0, values)
+    (said,) = faults.found(signals(lost, 0.001))
+    assert said == f"{', '.join(SIGNALS)}: 5 samples are exactly 0, the first at 29.98 s: lost, and filled with noughts?"
+    assert faults.found(signals(lost, 0.001) | {"v_x": (TIME, np.where(abs(TIME - 30.0) < 1.0, 0.0, 20.0))}) == []
+
+
+def test_a_body_that_falls_freely_for_a_moment_is_not_lost():
+    """Steps of 0.01 m/s2: an a_z that passes 0 is exactly that now and then."""
+    falls = lambda name, values: values + (9.81 - 12.0 * np.exp(-0.5 * ((TIME % 5.0 - 2.5) / 0.05) ** 2)) * (name == "a_z")
+    assert faults.found(signals(falls, 0.01)) == []
+
+
+@pytest.mark.parametrize("lasts", [1, 2, 3])
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_a_few_samples_far_beyond_all_others_are_told(lasts, count):
+    def wild(name, values):
+        for number in range(count if name == "a_z" else 0):
+            values[1000 + 700 * number : 1000 + 700 * number + lasts] += 80.0 * (-1) ** number
+        return values
+
+    (said,) = faults.found(signals(wild))
+    assert said.startswith("a_z: ") and "at 10.00 s" in said and "transmitted wrongly" in said
+
+
+@pytest.mark.parametrize("height", [1.0, 10.0, 80.0])
+@pytest.mark.parametrize("width", [1.2, 3.0])
+def test_a_bump_after_which_the_body_goes_on_moving_is_no_sample_that_is_wild(height, width):
+    after = np.clip(TIME - 30.0, 0.0, None)
+    swings = lambda name, values: values + height * np.exp(-0.5 * ((TIME - 30.0) * 100.0 / width) ** 2) + 0.3 * height * np.exp(-2.0 * after) * np.sin(8.0 * after)
+    assert faults.found(signals(swings)) == []

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..vocabulary import SIGNALS, VARIABLES
+from ..vocabulary import SIGNALS, STANDARD_GRAVITY, VARIABLES
 
 AT_LIMIT, LEVELS, TIMES = 5, 4, 3.0
 """Samples at its largest or smallest value that a signal at a limit has at least, and how many times as many as at any of so many values
@@ -48,6 +48,15 @@ ALONE, FARTHER, SPIKES = 20.0, 4.0, 3
 """Times the median distance of a sample from the middle of its neighbours, and times the changes around it, that one which stands alone is
 away from these; and how many there are at least."""
 
+FALLS, LOST = 0.5, 3
+"""Share of standard gravity that a_z holds on average from which on one of exactly 0 is lost, if those before and behind hold so much: no body falls and
+is caught within a sample. And samples in a row in which all six signals are exactly 0 otherwise: finely told ones are so by chance once in a
+million."""
+
+WILD, BULK, MOMENT, BACK = 10.0, 0.99, 0.03, 3
+"""Times the BULK of all distances from the median by which a value is wild if that lasts for a MOMENT (s) at most, and so many samples before and
+behind it are within a third of that: what road and potholes shake is up to 4 times as far, and a body goes on moving behind one."""
+
 
 def found(quantities: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
     """What speaks against the inertial signals among the ``quantities`` of a record, in words; each is (time in s, values in SI units) as
@@ -57,14 +66,17 @@ def found(quantities: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
     again = {name: _told_again(signals[name][1]) for name in steps}
     frozen = [] if any(again.values()) else _frozen(signals, steps, quantities)
     said: dict[str, list[str]] = {_in_words(frozen): list(SIGNALS)} if frozen else {}
+    lost = _lost(signals, quantities) or ((), "")
     for name, step in steps.items():
         time, values = signals[name]
         levels, counts = np.unique(values, return_counts=True)
         ends = ("largest", levels[::-1], counts[::-1]), ("smallest", levels, counts)
         stays = [words for end in ends if (words := _at_limit(name, values, *end))]
         stays = stays or [again[name] or _held(_holds(time, values, np.diff(values) == 0.0, step, quantities), frozen)]
-        for words in (*stays, _alone(time, values)):
+        for words in (*stays, _alone(time, values) or ("" if name in lost[0] else _wild(time, values))):
             said.setdefault(words, []).append(name)
+    if not any("held" in words for words in said):
+        said.setdefault(lost[1], []).extend(lost[0])
     if "v_x" in quantities and (held := _speed_held(*quantities["v_x"])):
         said.setdefault(held, []).append("v_x")
     return [f"{', '.join(names)}: {words}" for words, names in said.items() if words]
@@ -176,3 +188,48 @@ def _alone(time: np.ndarray, values: np.ndarray) -> str:
     if places.size < SPIKES:
         return ""
     return f"{places.size} samples stand alone, far from those before and behind, the first at {time[places[0]]:.2f} s: were they transmitted wrongly?"
+
+
+def _wild(time: np.ndarray, values: np.ndarray) -> str:
+    """Where a few samples are farther from all others than any motion, and these are as if nothing had been."""
+    away = np.abs(values - np.median(values))
+    usual = float(np.quantile(away, BULK))
+    sides = np.diff(np.concatenate([[False], away > WILD * usual, [False]]).astype(int))
+    begins, ends = np.flatnonzero(sides == 1), np.flatnonzero(sides == -1)
+    if not usual > 0 or begins.size == 0:
+        return ""
+    most = max(1, round(MOMENT * (len(time) - 1) / (time[-1] - time[0])))
+    wild = []
+    for begin, end in zip(begins, ends):
+        beside = np.concatenate([away[max(begin - BACK, 0) : begin], away[end : end + BACK]])
+        if end - begin <= most and beside.size and beside.max() < WILD / 3.0 * usual:
+            wild.append((begin, end))
+    if not wild:
+        return ""
+    samples, first = sum(end - begin for begin, end in wild), wild[0][0]
+    farthest = max(float(np.max(away[begin:end])) for begin, end in wild) / usual
+    where = f"{samples} samples lie" if samples > 1 else "a sample lies"
+    return f"{where} up to {farthest:.0f} times as far out as 99 % of all do, the first at {time[first]:.2f} s: transmitted wrongly?"
+
+
+def _lost(signals: Mapping, quantities: Mapping) -> tuple[Sequence[str], str] | None:
+    """Signals that are exactly 0 for some samples as if these had been lost and filled, and words on that."""
+    time, a_z = signals["a_z"]
+    is_one_clock = all(values.size == a_z.size for _, values in signals.values())
+    all_nought = np.all([values == 0.0 for _, values in signals.values()], axis=0) if is_one_clock else np.full(a_z.size, False)
+    holds_gravity = abs(a_z.mean()) > FALLS * STANDARD_GRAVITY
+    if not holds_gravity and not all(map(_step, (values for _, values in signals.values()))):
+        return None
+    nought, runs = a_z == 0.0 if holds_gravity else all_nought, []
+    sides = np.diff(np.concatenate([[False], nought, [False]]).astype(int))
+    for begin, end in zip(np.flatnonzero(sides == 1), np.flatnonzero(sides == -1)):
+        beside = np.concatenate([a_z[max(begin - 1, 0) : begin], a_z[end : end + 1]])
+        is_lost = np.all(np.abs(beside) > FALLS * STANDARD_GRAVITY) if holds_gravity else end - begin >= LOST
+        if is_lost and (holds_gravity or _moves(quantities, _Hold(float(time[begin]), float(time[end - 1]), int(end - begin)))):
+            runs.append((begin, end))
+    if not runs:
+        return None
+    names = SIGNALS if all(all_nought[begin:end].all() for begin, end in runs) else ("a_z",)
+    samples, first = sum(end - begin for begin, end in runs), float(time[runs[0][0]])
+    what = "samples are" if samples > 1 else "sample is"
+    return names, f"{samples} {what} exactly 0, the first at {first:.2f} s: lost, and filled with noughts?"
