@@ -250,6 +250,22 @@ def test_places_at_the_car_become_places_about_its_centre_of_gravity(tmp_path, c
     assert drive.attrs["role"] == "check" and drive.attrs["road_friction"] == 0.8
 
 
+@pytest.mark.parametrize("suffix", [".nc", ".csv"])
+@pytest.mark.parametrize(("key", "quantity"), [("distance_start", "s"), ("lateral_position", "e")])
+def test_what_the_file_says_itself_is_refused_without_columns_too(tmp_path, car, suffix, key, quantity):
+    time = np.arange(0, 10, 0.01)
+    told = {name: 0.1 * np.sin((1.0 + number) * time) for number, name in enumerate(SIGNALS)}
+    told |= {"a_z": told["a_z"] + STANDARD_GRAVITY, "v_x": 20.0 + 0 * time, "s": 20.0 * time, "e": 0.1 * np.sin(time)}
+    path = tmp_path / f"drive{suffix}"
+    if suffix == ".nc":
+        xr.Dataset({name: ("time", values) for name, values in told.items()}, {"time": time}).to_netcdf(path)
+    else:
+        pd.DataFrame({"time": time} | told).to_csv(path, index=False)
+    assert configured.read(path, {key: 0.0, "gravity": True}, car).sizes["time"] == time.size
+    with pytest.raises(InputError, match=f"{key}: 0.9 beside {quantity} in the file, which says so itself"):
+        configured.read(path, {key: 0.9, "gravity": True}, car)
+
+
 def test_the_path_of_the_front_axle_becomes_that_of_the_body_which_follows_it(tmp_path, car):
     aside = lambda s: 0.3 * np.sin(2 * np.pi * s / 100)
     path = write(tmp_path, table().assign(**{"offset [m]": lambda frame: aside(1e3 * frame["way [km]"])}))

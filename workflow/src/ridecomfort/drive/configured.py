@@ -33,6 +33,9 @@ def read(path, entry: Mapping, vehicle, *, rate: float = 100.0) -> xr.Dataset:
             raise InputError(f"no {missing[0]} (expected with a sensor's place)", file=path, place="sensor")
         attributes["sensor"] = sensor_place(vehicle, **place)
     drive = readers.read(path, entry.get("columns"), rate=rate, **attributes)
+    for key, quantity, is_there in (("distance_start", "s", drive.attrs["place_measured"]), ("lateral_position", "e", bool(np.isfinite(drive["e"]).all()))):
+        if entry.get(key) and is_there:
+            raise InputError(f"{entry[key]!r} beside {quantity} in the file, which says so itself, expected one of them", file=path, place=key)
     if entry.get("distance_of", "body") == "front_axle":
         drive = _of_the_body(drive, vehicle["cg_to_front_axle"])
     return drive.assign_attrs({name: float(vehicle[name]) for name in TOLD_OF})
