@@ -421,3 +421,21 @@ def test_a_drive_that_cannot_be_driven_again_is_refused(drive, road, change, wor
     with pytest.raises(InputError, match=words) as problem:
         replay.replay(change(recorded), road, quarter_cars.run)
     assert "drive morning" in str(problem.value)
+
+
+@pytest.mark.parametrize(
+    ("last", "turned", "asked"),
+    [
+        ((0.05, 0.0), 0.0, "is s good to 0.5 m (if not, leave s out, with distance_start: it is then integrated from v_x)?"),
+        ((0.0, 0.05), 0.0, "was it driven parallel to the reference line (if not, record e)?"),
+        ((0.0, 0.0), 0.02, "are the axes of accelerations and rates right?"),
+    ],
+)
+def test_what_does_not_settle_is_asked_for(drive, last, turned, asked):
+    recorded = quarter_cars.recorded(drive)
+    assert align._unsettled(recorded, last, turned).endswith(f": {asked}")
+
+
+def test_a_recorded_path_that_does_not_settle_is_asked_for_its_unit(drive):
+    said = align._unsettled(quarter_cars.recorded(drive).assign(e=("time", drive["e"].values)), (0.0, 0.05), 0.0)
+    assert said.endswith("0.05 m across the road: is e right, its unit, too?")

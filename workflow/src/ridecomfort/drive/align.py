@@ -140,7 +140,7 @@ def align(
         if done >= PASSES and (exchanged or doubt or max(last) < SETTLED and turned < STEADY):  # what is to be told otherwise need not settle
             break
     aligned = _without_gravity(work, replace(asked(), by_foot=by_foot).following(vehicle).simulated)
-    told = exchanged or "; ".join(filter(None, (doubt or _unsettled(work, last, turned), mounting.words(fitted))))
+    told = exchanged or "; ".join(filter(None, (doubt or _unsettled(drive, last, turned), mounting.words(fitted))))
     told = "; ".join(filter(None, (signs.words(wrong), on_the_other_side, told)))
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
@@ -198,14 +198,17 @@ def _of_an_odometer(problem: PlaceNotFound, work: xr.Dataset, way: place.Way, ro
     return InputError(f"{words}; if not, {str(problem).removeprefix(f'{label}: ')}", place=label) if words else problem
 
 
-def _unsettled(work: xr.Dataset, last: Sequence[float], turned: float) -> str:
-    """Words on m (rms) that the ``last`` round moved a drive by along and across the road, and on the rad by which it ``turned`` the
+def _unsettled(drive: xr.Dataset, last: Sequence[float], turned: float) -> str:
+    """Words on m (rms) that the ``last`` round moved a ``drive`` by along and across the road, and on the rad by which it ``turned`` the
     instrument; empty where that is little."""
     said, asked = [], []
     if max(last) >= SETTLED:
         said.append(f"moved the place by {last[0]:.2f} m along and {last[1]:.2f} m across the road")
-        instead = f"{_instead_of_s(work)}, with distance_start: it is then integrated from v_x"
-        asked.append(f"is s good to 0.5 m (if not, {instead})" if work.attrs["place_measured"] else "is v_x right")
+    if last[0] >= SETTLED:
+        instead = f"{_instead_of_s(drive)}, with distance_start: it is then integrated from v_x"
+        asked.append(f"is s good to 0.5 m (if not, {instead})" if drive.attrs["place_measured"] else "is v_x right")
+    if last[1] >= SETTLED:
+        asked.append("is e right, its unit, too" if path.has_offset(drive) else "was it driven parallel to the reference line (if not, record e)")
     if turned >= STEADY:
         said.append(f"turned the instrument by {np.degrees(turned):.1f} deg")
         asked.append("are the axes of accelerations and rates right")
@@ -268,7 +271,7 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
     if abs(clock) > reach:
         raise PlaceNotFound(
             f"the inertial signals lag {clock:.3g} s behind s (expected within {search:g} s, `alignment: search` of the study: "
-            "cut the record or shift its time or s by as much)",
+            "make it wider, or move s, v_x and e, all of them, in the table by as much; does s begin where the road's does?)",
             place=label,
         )
     lateral = path.find_offset(work, road, vehicle, simulate, options, around=around)
