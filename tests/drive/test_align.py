@@ -307,6 +307,20 @@ def test_axes_that_are_exchanged_are_told_with_what_to_change(drive, road, nomin
     assert said.startswith(f"the instrument looks turned by {degrees:+d} deg in yaw") and columns in said
 
 
+@pytest.mark.parametrize(("angles", "said"), [((0, 0, 0), ""), ((0, 0, 25), "yaw"), ((0, 0, 40), "yaw"), ((0, 20, 0), "pitch"), ((20, 0, 0), "roll")])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_an_instrument_that_is_turned_is_told_where_gravity_turns_none_back(truth, nominal, seed, angles, said):
+    road = quarter_cars.road(length=560.0, seed=seed)
+    drive, rng = driven(road, truth), np.random.default_rng(seed)
+    back = Rotation.from_euler("xyz", angles, degrees=True).inv().as_matrix()
+    rows = [back @ np.stack([drive[name].values for name in part]) for part in (SIGNALS[:3], SIGNALS[3:])]
+    noise = np.array([0.02] * 3 + [0.001] * 3)[:, None] * rng.standard_normal((6, drive.sizes["time"]))
+    given = dict(zip(SIGNALS, np.concatenate(rows) + noise)) | {name: drive[name].values for name in ("s", "v_x")}
+    quantities = {name: (drive["time"].values, values) for name, values in given.items()}
+    faults = aligned(record.from_arrays(quantities, gravity=False, lateral_position=LATERAL), road, nominal).attrs["faults"]
+    assert faults.startswith(f"the instrument looks turned in {said} by 8 deg or more") if said else faults == ""
+
+
 def test_axes_that_are_exchanged_are_told_where_a_drive_is_refused(truth, nominal):
     road = quarter_cars.road(length=560.0, seed=3)
     with pytest.raises(InputError, match=r"agree nowhere .*; the instrument looks turned by \+180 deg in yaw: .*, pitch_rate = -pitch_rate\)$"):

@@ -139,8 +139,11 @@ def align(
         last = [float(np.sqrt(np.mean(moved**2))) for moved in (along, aside)]
         if done >= PASSES and (exchanged or doubt or max(last) < SETTLED and turned < STEADY):  # what is to be told otherwise need not settle
             break
-    aligned = _without_gravity(work, replace(asked(), by_foot=by_foot).following(vehicle).simulated)
-    told = exchanged or "; ".join(filter(None, (doubt or _unsettled(drive, last, turned), mounting.words(fitted))))
+    brought = replace(asked(), by_foot=by_foot).following(vehicle)
+    aligned, tilt = _without_gravity(work, brought.simulated), mounting.words(fitted)
+    if not drive.attrs["gravity"]:
+        tilt = mounting.words_not_turned_back(brought.replay, brought.simulated)
+    told = exchanged or "; ".join(filter(None, (doubt or _unsettled(drive, last, turned), tilt)))
     told = "; ".join(filter(None, (signs.words(wrong), on_the_other_side, told)))
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
