@@ -453,3 +453,12 @@ def test_what_does_not_settle_is_asked_for(drive, last, turned, asked):
 def test_a_recorded_path_that_does_not_settle_is_asked_for_its_unit(drive):
     said = align._unsettled(quarter_cars.recorded(drive).assign(e=("time", drive["e"].values)), (0.0, 0.05), 0.0)
     assert said.endswith("0.05 m across the road: is e right, its unit, too?")
+
+
+@pytest.mark.parametrize("scale", [0.001, 0.5, 1.2])
+def test_a_distance_in_another_unit_than_the_speed_is_told_as_that(drive, road, nominal, scale):
+    start = float(drive["s"][0])
+    recorded = quarter_cars.recorded(drive, noise=1.0, lateral_position=LATERAL, name="own")
+    with pytest.raises(InputError, match=r"^v_x: recorded speed times \S+ fits the road .* are the units of v_x and s right") as refused:
+        aligned(recorded.assign(s=start + scale * (recorded["s"] - start)), road, nominal)
+    assert float(str(refused.value).split("times ")[1].split()[0]) == pytest.approx(scale, rel=0.01)

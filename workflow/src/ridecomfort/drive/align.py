@@ -18,7 +18,7 @@ import xarray as xr
 
 from ..errors import InputError
 from ..vocabulary import SIGNALS
-from . import axes, mounting, path, pedals, place, signs, turning
+from . import axes, configured, mounting, path, pedals, place, signs, turning
 from .distance import DIFFERENTIATED
 from .record import acceleration, felt
 from .replay import Following, Simulated, replay
@@ -87,6 +87,8 @@ def align(
     way = place.way(work, road, start)
     if measured:
         scale, offset = place.speed_scale(work, way), 0.0
+        if scale > 0.0 and (said := configured.speed_words(scale)):  # a model that is driven at such a speed would only be told to be slow, or late
+            raise InputError(said, place="v_x")
         work = place.moved(work, scale=scale)
         work = place.cut(work, place.on_road(work, road, before=float(drive.attrs.get("cg_to_front_axle", 0.0)), behind=0.0))
     else:

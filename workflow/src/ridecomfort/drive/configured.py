@@ -54,12 +54,16 @@ def _of_the_body(drive: xr.Dataset, ahead: float) -> xr.Dataset:
 
 def check_speed(aligned: xr.Dataset, path) -> xr.Dataset:
     """The aligned drive, or InputError where its speed had to be scaled by more than SPEED_SCALE to fit the road."""
-    scale = float(aligned.attrs["speed_scale"])
-    if abs(scale - 1.0) > SPEED_SCALE:
-        raise InputError(
-            f"recorded speed times {scale:.4g} fits the road (expected {1 - SPEED_SCALE:g} to {1 + SPEED_SCALE:g}; "
-            "are the units of v_x and s right, is it the road of this drive?)",
-            file=path,
-            place="v_x",
-        )
+    if said := speed_words(float(aligned.attrs["speed_scale"])):
+        raise InputError(said, file=path, place="v_x")
     return aligned
+
+
+def speed_words(scale: float) -> str:
+    """Words on a speed that has to be scaled by more than SPEED_SCALE to fit the road; empty where it has not."""
+    if abs(scale - 1.0) <= SPEED_SCALE:
+        return ""
+    return (
+        f"recorded speed times {scale:.4g} fits the road (expected {1 - SPEED_SCALE:g} to {1 + SPEED_SCALE:g}; "
+        "are the units of v_x and s right, is it the road of this drive?)"
+    )
