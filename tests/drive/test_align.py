@@ -462,3 +462,11 @@ def test_a_distance_in_another_unit_than_the_speed_is_told_as_that(drive, road, 
     with pytest.raises(InputError, match=r"^v_x: recorded speed times \S+ fits the road .* are the units of v_x and s right") as refused:
         aligned(recorded.assign(s=start + scale * (recorded["s"] - start)), road, nominal)
     assert float(str(refused.value).split("times ")[1].split()[0]) == pytest.approx(scale, rel=0.01)
+
+
+def test_a_drive_without_a_place_that_is_too_short_to_find_it_is_refused(drive, road, nominal):
+    recorded = quarter_cars.recorded(drive, place=False, distance_start=float(drive["s"][0]), noise=1.0, lateral_position=LATERAL, name="own")
+    with pytest.raises(InputError, match=r"^drive own: lasts 11\.5 s \(expected at least 12 s where s is left out"):
+        aligned(recorded.isel(time=slice(0, 1151)), road, nominal)
+    long_enough = aligned(recorded.isel(time=slice(0, 1251)), road, nominal)
+    np.testing.assert_allclose(long_enough["s"], drive["s"].values[: long_enough.sizes["time"]], atol=0.1)

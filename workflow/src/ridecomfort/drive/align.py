@@ -92,6 +92,12 @@ def align(
         work = place.moved(work, scale=scale)
         work = place.cut(work, place.on_road(work, road, before=float(drive.attrs.get("cg_to_front_axle", 0.0)), behind=0.0))
     else:
+        lasts = float(work["time"][-1])
+        if lasts < place.SHORTEST:
+            raise InputError(
+                f"lasts {lasts:.1f} s (expected at least {place.SHORTEST:g} s where s is left out, by which its place and speed are found on the road)",
+                place=f"drive {drive.attrs['name']}",
+            )
         scale, offset = place.odometer(work, way, road, vehicle, simulate, options)
         work = place.driven(work, drive, way, scale, offset)
         kept = place.on_road(work, road, place.ODOMETER_REACH, place.ODOMETER_REACH)

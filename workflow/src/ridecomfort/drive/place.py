@@ -42,6 +42,9 @@ FARTHEST = 20.0
 ODOMETER_WINDOW = 8.0
 """s of record that are looked for on the road at a time, where place was not measured."""
 
+SHORTEST = 1.5 * ODOMETER_WINDOW
+"""s that such a record lasts at least: two windows, which overlap by half, tell a scale; of a shorter one places 4 to 8 m off were taken for right."""
+
 BASE = 3.0
 """m of road that a slope is taken over: about a wheelbase, so that a body follows it."""
 
