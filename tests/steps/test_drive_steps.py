@@ -91,6 +91,12 @@ def test_a_record_under_two_names_is_refused_by_its_samples(files, car_file, tmp
     assert not (tmp_path / "measured.nc").exists()
 
 
+def test_two_records_whose_a_z_stands_still_are_no_copies_of_one_another():
+    """That it does is a fault of each."""
+    dead = [xr.Dataset({"a_z": ("time", np.full(count, 9.81))}) for count in (900, 1000)]
+    measured._check_once(["one.csv", "two.csv"], dead)
+
+
 def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     entries = [ENTRY | {"name": name, "role": name} for name in ("fit", "check")]
     common = {"road": files / "road.nc", "vehicle": car_file}

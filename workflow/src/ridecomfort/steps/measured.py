@@ -58,7 +58,8 @@ def _check_once(files: Sequence, drives: Sequence[xr.Dataset]) -> None:
     readings = [np.round(drive["a_z"].values / record.FINEST).astype(np.int64) for drive in drives]
     for (other, one), (file, two) in combinations(zip(files, readings), 2):
         short, long = sorted((one, two), key=len)
-        if short[len(short) // 4 : len(short) - len(short) // 4].tobytes() in long.tobytes():
+        middle = short[len(short) // 4 : len(short) - len(short) // 4]
+        if np.ptp(middle) > 0 and middle.tobytes() in long.tobytes():  # one that stands still is a fault of its own
             raise InputError(f"is that of {other} sample by sample, expected a record once, either fitted or held out", file=file, place="a_z")
 
 
