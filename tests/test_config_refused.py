@@ -349,6 +349,11 @@ def test_a_copy_of_a_record_is_no_other_record(project):
     for role in ("fit", "check"):
         write(project, "own", {"road": {"file": "road.crg"}, "drives": [first, other, {**again, "role": role}]})
         assert_said(project, {"sites": ["own"]}, said, config.SITES / "own.yaml")
+    for name in ("first", "again"):
+        (project / f"{name}.nc").touch()
+    empty = [{**DRIVE, "file": f"{name}.nc"} for name in ("first", "again")]
+    write(project, "own", {"road": {"file": "road.crg"}, "drives": empty})
+    config.load({"sites": ["own"]}, project)  # no record at all, which is said where it is read
     write(project, "own", {"road": {"file": "road.crg"}, "drives": [first, {**other, "role": "check"}]})
     write(project, "second", {"road": {"file": "road.crg"}, "drives": [other, again], "calibrated_on": "own"})
     said = "drives: entry 2: file: 'again.csv' holds the same as 'first.csv', which is fitted on 'own', on which this site is calibrated"

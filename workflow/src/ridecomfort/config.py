@@ -185,7 +185,8 @@ def _same_record(drive: Mapping, other: Mapping, folder: Path) -> str:
     files = [folder / each["file"] for each in (drive, other)]
     if files[0].resolve() == files[1].resolve():
         return "is"
-    if all(file.is_file() for file in files) and filecmp.cmp(*files, shallow=False):  # those of a stand-in are made later
+    # Those of a stand-in are made later; one that is empty is no record, which is said where it is read.
+    if all(file.is_file() and file.stat().st_size for file in files) and filecmp.cmp(*files, shallow=False):
         return f"holds the same as {other['file']!r}, which is"
     return ""
 
