@@ -99,7 +99,7 @@ def test_drives_are_aligned_for_every_model_but_that_which_they_were_aligned_for
     assert study.aligned("nominal", "steering_lag") == "results/nominal/steering_lag/measured.nc"
     assert models.aligned_before(study, "fitted", "base") == "results/fitted/measured.nc"
     assert models.aligned_before(study, "fitted", "steering_lag") == "results/fitted/base/measured.nc"
-    (project / "other.csv").write_text(HEADER)
+    (project / "other.csv").write_text(HEADER + "0,21,0,0,9.81,0,0,0\n")
     write(project, "other", {**site, "drives": [{**DRIVE, "file": "other.csv"}], "calibrated_on": "nominal"})
     assert config.load({"sites": ["other"]}, project).is_fitted("nominal") and not study.is_fitted("nominal")
     told = {name: stepsettings.of_step(study, "realigned", name, "steering_lag") for name in study.names}
