@@ -235,9 +235,10 @@ def test_noise_of_the_road_does_not_speak_against_what_was_found():
     assert reconsidered(none_too, weak, is_road_open=True).words().startswith("Missing: friction or something else; the data do not tell")
 
 
-def test_what_drives_held_out_refute_has_no_name_on_such_a_road_either():
+def test_what_makes_drives_held_out_worse_has_no_name_on_such_a_road_either():
+    """That they gain little may be the road: an imbalance of 0.3 on a noisy road removed 27 and 6 %."""
     weak = replace(SURE, share=0.2)
-    for held_out, kind in ((-0.4, "outside"), (0.1, "outside"), (0.3, "named"), (float("nan"), "named")):
+    for held_out, kind in ((-0.4, "outside"), (0.0, "outside"), (0.06, "named"), (float("nan"), "named")):
         assert reconsidered(replace(LITTLE, held_out_share=held_out), weak, is_road_open=True).verdict == kind
 
 

@@ -109,8 +109,8 @@ def _error_or_force(verdict: Verdict, proposal: Discovery, said: str, fits_bette
 
 def _road_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
     """Where the road may be another than that of its file, "outside" becomes what the library has, "suspect" if that is little, unless a
-    force explains BETTER as much and is sure, or, beside so little, is more than that road could be. What drives held out refute has no name
-    on any road."""
+    force explains BETTER as much and is sure, or, beside so little, is more than that road could be. What makes drives held
+    out worse has no name on any road; that they gain little may be the road's noise, which is theirs as well."""
     is_more = _leaves_half(verdict, proposal) if proposal.beside else proposal.share > BETTER * verdict.whole().share
     if not verdict.effects or is_sure(proposal) and is_more:
         return verdict
@@ -118,7 +118,7 @@ def _road_or_force(verdict: Verdict, proposal: Discovery, said: str) -> Verdict:
         if is_more and _is_more_than_noise(proposal):
             return with_reason(verdict, "outside", f"{said} explains more: {_explained(proposal)}")
         return with_reason(verdict, "suspect", "no form of a force that was tried explains more, and what the road is otherwise may be all of it")
-    if verdict.held_out_share < CONFIRMED:
+    if verdict.held_out_share <= 0:
         return verdict
     named = with_reason(verdict, kind_of(verdict.effects), "no form of a force that was tried explains more, and what the road is otherwise is shared by repeats, too")
     return replace(named, reasons=(*named.reasons, *not_sure_of(named.effects)))
