@@ -124,15 +124,20 @@ class _Hold:
 def _holds(time: np.ndarray, values: np.ndarray, equal: np.ndarray, step: float, quantities: Mapping) -> list[_Hold]:
     """Where HELD samples and more are ``equal`` (samples - 1,) to the one before though the vehicle moves and the signal was changing by more
     than COARSE of its ``step`` until then, and does so from then on; at an end of the record one of these will do."""
-    sides = np.diff(np.concatenate([[False], equal, [False]]).astype(int))
     holds, changes = [], np.abs(np.diff(values))
-    for begin, end in zip(np.flatnonzero(sides == 1), np.flatnonzero(sides == -1)):
+    for begin, end in _runs(equal):
         hold = _Hold(float(time[begin]), float(time[end]), int(end - begin) + 1)
         before, behind = (beside[beside > 0] for beside in (changes[max(begin - BESIDE, 0) : begin], changes[end : end + BESIDE]))
         is_quick = [beside.size > 0 and np.median(beside) > COARSE * step for beside in (before, behind)]
         if hold.samples >= HELD and (is_quick[0] or begin == 0) and (is_quick[1] or end == changes.size) and _moves(quantities, hold):
             holds.append(hold)
     return holds
+
+
+def _runs(marked: np.ndarray) -> list[tuple[int, int]]:
+    """Where samples in a row are ``marked`` (sample,): the first of each run, and the one behind its last."""
+    sides = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(int)))
+    return list(zip(sides[::2].tolist(), sides[1::2].tolist()))
 
 
 def _speed_held(time: np.ndarray, speed: np.ndarray) -> str:
@@ -194,13 +199,11 @@ def _wild(time: np.ndarray, values: np.ndarray) -> str:
     """Where a few samples are farther from all others than any motion, and these are as if nothing had been."""
     away = np.abs(values - np.median(values))
     usual = float(np.quantile(away, BULK))
-    sides = np.diff(np.concatenate([[False], away > WILD * usual, [False]]).astype(int))
-    begins, ends = np.flatnonzero(sides == 1), np.flatnonzero(sides == -1)
-    if not usual > 0 or begins.size == 0:
+    if not usual > 0:
         return ""
     most = max(1, round(MOMENT * (len(time) - 1) / (time[-1] - time[0])))
     wild = []
-    for begin, end in zip(begins, ends):
+    for begin, end in _runs(away > WILD * usual):
         beside = np.concatenate([away[max(begin - BACK, 0) : begin], away[end : end + BACK]])
         if end - begin <= most and beside.size and beside.max() < WILD / 3.0 * usual:
             wild.append((begin, end))
@@ -221,8 +224,7 @@ def _lost(signals: Mapping, quantities: Mapping) -> tuple[Sequence[str], str] | 
     if not holds_gravity and not all(map(_step, (values for _, values in signals.values()))):
         return None
     nought, runs = a_z == 0.0 if holds_gravity else all_nought, []
-    sides = np.diff(np.concatenate([[False], nought, [False]]).astype(int))
-    for begin, end in zip(np.flatnonzero(sides == 1), np.flatnonzero(sides == -1)):
+    for begin, end in _runs(nought):
         beside = np.concatenate([a_z[max(begin - 1, 0) : begin], a_z[end : end + 1]])
         is_lost = np.all(np.abs(beside) > FALLS * STANDARD_GRAVITY) if holds_gravity else end - begin >= LOST
         if is_lost and (holds_gravity or _moves(quantities, _Hold(float(time[begin]), float(time[end - 1]), int(end - begin)))):

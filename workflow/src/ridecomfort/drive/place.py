@@ -161,14 +161,17 @@ def shaken(again: Replay, simulated: Simulated, farthest: float) -> tuple[np.nda
     each: 1 for a perfect model.
     """
     interval = again.time[1] - again.time[0]
-    lower, upper = SHAKEN_BAND
-    band = butter(2, (lower, min(upper, 0.4 / interval)), "bandpass", fs=1 / interval, output="sos")
     rows = [SIGNALS.index(name) for name in SHAKEN]
-    measured, model = (
-        sosfiltfilt(band, signals[rows][:, again.compared], axis=1, padlen=0) for signals in (again.measured(), simulated.signals)
-    )
+    measured, model = (as_shaken(signals[rows][:, again.compared], interval) for signals in (again.measured(), simulated.signals))
     reach = min(int(round(farthest / interval)), measured.shape[1] // 2)
     return interval * np.arange(-reach, reach + 1), _agreement(measured, model, reach) / len(rows)
+
+
+def as_shaken(signals: np.ndarray, interval: float) -> np.ndarray:
+    """What of signals (signal, sample), ``interval`` (s) apart, lies in SHAKEN_BAND."""
+    lower, upper = SHAKEN_BAND
+    band = butter(2, (lower, min(upper, 0.4 / interval)), "bandpass", fs=1 / interval, output="sos")
+    return sosfiltfilt(band, signals, axis=1, padlen=0)
 
 
 def _agreement(measured: np.ndarray, model: np.ndarray, reach: int) -> np.ndarray:
@@ -176,14 +179,18 @@ def _agreement(measured: np.ndarray, model: np.ndarray, reach: int) -> np.ndarra
 
     Signals count by how well they correlate at their best, so one that the model misses adds nothing; nor does one in which it stands still.
     """
-    total = np.zeros(2 * reach + 1)
-    centre = measured.shape[1] - 1
-    moves = model.std(axis=1) > STANDS_STILL * measured.std(axis=1)
-    for one, other in zip(_standardised(measured[moves]), _standardised(model[moves])):
-        lags = correlate(one, other, mode="full", method="fft") / one.size
-        lags = lags[max(centre - reach, 0) : centre + reach + 1]
-        total += max(lags.max(), 0.0) * lags
-    return total
+    found = correlations(measured, model, reach)
+    return np.maximum(found.max(axis=1), 0.0) @ found
+
+
+def correlations(measured: np.ndarray, model: np.ndarray, reach: int) -> np.ndarray:
+    """Correlation of every signal of (signal, sample) with the model's, at lags -reach ... reach of the measurement behind the model, (signal, lag);
+    nil of what the model does not move."""
+    found, middle = np.zeros((len(measured), 2 * reach + 1)), measured.shape[1] - 1
+    moves = np.flatnonzero(model.std(axis=1) > STANDS_STILL * measured.std(axis=1))
+    for row, one, other in zip(moves, _standardised(measured[moves]), _standardised(model[moves])):
+        found[row] = correlate(one, other, mode="full", method="fft")[middle - reach : middle + reach + 1] / one.size
+    return found
 
 
 def _standardised(signals: np.ndarray) -> np.ndarray:

@@ -9,11 +9,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from scipy.signal import butter, correlate, sosfiltfilt
 
 from ..vocabulary import SIGNALS
 from . import axes, path, record
-from .place import FARTHEST, SHAKEN, SHAKEN_BAND, STANDS_STILL
+from .place import FARTHEST, SHAKEN, as_shaken, correlations
 from .replay import Replay, Simulated, replay
 
 AGAINST = 0.5
@@ -74,17 +73,11 @@ def _correlations(again: Replay, simulated: Simulated) -> tuple[np.ndarray, np.n
     if again.drive.attrs["gravity"]:
         model[:3] = record.specific_force(model[:3], simulated.roll[kept], simulated.pitch[kept])
         measured[:3] = record.felt(again.drive)[:, kept]
-    lower, upper = SHAKEN_BAND
-    band = butter(2, (lower, min(upper, 0.4 / interval)), "bandpass", fs=1 / interval, output="sos")
-    length = measured.shape[1]
-    reach = min(int(round(FARTHEST / interval)), length // 2)
-    found = np.zeros((len(SIGNALS), 2 * reach + 1))
-    for row, (name, *both) in enumerate(zip(SIGNALS, measured, model)):
-        one, other = (sosfiltfilt(band, own, padlen=0) if name in SHAKEN else own - own.mean() for own in both)
-        if other.std() > STANDS_STILL * one.std() > 0:
-            lags = correlate(one, other, mode="full", method="fft") / (length * one.std() * other.std())
-            found[row] = lags[length - 1 - reach : length + reach]
-    return interval * np.arange(-reach, reach + 1), found
+    rows = [SIGNALS.index(name) for name in SHAKEN]
+    for signals in (measured, model):
+        signals[rows] = as_shaken(signals[rows], interval)
+    reach = min(int(round(FARTHEST / interval)), measured.shape[1] // 2)
+    return interval * np.arange(-reach, reach + 1), correlations(measured, model, reach)
 
 
 def reversed_in(drive: xr.Dataset, names: Sequence[str]) -> xr.Dataset:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from scipy.signal import butter, sosfilt, sosfilt_zi, welch
+from scipy.signal import butter, sosfiltfilt, welch
 
 DRIVER_BANDWIDTH = 1.0
 """Hz; a driver changes speed and lane more slowly, road and wheels show in the record above it."""
@@ -18,25 +18,13 @@ SPEED_WINDOW, SPEED_NOISE = 10.0, (2.0, 0.1)
 
 
 def smooth(values: np.ndarray, rate: float, bandwidth: float = DRIVER_BANDWIDTH, order: int = 2) -> np.ndarray:
-    """Low-passed along the last axis without delay (Butterworth, forwards and backwards), the ends continued as their mirror image about
-    the end point, as ``scipy.signal.sosfiltfilt`` does it."""
-    sections, settled = _low_pass(bandwidth, rate, order)
-    values = np.asarray(values)
-    count = values.shape[-1]
-    beyond = min(count - 1, int(3 * rate / bandwidth))
-    before, behind = 2 * values[..., :1] - values[..., beyond:0:-1], 2 * values[..., -1:] - values[..., -2 : -beyond - 2 : -1]
-    filtered = np.concatenate([before, values, behind], axis=-1)
-    for _ in range(2):
-        state = settled.reshape(-1, *[1] * (filtered.ndim - 1), 2) * filtered[..., :1]
-        filtered = sosfilt(sections, filtered, zi=state)[0][..., ::-1]
-    return filtered[..., beyond : beyond + count]
+    """Low-passed along the last axis without delay (Butterworth, forwards and backwards)."""
+    return sosfiltfilt(_low_pass(bandwidth, rate, order), values, padlen=min(np.shape(values)[-1] - 1, int(3 * rate / bandwidth)))
 
 
 @lru_cache(maxsize=256)  # asked for after every simulated drive
-def _low_pass(bandwidth: float, rate: float, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Sections of the filter, and the states of those that are settled at one, which takes longer to reckon than to filter a drive."""
-    sections = butter(order, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
-    return sections, sosfilt_zi(sections)
+def _low_pass(bandwidth: float, rate: float, order: int) -> np.ndarray:
+    return butter(order, min(bandwidth, 0.4 * rate), fs=rate, output="sos")
 
 
 def speed_bandwidth(speed: np.ndarray, rate: float) -> float:
