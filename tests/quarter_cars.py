@@ -12,9 +12,11 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import RegularGridInterpolator
 from scipy.signal import bilinear, lfilter, ss2tf
+from scipy.spatial.transform import Rotation
 
-from ridecomfort.drive import record, sampling
+from ridecomfort.drive import align, record, sampling
 from ridecomfort.vehicle import parameters
+from ridecomfort.vocabulary import SIGNALS
 
 INNER_RATE = 1000.0
 
@@ -166,3 +168,16 @@ def recorded(simulated, *, clock=0.0, gain=1.0, rotation=(0.0, 0.0, 0.0), bias=(
     if attributes.pop("place", True):
         quantities["s"] = time, simulated["s"].values
     return record.from_arrays(quantities, **attributes)
+
+
+def turned(drive, degrees):
+    """A record of a drive by an instrument that is turned about the vertical."""
+    told = recorded(drive, noise=1.0, lateral_position=LATERAL, name="own")
+    back = Rotation.from_rotvec([0.0, 0.0, np.radians(degrees)]).inv().as_matrix()
+    rows = [back @ np.stack([told[name].values for name in part]) for part in (SIGNALS[:3], SIGNALS[3:])]
+    return told.assign({name: ("time", row) for name, row in zip(SIGNALS, np.concatenate(rows))})
+
+
+def aligned(told, road, vehicle):
+    """A record brought into line with the road by these cars."""
+    return align.align(told, road, vehicle, simulate=run)
