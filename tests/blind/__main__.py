@@ -96,8 +96,8 @@ def done_before(path: Path, how: str) -> Done:
     return {tuple(job): row for job, row in kept["done"]} if kept["how"] == how else {}
 
 
-def write(folder: Path, done: Done, how: str, command: str) -> None:
-    """Tables of what the ``command`` has done, and done.json to go on from."""
+def write(folder: Path, done: Done, asked: int, how: str, command: str) -> None:
+    """Tables of what the ``command`` has done of the trials that are ``asked`` of it, and done.json to go on from."""
     kept = json.dumps({"how": how, "done": list(done.items())}, default=lambda value: value.item())
     (folder / "done.json.new").write_text(kept, encoding="utf-8")
     (folder / "done.json.new").replace(folder / "done.json")
@@ -108,7 +108,8 @@ def write(folder: Path, done: Done, how: str, command: str) -> None:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
-    head = "# Blind trials", "", f"{len(rows)} trials by `{command}`. What the words mean stands in [diagnosis.md](diagnosis.md#how-it-is-tested).", ""
+    all_of_them = "" if len(done) == asked else f" of {asked}, cut short,"
+    head = "# Blind trials", "", f"{len(rows)} trials{all_of_them} by `{command}`. What the words mean stands in [diagnosis.md](diagnosis.md#how-it-is-tested).", ""
     (folder / "summary.md").write_text("\n".join((*head, *score.summary(rows))) + "\n", encoding="utf-8")
 
 
@@ -136,7 +137,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         begun = {pool.submit(one, job, options.alone): job for job in asked if job not in done}
         for trial in as_completed(begun):
             done[begun[trial]] = row = trial.result()
-            write(options.output, {job: done[job] for job in asked if job in done}, how, command)
+            write(options.output, {job: done[job] for job in asked if job in done}, len(asked), how, command)
             if row is not None:
                 print(*(f"{row[key]}" for key in ("kind", "hidden", "kappa", "verdict", "found", "cpu_seconds")), sep=" | ", flush=True)
     if options.release:

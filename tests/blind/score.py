@@ -122,13 +122,14 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
         line(what, strong(chosen), hit, aim, chosen)
 
     alone = ("clean", "messy", "another shape", "another setting")
+    names = lambda key: lambda row: row[key] and row["verdict"] in ("named", "cluster")  # beside "outside" effects are no explanation
     for kind in alone:
         aim = {"clean": "95 %", "messy": "85 %"}.get(kind, "")
-        strong_line(f"first name right, {kind}, kappa >= 0.3", of(kind), lambda row: row["first_right"], aim)
-    strong_line("true effect named or in the named cluster, kappa >= 0.3", of(*alone), lambda row: row["in_cluster"], "97 %")
+        strong_line(f"first name right, {kind}, kappa >= 0.3", of(kind), names("first_right"), aim)
+    strong_line("true effect named or in the named cluster, kappa >= 0.3", of(*alone), names("in_cluster"), "97 %")
     for kappa in KAPPAS:
         at = [row for row in of("clean") if reached[id(row)] == kappa]
-        line(f"found, clean, kappa {kappa:g}", at, lambda row: row["in_cluster"], "90 %" if kappa >= 0.1 else "")
+        line(f"found, clean, kappa {kappa:g}", at, names("in_cluster"), "90 %" if kappa >= 0.1 else "")
     nulls = ("nothing", "path error", "clock error, aligned", "another interpolation", "brisk foot", "brisk foot, clean speed")
     for kind in nulls:
         line(f"an effect named where nothing is missing: {kind}", of(kind), lambda row: row["found"])
@@ -168,10 +169,10 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     unseen = [row for row in every if row["place_right"] != "" and row["form_share"] == ""]
     lines.append(f"| force at a port that no form has (left out of places and forms) | | {len(nowhere)} | {len(every)} |")
     lines.append(f"| force that changes nothing held out (left out of forms) | | {len(unseen)} | {len(every)} |")
-    strong_line("exact set of 2 effects, each at kappa >= 0.3", of("two"), lambda row: row["exact"], "85 %")
-    strong_line("exact set of 3 effects, each at kappa >= 0.3", of("three"), lambda row: row["exact"], "70 %")
+    strong_line("exact set of 2 effects, each at kappa >= 0.3", of("two"), names("exact"), "85 %")
+    strong_line("exact set of 3 effects, each at kappa >= 0.3", of("three"), names("exact"), "70 %")
     beside = [row for row in of("wrong file") if row["hidden"]]
-    strong_line("what is missing named, and nothing else, beside a wrong file of the vehicle, kappa >= 0.3", beside, lambda row: row["exact"])
+    strong_line("what is missing named, and nothing else, beside a wrong file of the vehicle, kappa >= 0.3", beside, names("exact"))
     line("no effect named where nothing but the vehicle's file is wrong", without, lambda row: not row["found"])
     line(f"all that is wrong in the file told to {100 * CLOSE:.0f} %", of("wrong file"), has_told)
     is_suspect = lambda row: row["verdict"] == "suspect"

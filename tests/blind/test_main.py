@@ -14,7 +14,7 @@ DONE = {("clean", 1, 0): ROW, ("clean", 1, 1): None}
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.setattr(blind.score, "summary", lambda rows: ["a table"])
-    blind.write(tmp_path, DONE, "as now", "python -m tests.blind --seed 1")
+    blind.write(tmp_path, DONE, 3, "as now", "python -m tests.blind --seed 1")
     return tmp_path
 
 
@@ -26,7 +26,13 @@ def test_it_goes_on_where_it_ended_with_the_rows_that_it_had(folder):
 
 def test_the_summary_says_how_it_was_made(folder):
     said = (folder / "summary.md").read_text()
-    assert said.startswith("# Blind trials") and "1 trials by `python -m tests.blind --seed 1`" in said and said.endswith("a table\n")
+    assert said.startswith("# Blind trials") and "1 trials of 3, cut short, by `python -m tests.blind --seed 1`" in said and said.endswith("a table\n")
+
+
+
+def test_the_summary_of_a_whole_run_does_not_call_it_cut_short(folder):
+    blind.write(folder, DONE, 2, "as now", "python -m tests.blind --seed 1")
+    assert "1 trials by `python" in (folder / "summary.md").read_text()
 
 
 def test_nothing_is_kept_of_another_version(folder):

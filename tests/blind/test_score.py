@@ -163,6 +163,19 @@ def test_rows_of_one_effect_count_from_a_kappa_on_and_say_what_is_left_out():
     assert found["held-out error removed, relative to the oracle, median (10th percentile)"] == ("0.50", "3")
 
 
+def test_beside_outside_no_name_is_right_where_the_library_has_what_is_missing():
+    found = lines(
+        row("messy", "outside", **RIGHT), row("messy", "named", **RIGHT), row("two", "outside", **RIGHT), row("wrong file", "outside", **RIGHT),
+        row("outside, beside the library", "outside", **RIGHT), row("clean", "outside", **RIGHT),
+    )  # fmt: skip
+    assert found["first name right, messy, kappa >= 0.3"] == ("50 %", "2")
+    assert found["true effect named or in the named cluster, kappa >= 0.3"] == ("33 %", "3")
+    assert found["found, clean, kappa 1"] == ("0 %", "1")
+    assert found["exact set of 2 effects, each at kappa >= 0.3"] == ("0 %", "1")
+    assert found["what is missing named, and nothing else, beside a wrong file of the vehicle, kappa >= 0.3"] == ("0 %", "1")
+    assert found["effect of the library beside such a force named, and no other"] == ("100 %", "1")
+
+
 def test_rows_of_nothing_and_of_sets():
     null = {"hidden": "", "reached": 0.0}
     found = lines(

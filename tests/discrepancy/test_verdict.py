@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import re
+from dataclasses import fields, replace
+from pathlib import Path
 
-from ridecomfort.discrepancy.beyond import Beyond, BeyondBounds
-from ridecomfort.discrepancy.verdict import is_of_little, left_of
-from tests.discrepancy.verdicts import FOUND, NOTHING
+from ridecomfort.discrepancy.beyond import AtBound, Beyond, BeyondBounds
+from ridecomfort.discrepancy.off_file import OffFile
+from ridecomfort.discrepancy.verdict import Named, Verdict, is_of_little, left_of
+from tests.discrepancy.verdicts import FOUND, NOTHING, SIZE, SURE
+
+READING = Path(__file__).parents[2] / "docs" / "reading.md"
 
 
 def test_a_question_among_the_reasons_stays_one():
@@ -35,3 +40,10 @@ def test_it_is_not_called_little_where_parameters_of_the_vehicle_were_put_right_
     right = replace(said, beyond_bounds=BeyondBounds((stiffer,), 0.9, 0.88, is_first=True))
     assert "It is little" not in right.words() and not is_of_little(right.json())
     assert "It is little" in replace(said, beyond_bounds=BeyondBounds((stiffer,), 0.1, 0.1)).words()
+
+
+def test_every_key_of_a_verdict_file_is_explained():
+    section = READING.read_text(encoding="utf-8").partition("### verdict.json\n")[2].partition("\n`evidence.png`")[0]
+    told = set(re.findall(r"`(\w+)`", section))
+    names = {own.name for kind in (Verdict, Named, Beyond, BeyondBounds, AtBound, OffFile) for own in fields(kind)}
+    assert names | set(SIZE) | set(SURE.json()) <= told
