@@ -22,7 +22,7 @@ SITE_MISTAKES = [
     ({"road": {"file": "road.crg"}, "speed": {"limit_km_h": -50}}, "speed: limit_km_h: -50, expected at least 5"),
     ({"road": {"file": "road.crg"}, "drives": [DRIVE]}, "drives: entry 1: file: no such file 'drive.csv'"),
     ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "role": "fix"}]}, "role: 'fix', expected one of fit, check"),
-    ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "name": ""}]}, "drives: entry 1: name: '', expected some text (Name of the drive"),
+    ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "name": " "}]}, "drives: entry 1: name: ' ', expected some text (Name of the drive"),
     (
         {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "road.crg", "columns": {"time": {"column": "t", "unit": "m"}}}]},
         "drives: entry 1: columns: time: unit 'm' does not fit time (expected one of s, ms",

@@ -204,3 +204,17 @@ def test_drives_that_repeat_one_another_all_have_a_stretch_in_common():
         numbers.append(joined(passages, np.linspace(start, end, 101), np.linspace(0.0, (end - start) / 20.0, 101), np.zeros(101)))
     assert numbers == [0, 0, 1]
     assert [(passage.speed, passage.start, passage.end) for passage in passages] == [(20.0, 0.0, 1020.0), (20.0, 1000.0, 2000.0)]
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (0, 2, 1), (2, 1, 0), (1, 0, 2)])
+def test_beside_a_short_repeat_drives_at_other_speeds_elsewhere_repeat_nothing_whatever_their_order(order):
+    """The first at 20 m/s, the third at 14 m/s but for 300 m, in which the second drove its 200 m as they both did."""
+    slow = np.array([14.0] * 30 + [20.0] * 30 + [14.0] * 60)
+    driven = {0: (0.0, np.full(120, 20.0)), 1: (320.0, np.full(20, 20.0)), 2: (0.0, slow)}
+    passages, numbers = [], {}
+    for which in order:
+        start, speeds = driven[which]
+        place = start + np.concatenate([[0.0], np.cumsum(np.full(speeds.size, 10.0))])
+        time = np.concatenate([[0.0], np.cumsum(10.0 / speeds)])
+        numbers[which] = joined(passages, place, time, np.zeros(place.size))
+    assert numbers[0] != numbers[2] and numbers[1] in (numbers[0], numbers[2])

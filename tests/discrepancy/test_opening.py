@@ -116,3 +116,9 @@ def test_a_search_without_a_calibration_begins_at_the_values_of_the_file_however
     assert "tyre_radial_damping" not in opening.bounds_of(car.replace(tyre_radial_damping=0.0)), "a vehicle has none of it"
     with pytest.raises(InputError, match="bounds: tyre_radial_damping: 4000 to 7000, expected bounds that hold the 200 of the vehicle's file"):
         opening.bounds_of(other, {"tyre_radial_damping": BOUNDS["tyre_radial_damping"]})
+
+
+def test_a_value_of_nil_that_nobody_calibrated_is_held_whatever_the_bounds():
+    car = parameters.read(Path(__file__).parents[2] / "config" / "vehicles" / "midsize.yaml").replace(tyre_radial_damping=0.0)
+    bounds = opening.bounds_of(car, BOUNDS)
+    assert set(bounds) == set(BOUNDS) - {"tyre_radial_damping"} and bounds["tyre_friction"] == BOUNDS["tyre_friction"]

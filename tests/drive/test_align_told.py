@@ -159,7 +159,7 @@ def test_axes_that_are_exchanged_are_told_where_a_drive_is_refused(truth, nomina
 
 def test_a_drive_without_a_place_that_begins_elsewhere_is_asked_where_it_begins(drive, road, nominal):
     recorded = quarter_cars.recorded(drive, place=False, noise=1.0, lateral_position=LATERAL)
-    with pytest.raises(InputError, match=r"agree nowhere .* are the axes right, and distance_start \(0 m unless given\) to 15 m\?"):
+    with pytest.raises(InputError, match=r"agree nowhere .* are the axes and signs right, and distance_start \(0 m unless given\) to 15 m\?"):
         aligned(recorded, road, nominal)
 
 
@@ -224,3 +224,25 @@ def test_a_drive_without_a_place_that_is_too_short_to_find_it_is_refused(drive, 
         aligned(recorded.isel(time=slice(0, 1151)), road, nominal)
     long_enough = aligned(recorded.isel(time=slice(0, 1251)), road, nominal)
     np.testing.assert_allclose(long_enough["s"], drive["s"].values[: long_enough.sizes["time"]], atol=0.1)
+
+
+@pytest.mark.parametrize("reversed_rates", [("roll_rate", "pitch_rate", "yaw_rate"), ("roll_rate", "pitch_rate")])
+@pytest.mark.parametrize(("start", "scale"), [(60.0, 1.0), (68.0, 0.98)])
+def test_without_a_place_rates_of_the_wrong_sign_move_nothing(drive, road, nominal, reversed_rates, start, scale):
+    """The odometer listens to them: it put the drive 8 m away, onto another path."""
+    told = quarter_cars.recorded(drive, noise=1.0, name="own", place=False, distance_start=start, speed_scale=scale)
+    right, wrong = (aligned(one, road, nominal) for one in (told, told.assign({name: -told[name] for name in reversed_rates})))
+    assert ", ".join(reversed_rates) + " run against the model" in wrong.attrs["faults"] and not right.attrs["faults"]
+    for name in ("speed_scale", "distance_offset", "lateral_correction"):
+        assert wrong.attrs[name] == pytest.approx(right.attrs[name], abs=1e-6)
+
+
+def test_a_path_on_the_other_side_of_the_reference_line_is_asked_for_its_sign(lanes, nominal):
+    """In the left one of two lanes, recorded to the right."""
+    road, drive = lanes
+    told = quarter_cars.recorded(drive, noise=1.0, name="own")
+    with pytest.raises(InputError, match=r"fits the road best \+3\.\d+ m .* with the other sign e would lie there: is it positive to the left"):
+        aligned(told.assign(e=told["e"].copy(data=np.full(told.sizes["time"], -1.8))), road, nominal)
+    with pytest.raises(InputError) as other:
+        aligned(quarter_cars.recorded(drive, noise=1.0, lateral_position=0.0, name="own"), road, nominal)
+    assert "other sign" not in str(other.value)

@@ -211,3 +211,30 @@ def test_a_bump_after_which_the_body_goes_on_moving_is_no_sample_that_is_wild(he
     after = np.clip(TIME - 30.0, 0.0, None)
     swings = lambda name, values: values + height * np.exp(-0.5 * ((TIME - 30.0) * 100.0 / width) ** 2) + 0.3 * height * np.exp(-2.0 * after) * np.sin(8.0 * after)
     assert faults.found(signals(swings)) == []
+
+
+def test_a_value_that_was_transmitted_wrongly_is_told_of_a_signal_in_coarse_steps_too():
+    told = signals(step=0.5)
+    told["a_y"][1][3000] = 60.0
+    (said,) = faults.found(told)
+    assert said.startswith("a_y: a sample lies up to ") and said.endswith("the first at 30.00 s: transmitted wrongly?")
+
+
+def test_of_a_signal_in_steps_that_are_hardly_ever_left_no_bump_is_wild():
+    """Of 99 in 100 values each is nought, of which nobody knows how far within a step they lie."""
+    told = signals()
+    told["roll_rate"] = TIME, np.zeros(TIME.size)
+    told["roll_rate"][1][::80], told["roll_rate"][1][3001:3003] = 1.0, 12.0
+    assert faults.found(told) == []
+
+
+def test_lost_samples_are_told_beside_a_signal_that_is_held_elsewhere():
+    def spoil(name, values):
+        values = values + (9.81 if name == "a_z" else 0.0)
+        values[2000:2004] = 0.0
+        values[4000:4100] = values[4000] if name == "yaw_rate" else values[4000:4100]
+        return values
+
+    held, lost = faults.found(signals(spoil))
+    assert held.startswith("yaw_rate: a value is held for 100 samples")
+    assert lost == f"{', '.join(SIGNALS)}: 4 samples are exactly 0, the first at 20.00 s: lost, and filled with noughts?"

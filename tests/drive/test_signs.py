@@ -8,7 +8,8 @@ import xarray as xr
 from scipy.spatial.transform import Rotation
 
 from ridecomfort import simulate
-from ridecomfort.drive import align, mounting, record, signs
+from ridecomfort.drive import align, mounting, path, record, signs
+from ridecomfort.drive.replay import replay
 from ridecomfort.vocabulary import SIGNALS
 from tests import quarter_cars
 from tests.blind import trials
@@ -118,3 +119,28 @@ def test_words_name_signals_and_what_to_change():
         "roll_rate runs against the model (correlation -0.90): is its sign wrong, as where turning is counted the other way round "
         "(if so, change the sign of `factor` under `columns`)?"
     )
+
+
+@pytest.mark.parametrize(("banked", "sloping"), [(0.08, 0.0), (0.0, 0.05)], ids=["bank", "grade"])
+def test_a_bank_or_a_grade_that_the_road_file_has_not_is_no_wrong_sign(repository, banked, sloping):
+    """Of what is slow in a_y or a_x it makes more than the bends and the pedals do; what is fast goes with the model."""
+    levelled = trials.a_road(np.random.default_rng(1))
+    u, v = levelled["u"], levelled["v"]
+    levelled = levelled.assign(curvature=0.0025 * np.sin(2 * np.pi * u / 350))
+    bank, grade = (share * np.sin(2 * np.pi * u / length) for share, length in ((banked, 350), (sloping, 400)))
+    hills = grade.cumsum() * float(u[1] - u[0])
+    road = levelled.assign(elevation=(levelled["elevation"] + hills - bank * v).transpose("u", "v"))
+    car = quarter_cars.vehicle(repository)
+    speed = np.sqrt((11.0 if banked else 20.0) ** 2 - 1.2 * 9.81 * (hills - hills.mean()))
+    run = simulate.run(simulate.prepare(road), quarter_cars.other(car), speed=speed, lateral=xr.full_like(u, 0.13), **OPTIONS)
+    run = run.isel(time=(run["time"] >= run["time"][0] + 2.0).values)
+    record_of_it, course = mounting.level(told(run.assign_coords(time=run["time"] - run["time"][0]))), simulate.prepare(levelled)
+    again = replay(path.part(record_of_it), course, simulate.run, options=OPTIONS)
+    lags, each, _ = signs._correlations(again, again(car))
+    assert each[SIGNALS.index("a_y" if banked else "a_x"), np.abs(lags).argmin()] < -signs.AGAINST  # what is slow alone would tell a sign
+    assert signs.against(record_of_it, course, car, simulate.run, OPTIONS) == {}
+
+
+def test_an_acceleration_alone_may_as_well_be_told_of_another_place():
+    assert signs.words({"a_x": -0.8}).endswith(", or is the place of the sensor wrong?")
+    assert "place" not in signs.words({"a_x": -0.8, "pitch_rate": -0.9, "yaw_rate": -0.9})

@@ -177,8 +177,8 @@ def _same_record(drive: Mapping, other: Mapping, folder: Path) -> str:
     """How a drive is the record of the other, by file or as a copy of it, in words that come before the other's name; empty where it is not.
 
     A file may hold records of several instruments: the columns that are read tell them apart. Contents are read of files of equal size only,
-    up to the first difference, which two records show in their first lines. ``steps.measured`` knows copies by their samples that are not
-    equal byte by byte.
+    up to the first difference, which two records show in their first lines. ``drive.copies`` knows those that are not equal
+    byte by byte.
     """
     if drive.get("columns") != other.get("columns"):
         return ""

@@ -182,6 +182,8 @@ def _explain(error: ValidationError) -> str:
             return f"{value!r}, expected {error.schema['description']}"
         case "minLength":
             return f"{value!r}, expected some text{meaning}"
+        case "pattern" if expected == r"\S":
+            return f"{value!r}, expected some text{meaning}"
         case "pattern":
             return f"{value!r}, expected a name of letters, digits and underscores"
         case "ascending":

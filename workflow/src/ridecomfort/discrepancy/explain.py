@@ -47,8 +47,8 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 
 class Passage(NamedTuple):
-    """What drives that repeat one another drove, from ``start`` to ``end`` (m): ``place`` (m), ``lateral`` position (m) and ``time`` (s) of the
-    first, (sample,), and where its ``sensor`` was, in m from the centre of gravity."""
+    """What drives that repeat one another all drove, from ``start`` to ``end`` (m): ``place`` (m), ``lateral`` position (m) and ``time`` (s) of the
+    first, (sample,), where its ``sensor`` was, in m from the centre of gravity, and the ``others``."""
 
     start: float
     end: float
@@ -56,6 +56,7 @@ class Passage(NamedTuple):
     lateral: np.ndarray
     time: np.ndarray
     sensor: Sequence[float] = (0.0, 0.0, 0.0)
+    others: tuple[Passage, ...] = ()
 
     @property
     def speed(self) -> float:
@@ -66,9 +67,15 @@ class Passage(NamedTuple):
         """Mean speed (m/s) of the first between two places."""
         return (end - start) / float(np.ptp(np.interp((start, end), self.place, self.time)))
 
-    def apart(self, other: Passage) -> float:
-        """rms distance (m) of the paths where both were driven."""
-        place = np.linspace(max(self.start, other.start), min(self.end, other.end), 200)
+    def is_repeated_by(self, other: Passage) -> bool:
+        """Whether the first is, wherever both drove: at its speed, on its path, with the sensor at its place."""
+        start, end = max(self.place.min(), other.place.min()), min(self.place.max(), other.place.max())
+        is_as_fast = abs(other.pace(start, end) / self.pace(start, end) - 1.0) < SAME_SPEED
+        return is_as_fast and self.apart(other, start, end) < SAME_PATH and dist(self.sensor, other.sensor) < SAME_SENSOR
+
+    def apart(self, other: Passage, start: float, end: float) -> float:
+        """rms distance (m) of the paths between two places."""
+        place = np.linspace(start, end, 200)
         return float(np.sqrt(np.mean((np.interp(place, self.place, self.lateral) - np.interp(place, other.place, other.lateral)) ** 2)))
 
 
@@ -173,15 +180,15 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
 def joined(
     passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral: np.ndarray, sensor: Sequence[float] = (0.0, 0.0, 0.0)
 ) -> int:
-    """Number of the first of ``passages`` that a drive (place and lateral position in m over time in s, place of its sensor in m) repeats, which
-    is cut to what they have in common; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
+    """Number of the first of ``passages`` of which a drive (place and lateral position in m over time in s, place of its sensor in m) repeats all
+    drives, which is cut to what they have in common; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
     own = Passage(float(np.min(place)), float(np.max(place)), place, np.nan_to_num(lateral), time, sensor)
     for number, known in enumerate(passages):
         start, end = max(own.start, known.start), min(own.end, known.end)
         is_along = end - start > COMMON * min(own.end - own.start, known.end - known.start)
-        is_alike = is_along and abs(own.pace(start, end) / known.pace(start, end) - 1.0) < SAME_SPEED
-        if is_alike and known.apart(own) < SAME_PATH and dist(own.sensor, known.sensor) < SAME_SENSOR:
-            passages[number] = known._replace(start=start, end=end)
+        # Beside a short one two may differ where only they drove.
+        if is_along and all(one.is_repeated_by(own) for one in (known, *known.others)):
+            passages[number] = known._replace(start=start, end=end, others=(*known.others, own))
             return number
     passages.append(own)
     return len(passages) - 1

@@ -157,10 +157,12 @@ def opened(
 
 def bounds_of(vehicle, given: Mapping[str, Sequence[float]] = {}) -> dict[str, Sequence[float]]:
     """Bounds of the parameters of tab:constraints, and of those ``given``, for a vehicle that nobody calibrated: those given, else those of the paper, or,
-    where these do not hold the value of the vehicle's file, half and twice that. Raises InputError where those given do not.
+    where these do not hold the value of the vehicle's file, half and twice that. Raises InputError where those given do not. A value of nil, as of a
+    tyre without damping, is one that nobody knows: calibrated it would begin within the bounds, and uncalibrated it is held.
 
     A search begins at the file's value: moved into bounds that do not hold it, it would begin with another car, for which effects would make up.
     """
+    given = {name: pair for name, pair in given.items() if name not in PARAMETERS or vehicle[name]}
     for name, (lower, upper) in given.items():
         if name in PARAMETERS and not lower <= vehicle[name] <= upper:
             raise InputError(f"{lower:g} to {upper:g}, expected bounds that hold the {vehicle[name]:g} of the vehicle's file", place=f"bounds: {name}")

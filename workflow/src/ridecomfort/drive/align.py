@@ -91,19 +91,17 @@ def align(
             raise InputError(said, place="v_x")
         work = place.moved(work, scale=scale)
         work = place.cut(work, place.on_road(work, road, before=float(drive.attrs.get("cg_to_front_axle", 0.0)), behind=0.0))
+        wrong = signs.against(work, road, vehicle, simulate, options)
+        work = signs.reversed_in(work, wrong)
     else:
         lasts = float(work["time"][-1])
         if lasts < place.SHORTEST:
             raise InputError(
-                f"lasts {lasts:.1f} s (expected at least {place.SHORTEST:g} s where s is left out, by which its place and speed are found on the road)",
+                f"lasts {lasts:.4g} s (expected at least {place.SHORTEST:g} s where s is left out, by which its place and speed are found on the road)",
                 place=f"drive {drive.attrs['name']}",
             )
-        scale, offset = place.odometer(work, way, road, vehicle, simulate, options)
-        work = place.driven(work, drive, way, scale, offset)
-        kept = place.on_road(work, road, place.ODOMETER_REACH, place.ODOMETER_REACH)
-        work, drive = place.cut(work, kept), place.cut(drive, kept)
-    wrong = signs.against(work, road, vehicle, simulate, options)
-    work = signs.reversed_in(work, wrong)
+        work, kept, scale, offset, wrong = _by_speed(work, way, road, vehicle, simulate, options)
+        drive = place.cut(drive, kept)
     error, fitted, turned = np.nan, mounting.Mounting(), 0.0
     try:
         found = _found(work, road, vehicle, simulate, search, options)
@@ -167,6 +165,28 @@ def align(
         **fitted.attributes(),
     )
     return signs.reversed_in(aligned, wrong)
+
+
+def _by_speed(
+    work: xr.Dataset, way: place.Way, road, vehicle, simulate, options: Mapping
+) -> tuple[xr.Dataset, np.ndarray, float, float, dict[str, float]]:
+    """The drive where its way, integrated from speed, lies on the road, with signals of the right sign; which of its samples these are, the scale
+    and offset (m) of that way, and the signals that were of the wrong sign, with their correlations (``signs.against``).
+
+    The odometer listens to all signals, and some are only known to run against the model where it found the drive: it is asked again then.
+    """
+    near = lambda one: place.on_road(one, road, place.ODOMETER_REACH, place.ODOMETER_REACH)
+    wrong = signs.against(place.cut(work, near(work)), road, vehicle, simulate, options)
+    right = signs.reversed_in(work, wrong)
+    while True:
+        scale, offset = place.odometer(right, way, road, vehicle, simulate, options)
+        placed = place.driven(right, work, way, scale, offset)
+        kept = near(placed)
+        heard = signs.against(place.cut(placed, kept), road, vehicle, simulate, options)
+        more = {name: own for name, own in heard.items() if name not in wrong}
+        if not more:
+            return place.cut(placed, kept), kept, scale, offset, wrong
+        wrong, right = {**wrong, **more}, signs.reversed_in(right, list(more))
 
 
 def _odometer(work: xr.Dataset, way: place.Way, road, vehicle, simulate, options: Mapping) -> tuple[str, xr.Dataset]:
@@ -268,7 +288,7 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
             return work, clock, lateral
     around, lag, agreement = path.search(work, road, vehicle, simulate, options, **look)
     label = f"drive {work.attrs['name']}"
-    begins = "are s and the axes right" if measured else "are the axes right, and distance_start (0 m unless given) to 15 m"
+    begins = "are s and the axes right" if measured else "are the axes and signs right, and distance_start (0 m unless given) to 15 m"
     if agreement < LOWEST**2:
         raise PlaceNotFound(
             f"model and record agree nowhere near this place: {', '.join(place.SHAKEN)} correlate by "
@@ -288,10 +308,12 @@ def _found(work: xr.Dataset, road, vehicle, simulate, search: float, options: Ma
     lateral = path.find_offset(work, road, vehicle, simulate, options, around=around)
     if path.is_at_an_end(work, road, lateral):
         right, left = path.ends(work, road)
+        is_mirrored = path.has_offset(work) and abs(2.0 * float(work["e"].mean()) + lateral) < path.STEP
+        sign = "; with the other sign e would lie there: is it positive to the left?" if is_mirrored else ""
         raise InputError(
             f"its path fits the road best {lateral:+.2f} m to the left of {'what is recorded or told' if known else 'the reference line'}, "
             f"at an end of what is searched or beyond (expected between {right:+.2f} and {left:+.2f} m; is lateral_position or e right, "
-            f"is the road as wide as the drive?){_otherwise(work, road, vehicle, simulate, options)}",
+            f"is the road as wide as the drive?){sign}{_otherwise(work, road, vehicle, simulate, options)}",
             place=label,
         )
     return work, clock, lateral

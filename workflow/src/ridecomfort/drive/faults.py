@@ -66,19 +66,25 @@ def found(quantities: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
     again = {name: _told_again(signals[name][1]) for name in steps}
     frozen = [] if any(again.values()) else _frozen(signals, steps, quantities)
     said: dict[str, list[str]] = {_in_words(frozen): list(SIGNALS)} if frozen else {}
-    lost = _lost(signals, quantities) or ((), "")
-    for name, step in steps.items():
-        time, values = signals[name]
+    lost, held = _lost(signals, quantities), list(frozen)
+    for name, (time, values) in signals.items():
+        wild = "" if lost and name in lost.names else _wild(time, values)
+        if name not in steps:
+            said.setdefault(wild, []).append(name)
+            continue
+        step = steps[name]
         levels, counts = np.unique(values, return_counts=True)
         ends = ("largest", levels[::-1], counts[::-1]), ("smallest", levels, counts)
         stays = [words for end in ends if (words := _at_limit(name, values, *end))]
-        stays = stays or [again[name] or _held(_holds(time, values, np.diff(values) == 0.0, step, quantities), frozen)]
-        for words in (*stays, _alone(time, values) or ("" if name in lost[0] else _wild(time, values))):
+        if not stays and not again[name]:
+            own = _held(_holds(time, values, np.diff(values) == 0.0, step, quantities), frozen)
+            held, stays = [*held, *own], [_in_words(own)] if own else []
+        for words in (*(stays or [again[name]]), _alone(time, values) or wild):
             said.setdefault(words, []).append(name)
-    if not any("held" in words for words in said):
-        said.setdefault(lost[1], []).extend(lost[0])
-    if "v_x" in quantities and (held := _speed_held(*quantities["v_x"])):
-        said.setdefault(held, []).append("v_x")
+    if lost and (unheld := lost.beside(held)):
+        said.setdefault(unheld.words(), []).extend(unheld.names)
+    if "v_x" in quantities and (stands := _speed_held(*quantities["v_x"])):
+        said.setdefault(stands, []).append("v_x")
     return [f"{', '.join(names)}: {words}" for words, names in said.items() if words]
 
 
@@ -119,6 +125,29 @@ class _Hold:
     begin: float
     end: float
     samples: int
+
+    def meets(self, others: Sequence[_Hold]) -> bool:
+        """Whether it overlaps any of these."""
+        return any(self.begin <= other.end and other.begin <= self.end for other in others)
+
+
+@dataclass(frozen=True)
+class _Lost:
+    """Where signals of these ``names`` are exactly 0 as if samples had been lost and filled."""
+
+    names: Sequence[str]
+    places: Sequence[_Hold]
+
+    def beside(self, held: Sequence[_Hold]) -> _Lost | None:
+        """The same beside where a value is ``held``, by nought or another; None where nothing is left."""
+        places = [place for place in self.places if not place.meets(held)]
+        return _Lost(self.names, places) if places else None
+
+    def words(self) -> str:
+        """How many there are, and where the first."""
+        samples = sum(place.samples for place in self.places)
+        what = "samples are" if samples > 1 else "sample is"
+        return f"{samples} {what} exactly 0, the first at {self.places[0].begin:.2f} s: lost, and filled with noughts?"
 
 
 def _holds(time: np.ndarray, values: np.ndarray, equal: np.ndarray, step: float, quantities: Mapping) -> list[_Hold]:
@@ -170,11 +199,11 @@ def _frozen(signals: Mapping, steps: Mapping[str, float], quantities: Mapping) -
     return []
 
 
-def _held(holds: Sequence[_Hold], frozen: Sequence[_Hold]) -> str:
+def _held(holds: Sequence[_Hold], frozen: Sequence[_Hold]) -> list[_Hold]:
     """Where a value is held as if nothing came from the instrument, beside where all are ``frozen``."""
-    own = [hold for hold in holds if not any(hold.begin <= other.end and other.begin <= hold.end for other in frozen)]
+    own = [hold for hold in holds if not hold.meets(frozen)]
     is_told = len(own) >= STRETCHES or any(hold.end - hold.begin >= LONG for hold in own)
-    return _in_words(own) if is_told else ""
+    return own if is_told else []
 
 
 def _in_words(holds: Sequence[_Hold]) -> str:
@@ -198,7 +227,8 @@ def _alone(time: np.ndarray, values: np.ndarray) -> str:
 def _wild(time: np.ndarray, values: np.ndarray) -> str:
     """Where a few samples are farther from all others than any motion, and these are as if nothing had been."""
     away = np.abs(values - np.median(values))
-    usual = float(np.quantile(away, BULK))
+    levels = np.unique(values)
+    usual = float(np.quantile(away, BULK)) + (float(np.median(np.diff(levels))) if levels.size > 1 else 0.0)  # what is less than a step is told as none
     if not usual > 0:
         return ""
     most = max(1, round(MOMENT * (len(time) - 1) / (time[-1] - time[0])))
@@ -215,8 +245,8 @@ def _wild(time: np.ndarray, values: np.ndarray) -> str:
     return f"{where} up to {farthest:.0f} times as far out as 99 % of all do, the first at {time[first]:.2f} s: transmitted wrongly?"
 
 
-def _lost(signals: Mapping, quantities: Mapping) -> tuple[Sequence[str], str] | None:
-    """Signals that are exactly 0 for some samples as if these had been lost and filled, and words on that."""
+def _lost(signals: Mapping, quantities: Mapping) -> _Lost | None:
+    """Signals that are exactly 0 for some samples as if these had been lost and filled."""
     time, a_z = signals["a_z"]
     is_one_clock = all(values.size == a_z.size for _, values in signals.values())
     all_nought = np.all([values == 0.0 for _, values in signals.values()], axis=0) if is_one_clock else np.full(a_z.size, False)
@@ -232,6 +262,4 @@ def _lost(signals: Mapping, quantities: Mapping) -> tuple[Sequence[str], str] | 
     if not runs:
         return None
     names = SIGNALS if all(all_nought[begin:end].all() for begin, end in runs) else ("a_z",)
-    samples, first = sum(end - begin for begin, end in runs), float(time[runs[0][0]])
-    what = "samples are" if samples > 1 else "sample is"
-    return names, f"{samples} {what} exactly 0, the first at {first:.2f} s: lost, and filled with noughts?"
+    return _Lost(names, [_Hold(float(time[begin]), float(time[end - 1]), end - begin) for begin, end in runs])

@@ -27,6 +27,10 @@ TURNED = 0.8
 """Share of the agreement with signs put right that an instrument turned by some angle has at least where it is turned: it has all of it then, and
 0.7 at most where one sign or more is wrong and none of these signals is weak."""
 
+SLOW = ("a_x", "a_y")
+"""Signals that a bank or a grade which the road's file has not, or a sensor at another height, turns round where they are slow: what is fast in them must
+not agree with the model either."""
+
 POINTS = {"a_x": "the x axis points backward", "a_y": "the y axis points to the right", "a_z": "the z axis points down"}
 """What an acceleration of the wrong sign tells of its instrument."""
 
@@ -46,17 +50,18 @@ def against(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> dict
     for tried in tries:
         for lateral in map(float, tried):
             again = replay(short, road, simulate, lateral_correction=lateral, options=options)
-            lags, each = _correlations(again, again(vehicle))
+            lags, each, fast = _correlations(again, again(vehicle))
             agreement = np.sqrt(np.mean(each[[SIGNALS.index(name) for name in SHAKEN]] ** 2, axis=0))
             at = int(np.argmax(agreement))
             if agreement[at] > best:
-                best, found = float(agreement[at]), (again, float(lags[at]), each[:, at])
+                best, found = float(agreement[at]), (again, float(lags[at]), each[:, at], fast[:, at])
         if best >= SURE:
             break
     if best < SURE:
         return {}
-    again, lag, each = found
-    wrong = {name: float(own) for name, own in zip(SIGNALS, each) if own < -AGAINST}
+    again, lag, each, fast = found
+    is_against = [own < -AGAINST and (name not in SLOW or shaken < 0.0) for name, own, shaken in zip(SIGNALS, each, fast)]
+    wrong = {name: float(own) for name, own, is_wrong in zip(SIGNALS, each, is_against) if is_wrong}
     horizontal = {name for pair in axes.PAIRS for name in pair}
     if horizontal & set(wrong):
         put_right, turned = axes.put_right(again, again(vehicle, clock=lag))
@@ -65,19 +70,18 @@ def against(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> dict
     return wrong
 
 
-def _correlations(again: Replay, simulated: Simulated) -> tuple[np.ndarray, np.ndarray]:
+def _correlations(again: Replay, simulated: Simulated) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Lags (s) of the record behind the model, up to FARTHEST and half the record, and the correlation of every signal at each, (6, lag): of SHAKEN in
-    SHAKEN_BAND, of the others of all that moves them. Accelerations hold gravity where those of the record do."""
+    SHAKEN_BAND, of the others of all that moves them; and of all in that band. Accelerations hold gravity where those of the record do."""
     interval, kept = again.time[1] - again.time[0], again.compared
     measured, model = again.measured()[:, kept], simulated.signals[:, kept]
     if again.drive.attrs["gravity"]:
         model[:3] = record.specific_force(model[:3], simulated.roll[kept], simulated.pitch[kept])
         measured[:3] = record.felt(again.drive)[:, kept]
-    rows = [SIGNALS.index(name) for name in SHAKEN]
-    for signals in (measured, model):
-        signals[rows] = as_shaken(signals[rows], interval)
     reach = min(int(round(FARTHEST / interval)), measured.shape[1] // 2)
-    return interval * np.arange(-reach, reach + 1), correlations(measured, model, reach)
+    fast = correlations(as_shaken(measured, interval), as_shaken(model, interval), reach)
+    is_shaken = np.array([name in SHAKEN for name in SIGNALS])[:, None]
+    return interval * np.arange(-reach, reach + 1), np.where(is_shaken, fast, correlations(measured, model, reach)), fast
 
 
 def reversed_in(drive: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
@@ -94,7 +98,9 @@ def words(wrong: Mapping[str, float]) -> str:
     how_far = ", ".join(f"{own:.2f}" for own in wrong.values())
     points = " and ".join(said for name, said in POINTS.items() if name in wrong) or "turning is counted the other way round"
     run, signs = ("run", "are their signs") if len(wrong) > 1 else ("runs", "is its sign")
+    # An axis of another direction turns rates round as well.
+    instead = "" if set(wrong) - set(SLOW) else ", or is the place of the sensor wrong"
     return (
         f"{', '.join(wrong)} {run} against the model (correlation {how_far}): {signs} wrong, as where {points} "
-        "(if so, change the sign of `factor` under `columns`)?"
+        f"(if so, change the sign of `factor` under `columns`){instead}?"
     )

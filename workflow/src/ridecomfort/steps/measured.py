@@ -3,11 +3,10 @@
 from collections.abc import Mapping, Sequence
 from itertools import combinations
 
-import numpy as np
 import xarray as xr
 
 from ridecomfort import pool, simulate, store
-from ridecomfort.drive import align, configured, lead, mounting, record
+from ridecomfort.drive import align, configured, copies, lead, mounting, record
 from ridecomfort.errors import InputError
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
@@ -49,18 +48,10 @@ def of_files(
 
 
 def _check_once(files: Sequence, drives: Sequence[xr.Dataset]) -> None:
-    """InputError where two drives are one record: exported twice, cut, or under other names of its columns. As repeats they would differ by
-    no noise, and what one of them taught would be confirmed by the other.
-
-    No instrument reads the same a_z twice, sample by sample, on a whole half of a drive (the middle one of the shorter: filters leave traces
-    at the ends of a cut).
-    """
-    readings = [np.round(drive["a_z"].values / record.FINEST).astype(np.int64) for drive in drives]
-    for (other, one), (file, two) in combinations(zip(files, readings), 2):
-        short, long = sorted((one, two), key=len)
-        middle = short[len(short) // 4 : len(short) - len(short) // 4]
-        if np.ptp(middle) > 0 and middle.tobytes() in long.tobytes():  # one that stands still is a fault of its own
-            raise InputError(f"is that of {other} sample by sample, expected a record once, either fitted or held out", file=file, place="a_z")
+    """InputError where two drives are one record (``copies``)."""
+    for (other, one), (file, two) in combinations(zip(files, drives), 2):
+        if copies.is_copy(one, two):
+            raise InputError(f"is that of {other}, expected a record once, either fitted or held out", file=file, place="a_z")
 
 
 if __name__ == "__main__":
