@@ -176,7 +176,7 @@ def _by_speed(
     The odometer listens to all signals, and some are only known to run against the model where it found the drive: it is asked again then.
     """
     near = lambda one: place.on_road(one, road, place.ODOMETER_REACH, place.ODOMETER_REACH)
-    wrong = signs.against(place.cut(work, near(work)), road, vehicle, simulate, options)
+    wrong = signs.against(place.cut(work, place.on_road(work, road)), road, vehicle, simulate, options)
     right = signs.reversed_in(work, wrong)
     while True:
         scale, offset = place.odometer(right, way, road, vehicle, simulate, options)
