@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
+import yaml
 from scipy.signal import butter, sosfiltfilt, welch
 
 from ridecomfort import simulate
-from ridecomfort.drive import record
+from ridecomfort.drive import configured, record
 from ridecomfort.effects import library
 from ridecomfort.errors import InputError
-from ridecomfort.road import edges
+from ridecomfort.road import crg, edges
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import DRIVE, SIGNALS
 from tests import quarter_cars
@@ -230,3 +234,17 @@ def test_the_golden_car_on_four_corners_is_the_quarter_car(repository):
     settled = slice(300, -30)
     difference = drive.a_z.values[settled] - expected[settled]
     assert difference.std() < 0.05 * expected[settled].std()
+
+
+def test_the_lines_of_the_docs_make_drives_with_an_effect_that_is_hidden(repository, tmp_path, monkeypatch):
+    (tmp_path / "data" / "known").mkdir(parents=True)
+    (tmp_path / "config").symlink_to(repository / "config")
+    straight = quarter_cars.road(length=120.0, bend=0.0)
+    crg.write(tmp_path / "data" / "known" / "road.crg", straight.assign(x=straight["u"], y=0.0 * straight["u"]))
+    monkeypatch.chdir(tmp_path)
+    section = (repository / "docs" / "reading.md").read_text(encoding="utf-8").partition("## A car whose answer you know")[2]
+    exec(re.search(r"```python\n(.*?)```", section, re.DOTALL)[1], {})
+    site = yaml.safe_load(re.search(r"```yaml\n(.*?)```", section, re.DOTALL)[1])
+    assert [Path(drive["file"]).is_file() for drive in site["drives"]] == [True] * 4
+    first = configured.read(site["drives"][0]["file"], site["drives"][0], parameters.read("config/vehicles/midsize.yaml"))
+    assert first.attrs["place_measured"] and not first.attrs["gravity"] and first["e"].std() < 0.02

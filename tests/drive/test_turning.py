@@ -32,3 +32,25 @@ def test_a_straight_road_or_an_unknown_path_tells_no_gain():
     swaying = 0.05 * np.sin(2 * np.pi * 0.1 * time)
     assert np.isnan(turning.gyroscope_gain(drive.assign(e=("time", swaying)), road)).all()
     assert np.isnan(turning.gyroscope_gain(drive.assign(e=np.nan * drive["e"]), road)).all()
+
+
+@pytest.mark.parametrize(("degrees", "is_told"), [(8.0, False), (60.0, True)])
+def test_a_vehicle_that_turns_where_its_road_hardly_bends_is_told(degrees, is_told):
+    """A file whose headings are all nil, of a road with bends; a swerve on a straight one is none."""
+    u, time = np.arange(0.0, 2000.0, 0.5), np.arange(0.0, 100.0, 0.01)
+    road = xr.Dataset({"curvature": ("u", np.zeros(u.size))}, {"u": u})
+    yaw_rate = np.radians(degrees) / 2 * np.gradient(np.sin(2 * np.pi * 0.05 * time), time) + 0.002
+    drive = xr.Dataset({"s": ("time", 18.0 * time), "e": ("time", np.zeros(time.size)), "yaw_rate": ("time", yaw_rate)}, {"time": time})
+    said = turning.without_bends(drive, road)
+    assert bool(said) is is_told
+    if is_told:
+        degrees_told = float(said.split("turns by ")[1].split(" deg")[0])
+        assert degrees_told == pytest.approx(degrees, rel=0.1) and said.endswith("are the headings of its file right?")
+    bending = road.assign(curvature=("u", 0.01 * np.sin(2 * np.pi * u / 300)))
+    assert turning.without_bends(drive, bending) == "", "there the gain tells"
+
+
+def test_a_gain_is_told_only_where_it_is_surely_not_one(monkeypatch):
+    for gain, error, is_told in ((1.0, 0.001, False), (1.019, 0.001, False), (1.11, 0.004, True), (1.11, 0.05, False), (np.nan, np.nan, False)):
+        monkeypatch.setattr(turning, "gyroscope_gain", lambda *_: (gain, error))
+        assert turning.words(None, None) == (f"the gyroscope's gain is {gain:.3f} against the bends of the road" if is_told else "")

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..drive import turning
+from ..drive.turning import GAIN, STANDARD_ERRORS
 from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
@@ -35,12 +36,6 @@ OTHERWISE = 0.5
 SMOOTHER = 1.35
 """Place on the way from cubic interpolation (0) to linear (1) from which on records speak for neither: up to 1.15 where the true
 road is linear, 1.5 to 2.2 with noise of 0.1 mm in its file, 1.3 to 2.3 with tyres that envelop 0.2 m."""
-
-GAIN = 0.02
-"""Difference of a recorded gain from one that is more than a calibrated instrument has."""
-
-STANDARD_ERRORS = 2.0
-"""Standard errors by which a gain must lie beyond that."""
 
 APART, INDEPENDENT = 0.5, 10.0
 """Share of a gain's difference from one by which, and by STANDARD_ERRORS beyond it, a signal of an instrument, gravity or the bends of the road
@@ -110,9 +105,8 @@ def of_drives(experiment: Car) -> list[str]:
             reasons.append(f"{record.name}: the clock offset is known to {1e3 * error:.1f} ms only")
         if np.isfinite(gain) and abs(gain - 1.0) > GAIN:
             reasons.append(f"{record.name}: the accelerometer's gain is {gain:.3f} against gravity")
-        gain, error = turning.gyroscope_gain(again.drive, again.road.road)
-        if abs(gain - 1.0) > GAIN + STANDARD_ERRORS * error:
-            reasons.append(f"{record.name}: the gyroscope's gain is {gain:.3f} against the bends of the road")
+        if said := turning.words(again.drive, again.road.road):
+            reasons.append(f"{record.name}: {said}")
     return reasons
 
 

@@ -72,7 +72,8 @@ def align(
     but for a scale and an offset. What lies off the road only because of these, of the clock or since ``s`` was told of the front axle is cut off. Place and speed are moved onto the clock of the inertial signals (they are smooth, so nothing is lost between samples); signals are freed of
     gain, mounting and bias; ``e`` becomes the path that was found.
 
-    New in the attribute ``faults``: a recorded distance that is an odometer's, a place that does not settle, an instrument that is turned. New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
+    New in the attribute ``faults``: a recorded distance that is an odometer's, a place that does not settle, an instrument that is turned, signals of
+    the wrong sign, turning without a bend. New attributes: clock_offset with clock_offset_error (s), speed_scale, distance_offset (m),
     lateral_correction (m), distance_wander and lateral_wander (m, rms of what was found of both
     along the drive), mounting_roll/pitch/yaw (rad), acceleration_gain, yaw_rate_gain (against the bends of
     the road; nan where it hardly bends), roll/pitch/yaw_rate_bias (rad/s). New variables ``roll`` and ``pitch`` (rad): the
@@ -150,7 +151,7 @@ def align(
     if not drive.attrs["gravity"]:
         tilt = mounting.words_not_turned_back(brought.replay, brought.simulated)
     told = exchanged or "; ".join(filter(None, (doubt or _unsettled(drive, last, turned), tilt)))
-    told = "; ".join(filter(None, (signs.words(wrong), on_the_other_side, told)))
+    told = "; ".join(filter(None, (signs.words(wrong), on_the_other_side, turning.without_bends(aligned, getattr(road, "road", road)), told)))
     aligned.attrs.update(
         lateral_position=float(work["e"].mean()),
         clock_offset=float(clock),

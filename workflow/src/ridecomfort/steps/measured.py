@@ -6,7 +6,7 @@ from itertools import combinations
 import xarray as xr
 
 from ridecomfort import pool, simulate, store
-from ridecomfort.drive import align, configured, copies, lead, mounting, record
+from ridecomfort.drive import align, configured, copies, lead, mounting, record, turning
 from ridecomfort.errors import InputError
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
@@ -14,11 +14,13 @@ from ridecomfort.vehicle import parameters
 
 def main(road, vehicle, drives, config, output, workers):
     car = parameters.read(vehicle)
-    aligned = of_files(drives, simulate.prepare(store.read(road)), car, config, int(workers), car)
+    surface = store.read(road)
+    aligned = of_files(drives, simulate.prepare(surface), car, config, int(workers), car)
     store.write(aligned, output, title=f"Measured drives on {config['site']}", configuration=config)
     failing = [f"{name}: {faults}" for name, faults in zip(aligned["drive"].values, aligned["faults"].values) if faults]
     treated = [f"{name}: {done}" for name, done in zip(aligned["drive"].values, aligned["treatment"].values) if done != "none"]
-    for words in (*treated, *failing, *mounting.moved(aligned)):
+    gains = [f"{one.attrs['name']}: {words}" for one in record.unstack(aligned) if (words := turning.words(one, surface))]
+    for words in (*treated, *failing, *gains, *mounting.moved(aligned)):
         note(f"{config['site']}: {words}")
     if aligned.attrs["distance_doubt"]:
         note(f"{config['site']}: {aligned.attrs['distance_doubt']}")
