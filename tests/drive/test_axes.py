@@ -41,6 +41,19 @@ def test_a_quarter_to_the_left_is_put_right_by_what_is_told(made):
     assert "a_x = -a_y, a_y = a_x, roll_rate = -pitch_rate, pitch_rate = roll_rate" in words
 
 
+@pytest.mark.parametrize("pair", axes.PAIRS)
+def test_columns_that_are_exchanged_are_no_turn_but_told(made, pair):
+    road, car, recorded = made
+    one, other = pair
+    drive = mounting.level(recorded.assign({one: recorded[other], other: recorded[one]}))
+    again = replay.replay(drive, road, quarter_cars.run)
+    simulated = again(car)
+    assert axes.words(again, simulated) == ""
+    assert axes.columns(again, simulated) == f"{one} and {other} each do what the model does in the other: are their columns exchanged?"
+    right = replay.replay(mounting.level(recorded), road, quarter_cars.run)
+    assert axes.columns(right, right(car)) == ""
+
+
 def test_one_signal_of_the_wrong_sign_is_no_turn(made):
     for name in RIGHT:
         assert told(made, RIGHT | {name: (name, -1)})[1] == ""

@@ -366,6 +366,21 @@ def test_rows_with_a_field_more_than_the_header_are_refused_by_line(tmp_path, lo
     assert str(refused.value) == f"{path}: line 3: 10 fields, expected one for each of the 9 names of columns"
 
 
+def test_decimal_commas_between_commas_are_asked_for(tmp_path):
+    path = write(tmp_path, table())
+    header, *lines = path.read_text().splitlines()
+    path.write_text("\n".join([header, *(line.replace(".", ",") for line in lines)]))
+    with pytest.raises(InputError, match=r"line 2: 1\d fields, expected one for each of the 9 names of columns: are there commas in decimal numbers\?"):
+        readers.read(path, COLUMNS)
+
+
+def test_text_in_another_encoding_is_asked_for(tmp_path):
+    path = write(tmp_path, table())
+    path.write_bytes(path.read_bytes().replace(b"\n", b" \xb0\n", 1))
+    with pytest.raises(InputError, match="not a readable CSV file .*is it saved as UTF-8"):
+        readers.read(path, COLUMNS)
+
+
 def test_a_single_longer_row_further_down_is_refused_by_line(tmp_path):
     path = write(tmp_path, table())
     lines = path.read_text().splitlines()
@@ -386,7 +401,7 @@ def test_a_file_that_is_not_separated_by_commas_says_what_it_is_separated_by(tmp
     for look in (readers.read, readers.check):
         with pytest.raises(InputError) as refused:
             look(tmp_path / "drive.csv", COLUMNS)
-        assert str(refused.value) == f"{tmp_path / 'drive.csv'}: line 1: one column only: separated by {separator!r}? (expected ',')"
+        assert str(refused.value) == f"{tmp_path / 'drive.csv'}: line 1: one column only: separated by {separator!r}? (expected ',', and a point in decimal numbers)"
 
 
 def test_blank_lines_are_counted_though_they_are_no_rows(tmp_path):

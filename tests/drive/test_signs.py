@@ -117,8 +117,9 @@ def test_words_name_signals_and_what_to_change():
     said = signs.words({"roll_rate": -0.9})
     assert said == (
         "roll_rate runs against the model (correlation -0.90): is its sign wrong, as where turning is counted the other way round "
-        "(if so, change the sign of `factor` under `columns`)?"
+        "(if so, change the sign of `factor` under `columns`); if all drives say so, are left and right of the road's file exchanged?"
     )
+    assert "road's file" in signs.words({"a_y": -0.9, "yaw_rate": -1.0}) and "road's file" not in signs.words({"pitch_rate": -0.9, "roll_rate": -0.9})
 
 
 @pytest.mark.parametrize(("banked", "sloping"), [(0.08, 0.0), (0.0, 0.05)], ids=["bank", "grade"])

@@ -27,7 +27,8 @@ def read(path, rows: int | None = None) -> pd.DataFrame:
     except FileNotFoundError:
         raise InputError("no such file", file=path) from None
     except (OSError, ValueError, csv.Error) as problem:  # text that is none is a ValueError, too
-        raise InputError(f"not a readable CSV file ({str(problem).splitlines()[0]})", file=path) from None
+        saved = "; is it saved as UTF-8?" if isinstance(problem, UnicodeDecodeError) else ""
+        raise InputError(f"not a readable CSV file ({str(problem).splitlines()[0]}{saved})", file=path) from None
     if _is_longer(path):
         raise _uneven(path)
     return table
@@ -40,7 +41,7 @@ def names(path) -> list[str]:
         found = next(csv.reader(file, skipinitialspace=True), [])
     for separator in (";", "\t") if len(found) == 1 else ():
         if separator in found[0]:
-            raise InputError(f"one column only: separated by {separator!r}? (expected ',')", file=path, place="line 1")
+            raise InputError(f"one column only: separated by {separator!r}? (expected ',', and a point in decimal numbers)", file=path, place="line 1")
     return found
 
 
@@ -66,4 +67,5 @@ def _uneven(path) -> InputError:
         counts = [(rows.line_num, len(row)) for row in rows if any(row)]
     (_, named), *others = counts
     line, fields = next(other for other in others if other[1] != named)
-    return InputError(f"{fields} fields, expected one for each of the {named} names of columns", file=path, place=f"line {line}")
+    commas = ": are there commas in decimal numbers?" if fields > named + 1 else ""
+    return InputError(f"{fields} fields, expected one for each of the {named} names of columns{commas}", file=path, place=f"line {line}")

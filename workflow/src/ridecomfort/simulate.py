@@ -33,6 +33,9 @@ FARTHEST = 1e7
 FASTEST_CHANGE = 1e4
 """m/s2 of the sensor beyond which it has, too."""
 
+AROUND, TIGHTEST = 10.0, 0.25
+"""m around a place within which a bend is looked for, and 1/m from which on no car follows it."""
+
 OVERHANG = 2.0
 """m of road kept free beyond the axles at either end."""
 
@@ -281,7 +284,8 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     is_lost = is_short and (record[-1, 2] > driver.SLOWEST or np.abs(sensed[:3, :steps]).max() > FASTEST_CHANGE)
     if is_lost or not (np.abs(record[:, :3]) < FARTHEST).all() or not np.isfinite(sensed[:, :steps]).all():
         raise InputError(
-            "the simulated drive did not stay finite; is a parameter or an effect out of reason, or the friction too low for the grade or the bend?",
+            f"the simulated drive did not stay finite{_last_seen(record, course)}; is a parameter or an effect out of reason, or the friction too low "
+            "for the grade or the bend?",
             place=f"vehicle {vehicle.name}",
         )
     if is_short:
@@ -295,6 +299,16 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     else:
         _low_pass(sensed, steps, _taps(every), every, record[:, SENSED])
     return record
+
+
+def _last_seen(record: np.ndarray, course: Course) -> str:
+    """Where a drive was at last on its road, in words, with the radius there if no vehicle could follow it."""
+    places = record[np.isfinite(record[:, 0]) & (record[:, 0] >= course.u[0]) & (record[:, 0] <= course.u[-1]), 0]
+    if not places.size:
+        return ""
+    around = np.abs(course.curvature[np.abs(course.u - places[-1]) < AROUND])
+    bend = f", where the road bends with a radius of {1.0 / around.max():.2g} m: are its headings in rad" if around.max(initial=0.0) > TIGHTEST else ""
+    return f" at u = {places[-1]:.0f} m{bend}"
 
 
 @lru_cache

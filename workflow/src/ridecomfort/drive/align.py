@@ -329,7 +329,8 @@ def _otherwise(work: xr.Dataset, road, vehicle, simulate, options: Mapping) -> s
     times = dict(zip(SIGNALS, measured / np.maximum(modelled, 1e-12)))
     far = {name: times[name] for name in place.SHAKEN if not 1.0 / TIMES < times[name] < TIMES}
     said = [f"{name} is {found:.2g} times what the model does: is its unit right?" for name, found in far.items()]
-    return "".join(f"; {words}" for words in (*said, axes.words(again, simulated)) if words)
+    exchanged = axes.words(again, simulated) or axes.columns(again, simulated)
+    return "".join(f"; {words}" for words in (*said, exchanged) if words)
 
 
 def _better(vehicle, values: Mapping[str, float], brought: Following) -> tuple[object, Simulated]:

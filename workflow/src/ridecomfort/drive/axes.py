@@ -18,6 +18,11 @@ LEAST, TIMES = 0.3, 2.0
 times that of the axes as they are: that of an instrument turned by 63 deg, which takes all rounds of alignment or more."""
 
 
+EXCHANGED, OWN = 0.6, 0.4
+"""Correlation of two signals with the model's of one another (mean) from which on their columns are likely exchanged, and that which each of these exceeds
+and none with its own: a_x of a drive at a constant speed is little but noise."""
+
+
 def agreement(again: Replay, simulated: Simulated) -> np.ndarray:
     """Correlation of record and model, mean over the PAIRS, (4,): as recorded, and of an instrument that is turned to the left by one, two, and
     three quarters. What either does not move in counts nothing; accelerations hold gravity where those of the record do."""
@@ -67,3 +72,11 @@ def words(again: Replay, simulated: Simulated) -> str:
         f"{found[quarters]:.2f} then, by {found[0]:.2f} as recorded "
         f"(if so, exchange `columns`, and `factor` where there is a minus: {', '.join(told)})"
     )
+
+
+def columns(again: Replay, simulated: Simulated) -> str:
+    """Words on two signals of which each does what the model does in the other, while the instrument is not turned; empty where there are none."""
+    own, to_the_left = _correlations(again, simulated)
+    exchanged = to_the_left * [-1.0, 1.0]  # after a quarter one of two has the other sign
+    found = [" and ".join(pair) for pair, one, other in zip(PAIRS, own, exchanged) if other.mean() > EXCHANGED and other.min() > OWN > one.max()]
+    return "; ".join(f"{names} each do what the model does in the other: are their columns exchanged?" for names in found)

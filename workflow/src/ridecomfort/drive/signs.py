@@ -31,6 +31,9 @@ SLOW = ("a_x", "a_y")
 """Signals that a bank or a grade which the road's file has not, or a sensor at another height, turns round where they are slow: what is fast in them must
 not agree with the model either."""
 
+SIDEWAYS = {"a_y", "roll_rate", "yaw_rate"}
+"""Signals that a road whose left and right are exchanged makes run against the model, in every drive."""
+
 POINTS = {"a_x": "the x axis points backward", "a_y": "the y axis points to the right", "a_z": "the z axis points down"}
 """What an acceleration of the wrong sign tells of its instrument."""
 
@@ -100,6 +103,7 @@ def words(wrong: Mapping[str, float]) -> str:
     run, signs = ("run", "are their signs") if len(wrong) > 1 else ("runs", "is its sign")
     # An axis of another direction turns rates round as well.
     instead = "" if set(wrong) - set(SLOW) else ", or is the place of the sensor wrong"
+    instead += "" if set(wrong) - SIDEWAYS else "; if all drives say so, are left and right of the road's file exchanged"
     return (
         f"{', '.join(wrong)} {run} against the model (correlation {how_far}): {signs} wrong, as where {points} "
         f"(if so, change the sign of `factor` under `columns`){instead}?"
