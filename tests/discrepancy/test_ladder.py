@@ -194,6 +194,15 @@ def test_a_model_that_makes_one_signal_worse_while_all_together_fall_may_stand_i
     ]
 
 
+def test_a_signal_that_rises_by_little_of_its_floor_is_not_told_however_much_of_what_was_left_that_is():
+    """A y lay 0.1 above a floor of 1, and lies 0.2 above it: a tenth of the floor, but as much as all that was left."""
+    models = {"base": of_two((30.0, 5.0), (2.0, 1.1)), "one": of_two((30.0, 3.0), (2.0, 1.2))}
+    graded = {name: sections((0, 0, 0, 0), (0, 0, 0, 0)) for name in models}
+    found = ladder({"ts1": Measured(models, graded, True)}, list(models), ["+ one"])
+    left = found["left"].sel(rung=["calibrated", "+ one"], site="ts1", group="held out", signal="a_y").values
+    assert left == pytest.approx([1.0, 2.0]) and worsened(found) == []
+
+
 def test_a_model_that_makes_one_signal_worse_is_told_of_the_nominal_vehicle_too():
     """It has no calibrated rung that its first effect could be put beside."""
     base = of_two((30.0, 30.0), (2.0, 2.0)).sel(state=["reference"])

@@ -31,8 +31,8 @@ RISEN = 0.01
 """By how much more of what the reference leaves a model may leave on fitted drives than the one before it until that is said."""
 
 WORSE = 0.25
-"""By how much more of what the reference leaves of a signal a model may leave than the one before it, while all signals together fall, until that is
-said: a quarter, several times what chance makes of a signal near its floor."""
+"""By how much more of what the reference leaves of a signal, and of its floor, a model may leave than the one before it, while all signals together fall,
+until that is said: a quarter, several times what chance makes of a signal near its floor."""
 
 
 MAY_STAND_IN = "what was {what} may stand in for something that is missing"
@@ -179,8 +179,10 @@ def worsened(found: xr.Dataset) -> list[tuple[str, str]]:
         known = chosen["rung"].values[chosen["rmse"].notnull().any("signal").values]  # the nominal vehicle has no rung "calibrated"
         may_stand_in = MAY_STAND_IN.format(what="fitted" if CALIBRATED in known else "switched on")
         for before, now in zip(known, known[1:]):
+            square = chosen["rmse"].sel(rung=now).values ** 2 - chosen["rmse"].sel(rung=before).values ** 2
+            is_much = square > WORSE * np.nan_to_num(chosen["floor_rmse"].values) ** 2
             lower, higher = (chosen["left"].sel(rung=rung).values for rung in (before, now))
-            rises = np.flatnonzero(higher > lower + WORSE)
+            rises = np.flatnonzero((higher > lower + WORSE) & is_much)
             if rises.size and chosen["left_overall"].sel(rung=now) < chosen["left_overall"].sel(rung=before):
                 signals = (f"{chosen['signal'].values[k]} ({100 * higher[k]:.0f} % left after {100 * lower[k]:.0f} %)" for k in rises)
                 told = f"{now}: on drives {groups[0]} the error grows in {', '.join(signals)}, though it falls over all signals"

@@ -37,7 +37,7 @@ def error_ladder(study: Difference) -> Table:
         columns.append(Column(f"{signal}_rmse_{unit}", (title, "RMSE"), ".4f"))
         columns.append(Column(f"{signal}_left_pct", (title, "left [%]"), ".0f"))
     of_all_signals = len(columns)
-    columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".0f"))
+    columns.append(Column("all_left_pct", ("All signals", "left [%]"), ".1f"))
     columns.append(Column("all_fall_pct", ("All signals", "fall [% points]"), ".1f"))
     columns.append(Column("all_falling_pct", ("All signals", "stretches falling [%]"), ".0f"))
     columns.append(Column("all_helps", ("All signals", "helps")))
