@@ -137,6 +137,8 @@ def test_an_error_of_the_measurement_stands_in_for_something_else_only_where_it_
     selection, found = judged(model)
     assert selection.accepted == ("effect_1", "effect_4") and [effect.name for effect in found.effects] == ["effect_1"]
     assert found.is_like_error is is_like_error
+    value = selection.final.values["effect_4.size"]
+    assert any(reason.startswith(f"effect_4 (size {value:.3g} N) would help, an error of the measurement") for reason in found.reasons)
 
 
 def test_effects_that_remove_nothing_in_all_are_not_told():
