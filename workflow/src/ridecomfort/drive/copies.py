@@ -18,6 +18,9 @@ SAME = 2e-3
 """rms of the difference over that of a record up to which both are one: exports at another rate leave 0.0017, cut ones, in other units or with four
 digits 0.0002; two drives on one path, with a noise of 0.01 m/s2, would differ by 0.004 by that alone."""
 
+LEAST = 3.0
+"""s of a drive of less than which none is known to be a copy: it is refused for that."""
+
 STEPS = 6
 """Steps to the lag at which they agree best, from that to a sample."""
 
@@ -26,11 +29,13 @@ def is_copy(one, other, name: str = "a_z") -> bool:
     """Whether the signal of this ``name`` of two drives at one rate is the same on the middle half of the shorter (filters leave traces at the ends of
     a cut), at some lag and in some unit. One that stands still is a copy of none."""
     rate = rate_of(one["time"].values)
-    low_pass = butter(4, BELOW, fs=rate, output="sos")
+    if min(one.sizes["time"], other.sizes["time"]) < LEAST * rate:
+        return False
+    low_pass = butter(4, min(BELOW, 0.4 * rate), fs=rate, output="sos")
     short, long = sorted((sosfiltfilt(low_pass, drive[name].values) for drive in (one, other)), key=len)
     first = len(short) // 4
     middle = short[first : len(short) - first]
-    if np.ptp(middle) <= 1e-9 * np.max(np.abs(middle), initial=0.0) or len(middle) < 2:
+    if np.ptp(middle) <= 1e-9 * np.max(np.abs(middle)):
         return False
     middle = (middle - middle.mean()) / middle.std()
     lag, spline = float(_lag(middle, long)), make_interp_spline(np.arange(len(long)), long, k=5)
