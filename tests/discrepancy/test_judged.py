@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from ridecomfort import simulate
-from ridecomfort.discrepancy.judged import against, band, coherence, correlation, doubt, judged, taken_for
+from ridecomfort.discrepancy.judged import against, band, coherence, doubt, judged
+from ridecomfort.drive.axes import correlation, taken_for
 from ridecomfort.vehicle import parameters
 from ridecomfort.vocabulary import SIGNALS
 from tests.vehicle.roads import road, rough

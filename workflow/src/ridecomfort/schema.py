@@ -180,8 +180,6 @@ def _explain(error: ValidationError) -> str:
             return f"{value!r}, expected each entry once"
         case "oneOf" if meaning:
             return f"{value!r}, expected {error.schema['description']}"
-        case "minLength":
-            return f"{value!r}, expected some text{meaning}"
         case "pattern" if expected == r"\S":
             return f"{value!r}, expected some text{meaning}"
         case "pattern":

@@ -47,16 +47,24 @@ INSTRUMENT = {"m/s2": "accelerometer", "rad/s": "gyroscope"}
 
 
 class Passage(NamedTuple):
-    """What drives that repeat one another all drove, from ``start`` to ``end`` (m): ``place`` (m), ``lateral`` position (m) and ``time`` (s) of the
-    first, (sample,), where its ``sensor`` was, in m from the centre of gravity, and the ``others``."""
+    """What drives that repeat one another drove: ``place`` (m), ``lateral`` position (m) and ``time`` (s) of the first, (sample,), where its
+    ``sensor`` was, in m from the centre of gravity, and the ``others``."""
 
-    start: float
-    end: float
     place: np.ndarray
     lateral: np.ndarray
     time: np.ndarray
     sensor: Sequence[float] = (0.0, 0.0, 0.0)
     others: tuple[Passage, ...] = ()
+
+    @property
+    def start(self) -> float:
+        """Place (m) from which on all drove."""
+        return max(float(one.place.min()) for one in (self, *self.others))
+
+    @property
+    def end(self) -> float:
+        """Place (m) up to which all did."""
+        return min(float(one.place.max()) for one in (self, *self.others))
 
     @property
     def speed(self) -> float:
@@ -181,14 +189,14 @@ def joined(
     passages: list[Passage], place: np.ndarray, time: np.ndarray, lateral: np.ndarray, sensor: Sequence[float] = (0.0, 0.0, 0.0)
 ) -> int:
     """Number of the first of ``passages`` of which a drive (place and lateral position in m over time in s, place of its sensor in m) repeats all
-    drives, which is cut to what they have in common; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
-    own = Passage(float(np.min(place)), float(np.max(place)), place, np.nan_to_num(lateral), time, sensor)
+    drives, and which it joins; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
+    own = Passage(place, np.nan_to_num(lateral), time, sensor)
     for number, known in enumerate(passages):
         start, end = max(own.start, known.start), min(own.end, known.end)
         is_along = end - start > COMMON * min(own.end - own.start, known.end - known.start)
         # Beside a short one two may differ where only they drove.
         if is_along and all(one.is_repeated_by(own) for one in (known, *known.others)):
-            passages[number] = known._replace(start=start, end=end, others=(*known.others, own))
+            passages[number] = known._replace(others=(*known.others, own))
             return number
     passages.append(own)
     return len(passages) - 1

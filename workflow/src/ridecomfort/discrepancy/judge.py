@@ -125,14 +125,8 @@ def _of_measurement(selection: Selection, balance: Balance, effects: list[Named]
         return _Told(effects, is_little, (f"{names} is an error of the measurement, not of the vehicle",), is_wrong=True)
     # Beside what explains most, one that removes little may be a part of what is left, as any effect may.
     is_like_error = removed >= LITTLE * (1.0 - balance.share)
-    told = ", ".join(map(_with_sizes, wrong))
+    told = ", ".join(map(reasoning.with_sizes, wrong))
     return _Told(vehicle, is_little, (f"{told} would help, an error of the measurement that may stand in for something else",), is_like_error=is_like_error)
-
-
-def _with_sizes(effect: Named) -> str:
-    """An effect with its sizes, by which a place of the instrument, or a gain, can be looked after."""
-    sizes = ", ".join(f"{size['parameter']} {size['size']:.3g} {size['unit']}".removesuffix(" 1") for size in effect.sizes)
-    return f"{effect.name} ({sizes})" if sizes else effect.name
 
 
 def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[Named], list[str], list[str]]:

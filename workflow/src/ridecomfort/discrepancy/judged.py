@@ -8,7 +8,8 @@ import numpy as np
 from scipy.fft import dct, idct
 from scipy.signal import csd, welch
 
-from ..vocabulary import VARIABLES
+from ..drive import axes
+from ..drive.axes import correlation
 from .response import SEGMENT
 
 LOWEST = 0.8
@@ -39,18 +40,9 @@ COHERENT = 0.8
 """Share of the power of a signal that must be coherent with the model for its sign to be told: what else moves it (hands, noise, links that
 steer) may run against the model, too."""
 
-ANOTHER, OWN = 0.8, 0.3
-"""Correlation with the model's motion in another direction from which on, and with that in its own up to which, a signal is taken for the other."""
-
 TIMES, ALIKE = 5.0, 0.5
 """Times by which the rms of a signal may differ from that of a model which it goes with (correlation above ALIKE): a rate in deg/s is 57 times one in
 rad/s."""
-
-
-def correlation(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Correlation (signal,) about nil of two series (signal, sample), nil where one of them is."""
-    power = np.sqrt(np.sum(one**2, axis=-1) * np.sum(other**2, axis=-1))
-    return np.sum(one * other, axis=-1) / np.where(power > 0, power, 1.0)
 
 
 def ratio(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -85,18 +77,6 @@ def against(measured: np.ndarray, simulated: np.ndarray, rate: float, signals: S
     return np.where(correlation(*fast) > ALIKE, found, np.minimum(found, slow))
 
 
-def taken_for(measured: np.ndarray, simulated: np.ndarray, signals: Sequence[str]) -> list[str]:
-    """For each of these signals (signal, sample) another of the same unit which the model moves as it does, where its own moves otherwise;
-    empty where there is none. Of all but their means: where they are slow, in bends and as the car is braked, they differ most."""
-    one, other = (each - each.mean(axis=-1, keepdims=True) for each in (measured, simulated))
-    found = []
-    for name, row in zip(signals, one):
-        alike = dict(zip(signals, np.abs(correlation(row, other)).tolist()))
-        likely = [each for each in signals if VARIABLES[each].unit == VARIABLES[name].unit and alike[each] > ANOTHER and alike[name] < OWN]
-        found.append(max(likely, key=alike.get, default=""))
-    return found
-
-
 def _told_against(one: np.ndarray, other: np.ndarray, rate: float) -> np.ndarray:
     """Correlation (signal,) where it speaks for a wrong sign, else 0."""
     alike = correlation(one, other)
@@ -105,10 +85,10 @@ def _told_against(one: np.ndarray, other: np.ndarray, rate: float) -> np.ndarray
 
 
 def doubt(name: str, other: str, turned: float, found: float, times: float) -> str:
-    """What is said of a signal that goes with an ``other`` (``taken_for``), is ``turned`` round (``against``), or has this correlation with the
+    """What is said of a signal that goes with an ``other`` (``axes.taken_for``), is ``turned`` round (``against``), or has this correlation with the
     model and so many times its rms; empty where nothing is."""
     if other:
-        return f"{name} does what the model does in {other}: are columns exchanged, or is the sensor turned?"
+        return axes.exchanged(name, other)
     if turned < 0.0:
         return f"{name} runs against the model (correlation {turned:.2f}): is its sign right?"
     if found > ALIKE and not 1.0 / TIMES < times < TIMES:

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from scipy.signal import stft
 
+from ..drive import axes
 from ..drive.sampling import rate_of
 from . import bursts, classes, explain, judged
 from .response import responses
@@ -58,7 +59,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     frequency_map)``, power density of the error, and ``floor_density(signal, frequency_map)``; what ``classes.by_condition`` says of
     conditions, the floor of which is ``band_floor(signal, band)``; ``correlation(signal)`` of measured and simulated, the ``ratio(signal)`` of their rms, what of the
     first speaks for a wrong sign, ``against(signal)`` (``judged.against``), and another signal that it goes with instead,
-    ``goes_with(signal)`` (``judged.taken_for``); ``floor_time_share(signal)``, the least share of the time that holds half of what repeats differ by
+    ``goes_with(signal)`` (``axes.taken_for``); ``floor_time_share(signal)``, the least share of the time that holds half of what repeats differ by
     (``bursts.time_share``), nan without repeats; and what ``response.responses`` says of transfer functions.
     Attribute ``located_state`` names the state, ``floor`` where the floor is known from.
     """
@@ -103,10 +104,10 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
             "explainable_share": (("signal", "stretch", "band"), above / np.where(whole > 0, whole, np.nan)),
             "error_map": (("signal", "s_map", "frequency_map"), density),
             "floor_density": (("signal", "frequency_map"), floor_density),
-            "correlation": ("signal", judged.correlation(signal, signal + error), {"units": "1", "long_name": "correlation of the measured signal with the model"}),
+            "correlation": ("signal", axes.correlation(signal, signal + error), {"units": "1", "long_name": "correlation of the measured signal with the model"}),
             "ratio": ("signal", judged.ratio(signal, signal + error), {"units": "1"}),
             "against": ("signal", judged.against(recorded, driven, rate, names), {"units": "1"}),
-            "goes_with": ("signal", np.array(judged.taken_for(recorded, driven, names.tolist()))),
+            "goes_with": ("signal", np.array(axes.taken_for(recorded, driven, names.tolist()))),
             "stretch_start": ("stretch", edges[:-1], {"units": "m"}),
             "stretch_end": ("stretch", edges[1:], {"units": "m"}),
             "band_lower": ("band", [band[0] for band in bands], {"units": "Hz"}),

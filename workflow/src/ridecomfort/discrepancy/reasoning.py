@@ -140,6 +140,12 @@ def open_beside(effect: Named, surely: Sequence[Named]) -> str:
     return f"{effect.name} is not named for that: it may make good what another shape of {', '.join(other.name for other in surely)} would do"
 
 
+def with_sizes(effect: Named) -> str:
+    """An effect with its sizes, by which a place of the instrument, or a gain, can be looked after."""
+    sizes = ", ".join(f"{size['parameter']} {size['size']:.3g} {size['unit']}".removesuffix(" 1") for size in effect.sizes)
+    return f"{effect.name} ({sizes})" if sizes else effect.name
+
+
 def settings_held(selection: Selection, candidate: Candidate) -> list[str]:
     """At which settings an effect was found that are not typical, nor fitted, in words."""
     values = {size: selection.final.values.get(size.key, size.neutral) for size in candidate.shaping if size.key not in selection.intervals}

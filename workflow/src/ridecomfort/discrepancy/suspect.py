@@ -9,11 +9,12 @@ import numpy as np
 import xarray as xr
 
 from ..drive import turning
+from ..drive.axes import correlation, taken_for
 from ..drive.turning import GAIN, STANDARD_ERRORS
 from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
-from .judged import against, correlation, doubt, judged, ratio, taken_for
+from .judged import against, doubt, judged, ratio
 
 ROAD_BAND = (0.1, 0.8)
 """Cycles per metre in which the spectrum of a road follows a power law (ISO 8608 holds to 2.83)."""

@@ -3,9 +3,11 @@ not show and the small steps of alignment (``mounting.fit``) find late, or not."
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from ..vocabulary import SIGNALS
+from ..vocabulary import SIGNALS, VARIABLES
 from . import record
 from .place import STANDS_STILL
 from .replay import Replay, Simulated
@@ -18,40 +20,67 @@ LEAST, TIMES = 0.3, 2.0
 times that of the axes as they are: that of an instrument turned by 63 deg, which takes all rounds of alignment or more."""
 
 
-EXCHANGED, OWN = 0.6, 0.4
-"""Correlation of two signals with the model's of one another (mean) from which on their columns are likely exchanged, and that which each of these exceeds
-and none with its own: a_x of a drive at a constant speed is little but noise."""
+ANOTHER, OWN = 0.8, 0.3
+"""Correlation with the model's motion in another direction from which on, and with that in its own up to which, a signal is taken for the other."""
+
+
+def correlation(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Correlation (signal,) about nil of two series (signal, sample), nil where one of them is."""
+    power = np.sqrt(np.sum(one**2, axis=-1) * np.sum(other**2, axis=-1))
+    return np.sum(one * other, axis=-1) / np.where(power > 0, power, 1.0)
+
+
+def taken_for(measured: np.ndarray, simulated: np.ndarray, signals: Sequence[str]) -> list[str]:
+    """For each of these signals (signal, sample) another of the same unit which the model moves as it does, where its own moves otherwise;
+    empty where there is none. Of all but their means: where they are slow, in bends and as the car is braked, they differ most."""
+    one, other = (each - each.mean(axis=-1, keepdims=True) for each in (measured, simulated))
+    found = []
+    for name, row in zip(signals, one):
+        alike = dict(zip(signals, np.abs(correlation(row, other)).tolist()))
+        likely = [each for each in signals if VARIABLES[each].unit == VARIABLES[name].unit and alike[each] > ANOTHER and alike[name] < OWN]
+        found.append(max(likely, key=alike.get, default=""))
+    return found
+
+
+def exchanged(name: str, other: str) -> str:
+    """Words on a signal that is taken for another."""
+    return f"{name} does what the model does in {other}: are columns exchanged, or is the sensor turned?"
 
 
 def agreement(again: Replay, simulated: Simulated) -> np.ndarray:
     """Correlation of record and model, mean over the PAIRS, (4,): as recorded, and of an instrument that is turned to the left by one, two, and
     three quarters. What either does not move in counts nothing; accelerations hold gravity where those of the record do."""
-    own, exchanged = _correlations(again, simulated)
-    right, left = own.mean(), exchanged.mean()
+    own, quarter = _correlations(again, simulated)
+    right, left = own.mean(), quarter.mean()
     return np.array([right, left, -right, -left])
 
 
 def put_right(again: Replay, simulated: Simulated) -> tuple[float, float]:
     """The same mean with every sign put right, and of an instrument that is turned by the best angle of all."""
-    own, exchanged = _correlations(again, simulated)
-    return float(np.abs(own).mean()), float(np.hypot(own.mean(), exchanged.mean()))
+    own, quarter = _correlations(again, simulated)
+    return float(np.abs(own).mean()), float(np.hypot(own.mean(), quarter.mean()))
 
 
 def _correlations(again: Replay, simulated: Simulated) -> tuple[np.ndarray, np.ndarray]:
     """Correlations of record and model, (pair, 2): of each of the PAIRS with itself, and as it is told after a quarter to the left."""
+    measured, model = _both(again, simulated)
+    moves, kept = model.std(axis=1) > STANDS_STILL * measured.std(axis=1), again.compared
+
+    def alike(name: str, of: str) -> float:
+        one, other = (values[SIGNALS.index(own), kept] for values, own in ((measured, name), (model, of)))
+        return float(correlation(one - one.mean(), other - other.mean())) if moves[SIGNALS.index(of)] else 0.0
+
+    own = [[alike(along, along), alike(across, across)] for along, across in PAIRS]
+    quarter = [[-alike(across, along), alike(along, across)] for along, across in PAIRS]
+    return np.array(own), np.array(quarter)
+
+
+def _both(again: Replay, simulated: Simulated) -> tuple[np.ndarray, np.ndarray]:
+    """Signals of record and model, (6, sample) each; accelerations hold gravity where those of the record do."""
     measured, model = again.measured(), simulated.signals.copy()
     if again.drive.attrs["gravity"]:
         measured[:3], model[:3] = record.felt(again.drive), record.specific_force(model[:3], simulated.roll, simulated.pitch)
-    kept, moves = again.compared, model.std(axis=1) > STANDS_STILL * measured.std(axis=1)
-
-    def correlation(name: str, of: str) -> float:
-        one, other = (values[SIGNALS.index(own), kept] for values, own in ((measured, name), (model, of)))
-        spread = one.std() * other.std()
-        return float(np.mean((one - one.mean()) * (other - other.mean())) / spread) if moves[SIGNALS.index(of)] and spread > 0 else 0.0
-
-    own = [[correlation(along, along), correlation(across, across)] for along, across in PAIRS]
-    exchanged = [[-correlation(across, along), correlation(along, across)] for along, across in PAIRS]
-    return np.array(own), np.array(exchanged)
+    return measured, model
 
 
 def words(again: Replay, simulated: Simulated) -> str:
@@ -75,8 +104,6 @@ def words(again: Replay, simulated: Simulated) -> str:
 
 
 def columns(again: Replay, simulated: Simulated) -> str:
-    """Words on two signals of which each does what the model does in the other, while the instrument is not turned; empty where there are none."""
-    own, to_the_left = _correlations(again, simulated)
-    exchanged = to_the_left * [-1.0, 1.0]  # after a quarter one of two has the other sign
-    found = [" and ".join(pair) for pair, one, other in zip(PAIRS, own, exchanged) if other.mean() > EXCHANGED and other.min() > OWN > one.max()]
-    return "; ".join(f"{names} each do what the model does in the other: are their columns exchanged?" for names in found)
+    """Words on signals that are taken for others; empty where none is."""
+    measured, model = (values[:, again.compared] for values in _both(again, simulated))
+    return "; ".join(exchanged(name, other) for name, other in zip(SIGNALS, taken_for(measured, model, SIGNALS)) if other)
