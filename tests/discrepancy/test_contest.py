@@ -1,11 +1,14 @@
 """One round of the search: who is refitted, and what is told of candidates that were not judged."""
 
+from copy import copy
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import allowance, contest, select
+from ridecomfort.discrepancy.experiment import Size
 
 from .linear import Linear
 
@@ -72,6 +75,31 @@ def test_above_the_first_rung_the_evidence_is_that_of_columns_as_they_are_there(
     at_first, beside = (dict(zip(turn.names, turn.p_value))["effect_5"] for turn in (first, second))
     assert at_first < 0.01 and beside > 0.05
     assert "effect_5" not in {trial.name for trial in second.trials}
+
+
+class Rounded(Changed):
+    """The same where longer steps give the same but for rounding, and effect_4 has a size that does nothing."""
+
+    rounding = 0.0
+
+    def __init__(self, seed):
+        super().__init__(seed)
+        idle = Size("effect_4.idle", "N", 0.0, 0.0, 5.0, 0.1)
+        self.candidates = tuple(replace(one, sizes=(*one.sizes, idle)) if one.name == "effect_4" else one for one in self.candidates)
+
+    def residual(self, values, index):
+        return super().residual(values, index) + self.rounding
+
+    def coarser(self, values, residuals):
+        longer = copy(self)
+        longer.rounding = 1e-12
+        return longer, {index: longer.residual(values, index) for index in residuals}
+
+
+def test_columns_are_made_anew_in_longer_steps_too_beside_a_size_that_does_nothing():
+    first, second = select.select(Rounded(1), {"stiffness": 0.0}, most=2).rounds
+    assert first.winner.name == "effect_2" and second.winner.name == "effect_4"
+    assert dict(zip(second.names, second.gain))["effect_4"] > 0.6 * second.winner.gain
 
 
 def test_intervals_allow_for_what_a_candidate_does_beside_the_effects_that_were_found(monkeypatch):

@@ -7,12 +7,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.stats import chi2
 
 from . import cluster, foresight, probe, refit
 from .confirm import LEAST_SHARE, Confirmation, best
 from .experiment import Candidate, Experiment, Size
 from .probe import Job, Raw
-from .propose import Proposal, propose
+from .propose import LEVEL, Proposal, propose
 from .rung import Rung
 from .selection import Round, State, Trial
 from .tries import Tries
@@ -23,6 +24,9 @@ PROPOSED = 5
 ASKED, BENT = 15, 2.0
 """Candidates that gain most by the score test, which are asked what they do in typical sizes before it is settled which are refitted, and times the
 gain by small sizes that they must foresee for a refit to begin by the columns over typical ones."""
+
+SHOWN = 0.5
+"""Share of a gain that borrowed columns show at least."""
 
 MINOR = 0.05
 """Share of the largest gain of a round's refits below which one is followed up only where none above it will do."""
@@ -43,7 +47,7 @@ class Contest:
     """The round of this ``number`` (from 0 on) on a ``rung``, between ``candidates`` (by name).
 
     ``fitted``: sizes that are fitted anyway; ``columns``: raw change of the residuals per probe of every size, by job, of what may come next, some
-    made anew; ``sooner``: the experiment of the rung in longer steps (``probe.coarsely``); ``first``: the model before any effect; ``first_gain``: that of
+    made anew; ``sooner``: the experiment of the rung in longer steps, and its residuals (``probe.coarsely``); ``first``: the model before any effect; ``first_gain``: that of
     the first effect's refit, 0 before it; ``seed``, ``each``, ``say``, ``simpler`` and ``known``: as for ``select.search``.
     """
 
@@ -52,7 +56,7 @@ class Contest:
     candidates: Mapping[str, Candidate]
     fitted: Sequence[Size]
     columns: dict[Job, Raw]
-    sooner: Experiment
+    sooner: tuple[Experiment, Mapping[int, np.ndarray]]
     first: State
     first_gain: float
     seed: int
@@ -60,6 +64,8 @@ class Contest:
     say: Callable[[str], None]
     simpler: Collection[str]
     known: Mapping[str, float]
+    borrowed: set[Job] = field(default_factory=set)
+    """Jobs whose columns repeats have of one of them (``exemplar``)."""
     refitted: dict[Job, Trial | None] = field(default_factory=dict)
     """Refits as they came, None of what cannot be simulated. They are the same whoever of them is taken back."""
     followed: dict[tuple, Trial | None] = field(default_factory=dict)
@@ -104,7 +110,7 @@ class Contest:
         small = dict(zip(found.names, found.gain))
         bent = {job: own for job, own in self._asked.items() if found.foreseen.get(job[0], 0.0) > BENT * small[job[0]]}
         likely = refit.information(rung.frame, rung.fit.residuals)
-        return Tries(rung, self.candidates, self.fitted, {**self.columns, **bent}, self.sooner, likely)
+        return Tries(rung, self.candidates, self.fitted, {**self.columns, **bent}, self.sooner[0], likely)
 
     @cached_property
     def _free(self) -> np.ndarray:
@@ -115,14 +121,41 @@ class Contest:
     @cached_property
     def _scored(self) -> Proposal:
         """What the score test says. Above the first rung the columns of what it speaks for most are made anew, until it speaks by such alone:
-        what those of another rung leave of a candidate, beside columns of the parameters that are made there, passes for evidence of it."""
-        base, anew, found = self.rung.fit, set(), self._tested()
-        while self.number and (old := {*found.significant(ASKED)} - anew):
-            jobs = [job for job in self.columns if job[0] in old]
-            made = zip(jobs, self.each(probe.Probe(self.sooner, base.values, base.residuals), jobs))
-            self.columns |= {job: own for job, own in made if own.keys() == self.columns[job].keys()}
+        what those of another rung leave of a candidate, beside columns of the parameters that are made there, passes for evidence of it. So are
+        borrowed ones of what would gain most."""
+        anew = self._returned()
+        found = self._tested()
+        while old := {name for name in found.significant(ASKED) if self.number or self._is_borrowed(name)} - anew:
+            self._make([job for job in self.columns if job[0] in old])
             anew, found = anew | old, self._tested()
         return found
+
+    def _returned(self) -> set[str]:
+        """Names of the candidates that borrowed columns and may be significant, of the ASKED that gain most, which are made anew until none is."""
+        least = SHOWN * float(chi2.isf(LEVEL / len(self.candidates), 1))
+        foresee = lambda jobs: foresight.gains(
+            self.rung.frame, self.rung.fit.residuals, self._free, self.candidates, {job: self.columns[job] for job in jobs}
+        )
+        gains, anew = foresee(self.columns) if self.borrowed else {}, set()
+        while self.borrowed:
+            order = dict.fromkeys(job[0] for job in sorted(gains, key=lambda job: -gains[job]) if gains[job] >= least)
+            leading = [name for name in list(order)[:ASKED] if self._is_borrowed(name)]
+            if not leading:
+                break
+            jobs = [job for job in self.columns if job[0] in leading]
+            self._make(jobs)
+            gains, anew = {**gains, **foresee(jobs)}, anew | {*leading}
+        return anew
+
+    def _is_borrowed(self, name: str) -> bool:
+        return any(job[0] == name for job in self.borrowed)
+
+    def _make(self, jobs: Sequence[Job]) -> None:
+        """Make the columns of these jobs anew, on every record of the rung; as they were where fewer could be."""
+        sooner, residuals = self.sooner
+        made = zip(jobs, self.each(probe.Probe(sooner, self.rung.fit.values, residuals), jobs))
+        self.columns |= {job: own for job, own in made if own.keys() >= self.columns[job].keys()}
+        self.borrowed -= {*jobs}
 
     def _tested(self) -> Proposal:
         rung = self.rung
@@ -131,9 +164,9 @@ class Contest:
     @cached_property
     def _asked(self) -> Mapping[Job, Raw]:
         """Columns over typical sizes of the ASKED candidates that gain most by the score test."""
-        found, base = self._scored, self.rung.fit
-        jobs = [found.best[name] for name in found.significant(ASKED)]
-        return dict(zip(jobs, self.each(foresight.Typical(self.sooner, self.candidates, base.values, base.residuals), jobs)))
+        sooner, residuals = self.sooner
+        jobs = [self._scored.best[name] for name in self._scored.significant(ASKED)]
+        return dict(zip(jobs, self.each(foresight.Typical(sooner, self.candidates, self.rung.fit.values, residuals), jobs)))
 
     @cached_property
     def confirmation(self) -> Confirmation:

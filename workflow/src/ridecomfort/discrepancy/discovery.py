@@ -164,7 +164,7 @@ def discovered(
         selection = search(
             rung, most=TOGETHER if known else most, seed=seed, each=each, together=lambda accepted, other: may_follow(accepted, other, most),
             say=say, simpler={candidate.name for candidate in known}, probed=probed,
-            known=heard_as(line, radius),
+            known=heard_as(line, radius), alike={term.name for term in terms if not _is_of_turns(term.name)},
         )  # fmt: skip
         residuals = exp.simulate(rung.experiment, {**rung.fit.values, **selection.final.values}, rung.fit.residuals)
         held = off_file(selection) if selection.accepted else None
@@ -238,6 +238,12 @@ def may_follow(accepted: Sequence[str], other: str, most: int) -> bool:
     """Whether a candidate may follow those accepted: all of ``most`` terms act at one place."""
     terms = [name for name in accepted if _is_term(name)]
     return not (_is_term(other) and terms) or len(terms) < most and _place(other) == _place(terms[0])
+
+
+def _is_of_turns(name: str) -> bool:
+    """Whether a term goes by how far wheels have turned, or by what was heard, whose phase repeats do not share."""
+    place, _, term = name.partition(":")
+    return bool(PLACES[place].terms[term].often or PLACES[place].terms[term].after)
 
 
 def _place(name: str) -> str:

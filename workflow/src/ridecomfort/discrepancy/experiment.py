@@ -169,10 +169,10 @@ class Frame:
         """``flat`` of one record."""
         return self.spans[index].without(self.whitening[index](residual)).ravel()
 
-    def own_shares(self, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:
-        """Share of the power of each column that its nuisances leave, (column,)."""
+    def own_shares(self, columns: Sequence[Mapping[int, np.ndarray]], among: Sequence[int] | None = None) -> np.ndarray:
+        """Share of the power of each column that its nuisances leave, (column,); ``among`` some of the records, or all."""
         shares = lambda i: np.array(self.spans[i].shares(self._white(i, columns)))
-        left, whole = sum(self.experiment.each_record(shares, self.indices))
+        left, whole = sum(self.experiment.each_record(shares, self.indices if among is None else among))
         return left / np.where(whole > 0, whole, 1.0)
 
     def _white(self, index: int, columns: Sequence[Mapping[int, np.ndarray]]) -> np.ndarray:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import InputError
-from . import allowance, bursts, probe, refit
+from . import allowance, bursts, exemplar, probe, refit
 from . import experiment as exp
 from .allowance import Allowance
 from .balance import ENOUGH
@@ -63,14 +63,16 @@ def search(
     simpler: Collection[str] = (),
     probed: Mapping[Job, Raw] = {},
     known: Mapping[str, float] = {},
+    alike: Collection[str] = (),
 ) -> Selection:
     """Find up to ``most`` missing effects from a ``rung``.
 
     ``each`` maps a function over candidates (``map`` or that of a pool); ``together`` says whether a candidate may follow those
     accepted, by their names; ``say`` is told what goes on; ``simpler``: names that go before any other which
     explains hardly more. ``probed``: columns of candidates that are known from a search from the same rung. ``known``: as for ``propose``.
+    ``alike``: names of candidates for which repeats borrow the columns of one of them (``exemplar``) where these would gain little.
     """
-    return _Search(rung, most, seed, each, together, say, simpler, probed, known).run()
+    return _Search(rung, most, seed, each, together, say, simpler, probed, known, alike).run()
 
 
 @dataclass
@@ -84,6 +86,9 @@ class _Search:
     simpler: Collection[str] = ()
     probed: Mapping[Job, Raw] = field(default_factory=dict)
     known: Mapping[str, float] = field(default_factory=dict)
+    alike: Collection[str] = ()
+    borrowed: set[Job] = field(default_factory=set)
+    """Jobs whose columns are borrowed."""
     accepted: list[str] = field(default_factory=list)
     shaped: set[str] = field(default_factory=set)
     """Keys of what shapes accepted effects and is fitted."""
@@ -104,8 +109,8 @@ class _Search:
         states = [State.of(self.rung, "calibrated", self.rung.fit, self.rung.check)]
         self.first = states[0]
         self.say(f"probing {len(self.by_name)} candidates")
-        self.sooner, residuals = self._sooner()
-        self.columns = self._probe(residuals)
+        self.sooner = self._sooner()
+        self.columns = self._probe()
         rounds, contest = self.rounds, self._contest()
         while len(self.accepted) < self.most:
             turn = contest.round(self.vain)
@@ -126,7 +131,7 @@ class _Search:
             self.accepted.append(turn.winner.name)
             self.say(f"accepted {turn.winner.name}")
             self.columns = {job: own for job, own in self.columns.items() if self.together(self.accepted, job[0])}
-            self.sooner, _ = self._sooner()
+            self.sooner = self._sooner()
             states.append(state)
             contest = self._contest()
         final, frame, sure = self._final_fit()
@@ -156,7 +161,7 @@ class _Search:
         first_gain = self.rounds[0].winner.gain if self.accepted else 0.0
         return Contest(
             len(self.rounds), self.rung, self.by_name, self._sizes(), columns, self.sooner, self.first, first_gain,
-            self.seed, self.each, self.say, self.simpler, self.known,
+            self.seed, self.each, self.say, self.simpler, self.known, self.borrowed & columns.keys(),
         )  # fmt: skip
 
     def _shaped_by(self, winner: Trial) -> set[str]:
@@ -239,18 +244,27 @@ class _Search:
         """The experiment of the rung in longer steps, and its residuals."""
         return probe.coarsely(self.rung.experiment, self.rung.fit.values, self.rung.fit.residuals)
 
-    def _probe(self, residuals: Mapping[int, np.ndarray]) -> dict[Job, Raw]:
-        """Change of the ``residuals`` in longer steps per probe of every size of every candidate and shape, in single precision."""
+    def _probe(self) -> dict[Job, Raw]:
+        """Change of the residuals in longer steps per probe of every size of every candidate and shape, in single precision."""
         jobs = [(name, shape) for name, candidate in self.by_name.items() for shape in range(len(candidate.shapes))]
-        unknown, own = [job for job in jobs if job not in self.probed], probe.Probe(self.sooner, self.rung.fit.values, residuals)
-        found = self.each(own, unknown)
-        self.probed = {**self.probed, **dict(zip(unknown, found))}
-        silent = [name for name in self.by_name if not any(self.probed[job] for job in jobs if job[0] == name)]
+        unknown, frame = [job for job in jobs if job not in self.probed], self.rung.frame
+        sooner, residuals = self.sooner
+        borrowing = [job for job in unknown if job[0] in self.alike]
+        lenders = exemplar.exemplars(frame, self.rung.raw) if borrowing else {}
+        asked = sorted(set(lenders.values()))
+        own = probe.Probe(sooner, self.rung.fit.values, residuals)
+        self.borrowed = set(borrowing) if len(asked) < len(lenders) else set()
+        simulated = [job for job in unknown if job not in self.borrowed]
+        self.probed = {**self.probed, **dict(zip(simulated, self.each(own, simulated)))}
+        found, some = dict(self.probed), replace(own, residuals={index: residuals[index] for index in asked})
+        if self.borrowed:
+            found |= {job: exemplar.borrowed(sooner, lenders, raw) for job, raw in zip(borrowing, self.each(some, borrowing))}
+        silent = [name for name in self.by_name if not any(found[job] for job in jobs if job[0] == name)]
         refusals = zip(silent, self.each(own.refusal, [(name, 0) for name in silent]))
         self.refused |= {name: f"{UNDRIVEN}: {why}" for name, why in refusals if why}
-        kept = {job: self.probed[job] for job in jobs if self.probed[job]}
         least = lambda name: ALIAS if self.by_name[name].is_aligned else LEAST_OWN
-        return {job: found for job, found in kept.items() if self.rung.frame.own_shares(list(found.values())).max() > least(job[0])}
+        shares = lambda job: frame.own_shares(list(found[job].values()), asked if job in self.borrowed else frame.indices)
+        return {job: found[job] for job in jobs if found[job] and shares(job).max() > least(job[0])}
 
     def _remaining(self, first: Fit, last: Fit) -> tuple[Shared, float, float, float, float, float]:
         """What all repeats still share, the share of it that is gone, the z that it had at first and that of more than half being left; of what
