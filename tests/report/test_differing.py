@@ -15,6 +15,7 @@ from ridecomfort.discrepancy import findings
 from ridecomfort.report import catalogue, differing, style, table
 from ridecomfort.report.figures import conditions, ladder, located
 from ridecomfort.report.study import Compared, Difference
+from ridecomfort.study import JOIN
 from ridecomfort.vocabulary import SIGNALS
 from tests.report import differing as made_up
 from tests.report.differing import rows
@@ -258,7 +259,7 @@ def test_axes_are_labelled_with_units_and_nothing_is_cut_off(name, drawn):
 def test_conditions_have_the_same_axis_for_every_model_with_ticks_to_read_it_by(drawn, study):
     better = Compared("ts1", study.sites[0].measured, made_up.comparison((0.5, 0.1)))
     with style.styled():
-        other = conditions.conditions(better).axes[0]
+        other = conditions.conditions(better, "base").axes[0]
     axes = drawn["conditions_ts1"].axes[0]
     assert axes.get_ylim() == other.get_ylim()
     low, high = axes.get_ylim()
@@ -313,6 +314,14 @@ def test_the_floor_of_a_model_is_not_below_the_lowest_of_the_ladder(tables):
     assert any("lowest of its models" in note for note in tables["explainable"].notes)
 
 
+@pytest.mark.parametrize("name", ["conditions_ts1", "responses_ts1"])
+def test_figures_of_a_comparison_say_of_which_model_they_are(name, study):
+    model = JOIN.join(["damper_asymmetry", "suspension_friction"])
+    with style.styled():
+        made = differing.figures_of_site(study.sites[0], model)[name]()
+    assert f"Ts1, model damper_asymmetry {JOIN} suspension_friction, calibrated" in made.legends[0].get_title().get_text()
+
+
 def test_responses_say_who_is_who_and_how_they_are_read(drawn):
     legend = drawn["responses_ts1"].legends[0]
     said = " ".join(text.get_text() for text in legend.get_texts())
@@ -326,7 +335,7 @@ def test_a_gain_beyond_what_is_drawn_is_marked(study):
     comparison["model_gain"].loc[{"signal": "a_z"}] = conditions.HIGHEST + 0.5
     comparison["model_gain"].loc[{"signal": "a_x"}] = conditions.HIGHEST - 0.5
     with style.styled():
-        titles = [axes.get_title(loc="left") for axes in conditions.responses(replace(site, comparison=comparison)).axes]
+        titles = [axes.get_title(loc="left") for axes in conditions.responses(replace(site, comparison=comparison), "base").axes]
     marked = {signal: titles[3 * place + 1] for place, signal in enumerate(SIGNALS)}
     assert marked["a_z"] == "drives over model (▲: above 2)" and marked["a_x"] == "drives over model"
 
@@ -339,7 +348,7 @@ def test_gains_from_the_road_have_numbers_however_many_decades_they_span(study, 
     comparison["road_gain"] = xr.full_like(comparison["road_gain"], 30.0)
     comparison["road_gain"].loc[{"frequency": comparison["frequency"][-40:]}] = least
     with style.styled():
-        drawn = conditions.responses(replace(site, comparison=comparison))
+        drawn = conditions.responses(replace(site, comparison=comparison), "base")
         drawn.canvas.draw()
     for axes in drawn.axes[::3]:
         low, high = axes.get_ylim()

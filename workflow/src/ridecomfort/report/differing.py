@@ -29,8 +29,8 @@ def figures_of_site(site: Compared, model: str) -> dict[str, Callable]:
     """Functions without arguments that draw the figures of ``catalogue.site_figures`` of a ``model`` on a site."""
     kinds = {
         "located": partial(located.located, site, model),
-        "conditions": partial(conditions.conditions, site),
-        "responses": partial(conditions.responses, site),
+        "conditions": partial(conditions.conditions, site, model),
+        "responses": partial(conditions.responses, site, model),
     }
     marked = lambda draw: style.marked(draw(), site.standin_mark())
     return {f"{kind}_{site.name}": partial(marked, draw) for kind, draw in kinds.items()}

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import xarray as xr
 
+from ..study import JOIN
 from .catalogue import label, of_the_paper
 
 
@@ -58,6 +59,10 @@ class Compared:
     def label(self) -> str:
         """How the site is called in print."""
         return label(self.name)
+
+    def beside(self, model: str) -> str:
+        """The site and the model that its drives are compared with, in print."""
+        return f"{self.label}, model {model.replace(JOIN, f' {JOIN} ')}, {self.comparison.attrs['located_state']}"
 
     def standin_mark(self) -> str | None:
         """As of a Study."""

@@ -41,7 +41,7 @@ READ = (
 """How the figure is read."""
 
 
-def conditions(site: Compared) -> Figure:
+def conditions(site: Compared, model: str) -> Figure:
     """Error above the floor in percent of the signal's power under the same condition, a panel each condition, a line each signal."""
     found = site.comparison
     names = [name for name in AXES if name in found["condition"].values]
@@ -73,11 +73,11 @@ def conditions(site: Compared) -> Figure:
     for axes in (panels[0], panels[3]):
         axes.set_ylabel("error above the floor\n[% of the signal's power there]")
     handles, labels = panels[0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside upper center", ncols=len(labels))
+    drawn.legend(handles, labels, loc="outside upper center", ncols=len(labels), title=site.beside(model))
     return drawn
 
 
-def responses(site: Compared) -> Figure:
+def responses(site: Compared, model: str) -> Figure:
     """Columns: gain from the road, of drives and model; gain of drives over model; coherences. A row for each signal."""
     found = site.comparison
     drawn = style.figure(style.DOUBLE, 8.6)
@@ -117,6 +117,6 @@ def responses(site: Compared) -> Figure:
         axes.minorticks_off()
         axes.set_xlabel("frequency [Hz]")
     handles = [line for axes in panels[0] for line in axes.get_legend_handles_labels()[0]]
-    drawn.legend(handles=handles, loc="outside upper left", ncols=2, title=READ, title_fontsize=7, alignment="left")
+    drawn.legend(handles=handles, loc="outside upper left", ncols=2, title=f"{site.beside(model)}.\n{READ}", title_fontsize=7, alignment="left")
     drawn.align_ylabels(panels)
     return drawn

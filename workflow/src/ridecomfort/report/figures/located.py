@@ -13,7 +13,6 @@ from matplotlib.patches import Rectangle
 
 from ...discrepancy import findings, judged
 from ...discrepancy.locate import BANDS
-from ...study import JOIN
 from ...vocabulary import SIGNALS
 from .. import notation, style
 from ..study import Compared
@@ -49,8 +48,7 @@ def located(site: Compared, model: str) -> Figure:
     lines = [f"!  {doubt}" for doubt in findings.doubts(found)] + lines
     lines = [SMALL] * findings.are_small(errors) + lines + findings.gathered(found)
     lines = [fill(line, LONGEST, subsequent_indent="    ") for line in lines]
-    named = model.replace(JOIN, f" {JOIN} ")
-    words = [*lines, fill(f"{site.label}, model {named}, {found.attrs['located_state']}; {floor_note(site)}", LONGEST)]
+    words = [*lines, fill(f"{site.beside(model)}; {floor_note(site)}", LONGEST)]
     count = "\n".join(words).count("\n") + 1
     drawn = style.figure(style.DOUBLE, 8.3 + 0.16 * count)
     panels = drawn.subplots(
