@@ -236,10 +236,13 @@ def test_the_golden_car_on_four_corners_is_the_quarter_car(repository):
     assert difference.std() < 0.05 * expected[settled].std()
 
 
-def test_a_drive_that_does_not_stay_finite_is_told_with_the_place_and_the_bend_there(car):
-    bent = road(120.0, height=rough)
-    bent["curvature"] = bent["curvature"].copy(data=np.where(bent["u"] > 60.0, 0.5, 0.0))
-    with pytest.raises(InputError, match=r"did not stay finite at u = \d+ m, where the road bends with a radius of 2 m: are its headings in rad; is a parameter"):
+@pytest.mark.parametrize("radius", [2.0, 8.7])
+def test_a_drive_that_does_not_stay_finite_is_told_with_the_place_and_the_bend_there(car, radius):
+    """8.7 m: one of 500 m whose headings are in degrees."""
+    bent = road(240.0, height=rough)
+    bent["curvature"] = bent["curvature"].copy(data=np.where(bent["u"] > 60.0, 1.0 / radius, 0.0))
+    said = rf"did not stay finite at u = \d+ m, where the road bends with a radius of {radius:g} m: are its headings in rad; is a parameter"
+    with pytest.raises(InputError, match=said):
         simulate.run(bent, car, speed=25.0)
 
 

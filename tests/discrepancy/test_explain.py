@@ -157,6 +157,16 @@ def test_drives_that_differ_in_speed_elsewhere_repeat_one_another_where_both_dro
     assert repeats(compared.assign(s=(("drive", "time"), slower), residual=kept)) == [[0, 1]]
 
 
+@pytest.mark.parametrize(("change", "found"), [(0.03, [[0, 1]]), (0.25, [])])
+def test_drives_of_one_mean_speed_repeat_one_another_only_where_they_are_as_fast_all_along(change, found):
+    """At 20 m/s all along, and slower at first than at last by so much of it."""
+    compared = comparison(repeats=2)[1].copy(deep=True)
+    place, time = compared["s"].values.copy(), compared["time"].values
+    share = (time - time[0]) / np.ptp(time)
+    place[1] = place[1, 0] + np.ptp(place[1]) * ((1.0 - change) * share + change * share**2)
+    assert repeats(compared.assign(s=(("drive", "time"), place))) == found
+
+
 def test_repeats_know_better_than_a_data_sheet():
     compared = comparison()[1].assign_coords(drive=["one", "two", "three"])
     found = explain(compared, {"one": {"accelerometer": 10.0, "gyroscope": 10.0}})

@@ -31,6 +31,7 @@ EXPORTS = {
     "with four digits": lambda time, signals: (time, {name: np.round(row, 4) for name, row in signals.items()}),
     "in g": lambda time, signals: (time, {name: np.round(row / STANDARD_GRAVITY, 6) * STANDARD_GRAVITY for name, row in signals.items()}),
     "one sample of two": lambda time, signals: (time[::2], {name: row[::2] for name, row in signals.items()}),
+    "by a clock that is 50 ppm faster": lambda time, signals: (time * (1.0 + 50e-6), signals),
 }
 
 
@@ -39,6 +40,20 @@ EXPORTS = {
 def test_another_export_of_a_record_is_a_copy_of_it(rate, how):
     one, other = drive(*raw(rate)), drive(*EXPORTS[how](*raw(rate)))
     assert is_copy(one, other) and is_copy(other, one)
+
+
+@pytest.mark.parametrize(("first", "second"), [((0, 40), (20, 60)), ((0, 45), (15, 60)), ((20, 60), (0, 45)), ((0, 60), (40, 60))])
+def test_parts_of_one_record_that_overlap_are_copies(first, second):
+    time, signals = raw(128)
+    part = lambda begin, end: drive(time[128 * begin : 128 * end], {name: row[128 * begin : 128 * end] for name, row in signals.items()})
+    assert is_copy(part(*first), part(*second)) and is_copy(part(*second), part(*first))
+
+
+def test_parts_of_one_record_that_do_not_overlap_are_drives_of_their_own():
+    time, signals = raw(128)
+    half = time.size // 2
+    halves = [drive(time[own], {name: row[own] for name, row in signals.items()}) for own in (slice(None, half), slice(half, None))]
+    assert not is_copy(*halves)
 
 
 def test_a_record_with_the_noise_of_a_quiet_instrument_of_its_own_is_no_copy():

@@ -220,6 +220,30 @@ def test_a_value_that_was_transmitted_wrongly_is_told_of_a_signal_in_coarse_step
     assert said.startswith("a_y: a sample lies up to ") and said.endswith("the first at 30.00 s: transmitted wrongly?")
 
 
+@pytest.mark.parametrize("count", [1, 2, 3, 5])
+def test_values_that_were_transmitted_wrongly_are_told_of_a_signal_that_hardly_leaves_its_step(count):
+    """A yaw rate in 1 deg/s on a straight road: what is wrong of it leaves more levels than what is right."""
+    told, step = signals(), np.radians(1.0)
+    quiet = 0.7 * told["yaw_rate"][1] / np.quantile(np.abs(told["yaw_rate"][1]), 0.9)
+    values = step * np.round(quiet)
+    values[1000 : 1000 + 700 * count : 700] = [4.0, -5.0, 7.0, 2.0, -3.0][:count]
+    told["yaw_rate"] = TIME, values
+    (said,) = faults.found(told)
+    assert said.startswith("yaw_rate: a sample lies" if count == 1 else f"yaw_rate: {count} samples lie") and "at 10.00 s" in said
+
+
+def test_samples_that_are_wild_are_told_beside_samples_that_are_lost():
+    def spoil(name, values):
+        values = values + (9.81 if name == "a_z" else 0.0)
+        values[2000:2004] = 0.0
+        values[4000] += 150.0 * (name == "a_z")
+        return values
+
+    wild, lost = faults.found(signals(spoil))
+    assert wild.startswith("a_z: a sample lies") and "at 40.00 s" in wild
+    assert "4 samples are exactly 0" in lost
+
+
 def test_of_a_signal_in_steps_that_are_hardly_ever_left_no_bump_is_wild():
     """Of 99 in 100 values each is nought, of which nobody knows how far within a step they lie."""
     told = signals()

@@ -50,6 +50,31 @@ def test_a_vehicle_that_turns_where_its_road_hardly_bends_is_told(degrees, is_to
     assert turning.without_bends(drive, bending) == "", "there the gain tells"
 
 
+def bend(u, degrees, radius=800.0, start=1000.0):
+    """Curvature of one bend, which sets in over 60 m."""
+    return np.sign(degrees) / radius * np.clip(np.minimum((u - start) / 60.0, (start + np.radians(abs(degrees)) * radius + 60.0 - u) / 60.0), 0.0, 1.0)
+
+
+@pytest.mark.parametrize("in_file", [1.0, 0.0])
+def test_a_road_with_one_gentle_bend_is_right_where_its_file_has_it(in_file):
+    """50 deg of 800 m radius in 4 km: the rms of its rate is less than that by which a gain is told."""
+    u = np.arange(0.0, 4000.0, 0.5)
+    time = np.arange(0.0, 155.0, 0.01)
+    drive = xr.Dataset({"s": ("time", 25.0 * time), "e": ("time", np.zeros(time.size))}, {"time": time})
+    drive["yaw_rate"] = 25.0 * np.interp(drive["s"], u, bend(u, 50.0)) + 0.005
+    road = xr.Dataset({"curvature": ("u", in_file * bend(u, 50.0))}, {"u": u})
+    assert np.isnan(turning.gyroscope_gain(drive, road)).all()
+    assert bool(turning.without_bends(drive, road)) is not bool(in_file)
+
+
+def test_a_gyroscope_that_warms_up_turns_no_road():
+    u, time = np.arange(0.0, 14000.0, 1.0), np.arange(0.0, 600.0, 0.01)
+    road = xr.Dataset({"curvature": ("u", np.zeros(u.size))}, {"u": u})
+    warming = np.radians(0.3) * (1.0 - np.exp(-time / 300.0)) / (1.0 - np.exp(-2.0))
+    drive = xr.Dataset({"s": ("time", 20.0 * time), "e": ("time", 0.0 * time), "yaw_rate": ("time", warming)}, {"time": time})
+    assert turning.without_bends(drive, road) == ""
+
+
 def test_a_gain_is_told_only_where_it_is_surely_not_one(monkeypatch):
     for gain, error, is_told in ((1.0, 0.001, False), (1.019, 0.001, False), (1.11, 0.004, True), (1.11, 0.05, False), (np.nan, np.nan, False)):
         monkeypatch.setattr(turning, "gyroscope_gain", lambda *_: (gain, error))

@@ -33,8 +33,8 @@ FARTHEST = 1e7
 FASTEST_CHANGE = 1e4
 """m/s2 of the sensor beyond which it has, too."""
 
-AROUND, TIGHTEST = 10.0, 0.25
-"""m around a place within which a bend is looked for, and 1/m from which on no car follows it."""
+AROUND, TIGHTEST, HARDEST = 10.0, 0.25, 15.0
+"""m around a place within which a bend is looked for, and 1/m, or m/s2 at the speed that is asked for there, from which on no car follows it."""
 
 OVERHANG = 2.0
 """m of road kept free beyond the axles at either end."""
@@ -284,7 +284,7 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     is_lost = is_short and (record[-1, 2] > driver.SLOWEST or np.abs(sensed[:3, :steps]).max() > FASTEST_CHANGE)
     if is_lost or not (np.abs(record[:, :3]) < FARTHEST).all() or not np.isfinite(sensed[:, :steps]).all():
         raise InputError(
-            f"the simulated drive did not stay finite{_last_seen(record, course)}; is a parameter or an effect out of reason, or the friction too low "
+            f"the simulated drive did not stay finite{_last_seen(record, course, speed)}; is a parameter or an effect out of reason, or the friction too low "
             "for the grade or the bend?",
             place=f"vehicle {vehicle.name}",
         )
@@ -301,13 +301,15 @@ def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, en
     return record
 
 
-def _last_seen(record: np.ndarray, course: Course) -> str:
-    """Where a drive was at last on its road, in words, with the radius there if no vehicle could follow it."""
+def _last_seen(record: np.ndarray, course: Course, speed: np.ndarray) -> str:
+    """Where a drive was at last on its road, in words, with the radius there if no vehicle could follow it at the ``speed`` (m/s, (u,))."""
     places = record[np.isfinite(record[:, 0]) & (record[:, 0] >= course.u[0]) & (record[:, 0] <= course.u[-1]), 0]
     if not places.size:
         return ""
-    around = np.abs(course.curvature[np.abs(course.u - places[-1]) < AROUND])
-    bend = f", where the road bends with a radius of {1.0 / around.max():.2g} m: are its headings in rad" if around.max(initial=0.0) > TIGHTEST else ""
+    near = np.abs(course.u - places[-1]) < AROUND
+    around = np.abs(course.curvature[near])
+    is_too_hard = around.max(initial=0.0) > TIGHTEST or np.max(speed[near] ** 2 * around, initial=0.0) > HARDEST
+    bend = f", where the road bends with a radius of {1.0 / around.max():.2g} m: are its headings in rad" if is_too_hard else ""
     return f" at u = {places[-1]:.0f} m{bend}"
 
 

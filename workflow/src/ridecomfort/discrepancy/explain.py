@@ -17,9 +17,10 @@ from .floor import apart
 from .judged import band, judged, lowest
 
 SAME_SPEED, COMMON, SAME_PATH, SAME_SENSOR = 0.05, 0.5, 0.3, 0.05
-"""Relative difference of mean speeds, where both drove, within which drives repeat one another, share of the shorter that both must have driven,
-m (rms) that their paths may lie apart, and m that their instruments may. On other tracks wheels meet another road, so that errors of the model
-differ, too, and pass for noise: up to 15 % of them at 0.3 m, half at 0.6 m. Elsewhere on a body that rolls and pitches all accelerations are others."""
+"""Relative difference (rms) of their speeds over stretches of the road where both drove, within which drives repeat one another, share of the shorter
+that both must have driven, m (rms) that their paths may lie apart, and m that their instruments may. At other speeds, or on other tracks, where wheels
+meet another road, errors of the model differ, too, and pass for noise: up to 15 % of them at 0.3 m, half at 0.6 m; where one
+goes from 15 to 25 m/s and the other from 25 to 15, half of a_z and all of the pitch rate. Elsewhere on a body that rolls and pitches all accelerations are others."""
 
 SENSOR = ("sensor_x", "sensor_y", "sensor_z")
 """Where the instrument of a drive was, in m from the centre of gravity, as a comparison has it over drives and a drive among its attributes."""
@@ -71,14 +72,15 @@ class Passage(NamedTuple):
         """Mean speed (m/s) of the whole of the first."""
         return float(np.ptp(self.place) / np.ptp(self.time))
 
-    def pace(self, start: float, end: float) -> float:
-        """Mean speed (m/s) of the first between two places."""
-        return (end - start) / float(np.ptp(np.interp((start, end), self.place, self.time)))
+    def paces(self, places: np.ndarray) -> np.ndarray:
+        """Mean speeds (m/s) of the first between ``places`` in a row, (place - 1,)."""
+        return np.diff(places) / np.diff(np.interp(places, self.place, self.time))
 
     def is_repeated_by(self, other: Passage) -> bool:
-        """Whether the first is, wherever both drove: at its speed, on its path, with the sensor at its place."""
+        """Whether the first is, wherever both drove: at its speed stretch by stretch, on its path, with the sensor at its place."""
         start, end = max(self.place.min(), other.place.min()), min(self.place.max(), other.place.max())
-        is_as_fast = abs(other.pace(start, end) / self.pace(start, end) - 1.0) < SAME_SPEED
+        places = np.linspace(start, end, max(1, round((end - start) / STRETCH)) + 1)
+        is_as_fast = np.sqrt(np.mean((other.paces(places) / self.paces(places) - 1.0) ** 2)) < SAME_SPEED
         return is_as_fast and self.apart(other, start, end) < SAME_PATH and dist(self.sensor, other.sensor) < SAME_SENSOR
 
     def apart(self, other: Passage, start: float, end: float) -> float:

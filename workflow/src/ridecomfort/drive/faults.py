@@ -68,7 +68,8 @@ def found(quantities: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
     said: dict[str, list[str]] = {_in_words(frozen): list(SIGNALS)} if frozen else {}
     lost, held = _lost(signals, quantities), list(frozen)
     for name, (time, values) in signals.items():
-        wild = "" if lost and name in lost.names else _wild(time, values)
+        kept = ~lost.covers(time) if lost and name in lost.names else np.full(time.size, True)
+        wild = _wild(time[kept], values[kept])
         if name not in steps:
             said.setdefault(wild, []).append(name)
             continue
@@ -137,6 +138,10 @@ class _Lost:
 
     names: Sequence[str]
     places: Sequence[_Hold]
+
+    def covers(self, time: np.ndarray) -> np.ndarray:
+        """Which of these times (s) lie within a place, (time,)."""
+        return np.any([(place.begin <= time) & (time <= place.end) for place in self.places], axis=0)
 
     def beside(self, held: Sequence[_Hold]) -> _Lost | None:
         """The same beside where a value is ``held``, by nought or another; None where nothing is left."""
@@ -227,8 +232,10 @@ def _alone(time: np.ndarray, values: np.ndarray) -> str:
 def _wild(time: np.ndarray, values: np.ndarray) -> str:
     """Where a few samples are farther from all others than any motion, and these are as if nothing had been."""
     away = np.abs(values - np.median(values))
-    levels = np.unique(values)
-    usual = float(np.quantile(away, BULK)) + (float(np.median(np.diff(levels))) if levels.size > 1 else 0.0)  # what is less than a step is told as none
+    usual = float(np.quantile(away, BULK))
+    levels = np.unique(values[away <= usual])
+    steps = np.diff(levels) if levels.size > 1 else np.sort(np.diff(np.unique(values)))[:1]
+    usual += float(np.median(steps)) if steps.size else 0.0  # what is less than a step is told as none
     if not usual > 0:
         return ""
     most = max(1, round(MOMENT * (len(time) - 1) / (time[-1] - time[0])))

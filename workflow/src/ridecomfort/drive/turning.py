@@ -18,8 +18,8 @@ GAIN, STANDARD_ERRORS = 0.02, 2.0
 """Difference of a recorded gain from one that is more than a calibrated instrument has, and standard errors by which it must lie beyond that."""
 
 TURNED = 0.35
-"""rad to and fro, but for a constant rate, by which a vehicle that keeps on its road cannot turn where that hardly bends: a swerve by a lane turns it by 0.1 at
-20 m/s."""
+"""rad to and fro, but for a rate that is constant or drifts, by which a vehicle that keeps on its road cannot turn otherwise than its path does: what is
+wrong of a path by a lane turns that by 0.1 at 20 m/s."""
 
 
 def gyroscope_gain(drive: xr.Dataset, road: xr.Dataset) -> tuple[float, float]:
@@ -43,12 +43,12 @@ def words(drive: xr.Dataset, road: xr.Dataset) -> str:
 
 
 def without_bends(drive: xr.Dataset, road: xr.Dataset) -> str:
-    """Words on a vehicle that turns where its road hardly bends; empty where it does not, or nothing tells."""
+    """Words on a vehicle that turns as its path does not where its road hardly bends; empty where it does not, or nothing tells."""
     path, yaw_rate, rate = _slowly(drive, road)
     if not path.size or path.std() > LEAST_TURNING:
         return ""
-    heading = np.cumsum(yaw_rate) / rate
-    turned = float(np.ptp(heading - np.polyval(np.polyfit(np.arange(heading.size), heading, 1), np.arange(heading.size))))
+    heading, way = np.cumsum(yaw_rate - path) / rate, np.linspace(-1.0, 1.0, path.size)
+    turned = float(np.ptp(heading - np.polyval(np.polyfit(way, heading, 2), way)))
     if not turned > TURNED:
         return ""
     return f"yaw_rate: the vehicle turns by {np.degrees(turned):.0f} deg where the road hardly bends: are the headings of its file right?"
