@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy.explain import HIGHEST, explain, joined, repeats
+from ridecomfort.discrepancy.explain import HIGHEST, explain, joined, near_repeats, repeats
 from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, band, judged
 from ridecomfort.drive.sampling import low_pass
 
@@ -165,6 +165,25 @@ def test_drives_of_one_mean_speed_repeat_one_another_only_where_they_are_as_fast
     share = (time - time[0]) / np.ptp(time)
     place[1] = place[1, 0] + np.ptp(place[1]) * ((1.0 - change) * share + change * share**2)
     assert repeats(compared.assign(s=(("drive", "time"), place))) == found
+
+
+@pytest.mark.parametrize(
+    ("slower", "aside", "ahead", "said"),
+    [
+        (0.0, 0.0, 0.0, []),
+        (0.08, 0.0, 0.0, ["two is no repeat of one: speeds 8 % apart (5 % at most)"]),
+        (0.0, 0.5, 0.0, ["two is no repeat of one: paths 0.50 m apart (0.30 m at most)"]),
+        (0.08, 0.5, 0.2, ["two is no repeat of one: speeds 8 % apart (5 % at most) and paths 0.50 m apart (0.30 m at most) and sensors 0.20 m apart (0.05 m at most)"]),
+        (0.3, 0.5, 0.0, []),
+    ],
+)
+def test_what_keeps_a_drive_from_repeating_another_is_told(slower, aside, ahead, said):
+    compared = comparison(repeats=2)[1].assign_coords(drive=["one", "two"])
+    place = compared["s"].values.copy()
+    place[1] = place[1, 0] + (1.0 - slower) * (place[1] - place[1, 0])
+    sensors = {"sensor_x": ("drive", [0.0, ahead]), "sensor_y": ("drive", np.zeros(2)), "sensor_z": ("drive", np.zeros(2))}
+    moved = compared.assign(s=(("drive", "time"), place), e=compared["e"] + xr.DataArray([0.0, aside], dims="drive"), **sensors)
+    assert near_repeats(moved) == said
 
 
 def test_repeats_know_better_than_a_data_sheet():

@@ -15,6 +15,7 @@ from ridecomfort.discrepancy import findings
 from ridecomfort.report import catalogue, differing, style, table
 from ridecomfort.report.figures import conditions, ladder, located
 from ridecomfort.report.study import Compared, Difference
+from ridecomfort.report.tables import difference
 from ridecomfort.study import JOIN
 from ridecomfort.vocabulary import SIGNALS
 from tests.report import differing as made_up
@@ -320,6 +321,14 @@ def test_figures_of_a_comparison_say_of_which_model_they_are(name, study):
     with style.styled():
         made = differing.figures_of_site(study.sites[0], model)[name]()
     assert f"Ts1, model damper_asymmetry {JOIN} suspension_friction, calibrated" in made.legends[0].get_title().get_text()
+
+
+def test_what_keeps_drives_from_repeating_others_is_said_beside_the_floor(study):
+    said = "two is no repeat of one: paths 0.50 m apart (0.30 m at most)"
+    site = study.sites[0]
+    near = replace(site, comparison=site.comparison.assign_attrs(near_repeats=said))
+    assert said in difference.floor_note(near) and said not in difference.floor_note(site)
+    assert said in " ".join(differing.tables(replace(study, sites=(near, *study.sites[1:])))["explainable"].notes)
 
 
 def test_responses_say_who_is_who_and_how_they_are_read(drawn):

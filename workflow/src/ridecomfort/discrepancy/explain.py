@@ -22,6 +22,9 @@ that both must have driven, m (rms) that their paths may lie apart, and m that t
 meet another road, errors of the model differ, too, and pass for noise: up to 15 % of them at 0.3 m, half at 0.6 m; where one
 goes from 15 to 25 m/s and the other from 25 to 15, half of a_z and all of the pitch rate. Elsewhere on a body that rolls and pitches all accelerations are others."""
 
+NEAR = 0.15
+"""Relative difference (rms) of the speeds of two drives within which one that repeats none was meant to, perhaps."""
+
 SENSOR = ("sensor_x", "sensor_y", "sensor_z")
 """Where the instrument of a drive was, in m from the centre of gravity, as a comparison has it over drives and a drive among its attributes."""
 
@@ -76,17 +79,25 @@ class Passage(NamedTuple):
         """Mean speeds (m/s) of the first between ``places`` in a row, (place - 1,)."""
         return np.diff(places) / np.diff(np.interp(places, self.place, self.time))
 
+    def is_along(self, other: Passage) -> bool:
+        """Whether both drove COMMON of the shorter."""
+        common = min(self.end, other.end) - max(self.start, other.start)
+        return common > COMMON * min(self.end - self.start, other.end - other.start)
+
     def is_repeated_by(self, other: Passage) -> bool:
         """Whether the first is, wherever both drove: at its speed stretch by stretch, on its path, with the sensor at its place."""
+        speed, path, sensor = self.differences(other)
+        return speed < SAME_SPEED and path < SAME_PATH and sensor < SAME_SENSOR
+
+    def differences(self, other: Passage) -> tuple[float, float, float]:
+        """How far another is from the first where both drove: in its speed from stretch to stretch (rms, relative), its path (rms, m) and the place of
+        its sensor (m)."""
         start, end = max(self.place.min(), other.place.min()), min(self.place.max(), other.place.max())
         places = np.linspace(start, end, max(1, round((end - start) / STRETCH)) + 1)
-        is_as_fast = np.sqrt(np.mean((other.paces(places) / self.paces(places) - 1.0) ** 2)) < SAME_SPEED
-        return is_as_fast and self.apart(other, start, end) < SAME_PATH and dist(self.sensor, other.sensor) < SAME_SENSOR
-
-    def apart(self, other: Passage, start: float, end: float) -> float:
-        """rms distance (m) of the paths between two places."""
+        speed = np.sqrt(np.mean((other.paces(places) / self.paces(places) - 1.0) ** 2))
         place = np.linspace(start, end, 200)
-        return float(np.sqrt(np.mean((np.interp(place, self.place, self.lateral) - np.interp(place, other.place, other.lateral)) ** 2)))
+        aside = np.interp(place, other.place, other.lateral) - np.interp(place, self.place, self.lateral)
+        return float(speed), float(np.sqrt(np.mean(aside**2))), dist(self.sensor, other.sensor)
 
 
 @dataclass(frozen=True)
@@ -113,7 +124,8 @@ def explain(
     one does not cover a stretch. Without
     repeats the floor is that of the instruments alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz),
     "gyroscope": rad/s/sqrt(Hz)}, one-sided); else the mean of those of ``elsewhere``, the site that the vehicle is calibrated on and what this
-    function returned there, if drives were repeated on it; else nil. Attribute ``floor`` says which.
+    function returned there, if drives were repeated on it; else nil. Attribute ``floor`` says which, ``near_repeats`` what keeps drives from
+    repeating others (``near_repeats``).
     """
     floors = np.full((comparison.sizes["state"], comparison.sizes["drive"], comparison.sizes["signal"]), np.nan)
     groups = repeats(comparison)
@@ -142,7 +154,7 @@ def explain(
         explained_share=(("state", "drive", "signal"), share, {"units": "1"}),
         square_by_stretch=(("state", "drive", "signal", "stretch_of_road"), by_stretch),
         stretch_of_road=starts,
-    ).assign_attrs(floor=known_from)
+    ).assign_attrs(floor=known_from, near_repeats="; ".join(near_repeats(comparison)))
 
 
 def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
@@ -176,15 +188,42 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
     """Numbers of the drives that repeat one another where they are compared, at least two in each list."""
     passages: list[Passage] = []
     groups: list[list[int]] = []
-    compared = np.isfinite(comparison["residual"].isel(state=-1)).all("signal").transpose("drive", "time").values
-    for number, place in enumerate(comparison["s"].transpose("drive", "time").values):
-        known = np.isfinite(place) & compared[number]
-        aside = comparison["e"].isel(drive=number).values[known]
-        sensor = [float(comparison[name][number]) for name in SENSOR if name in comparison]
-        group = joined(passages, place[known], comparison["time"].values[known], aside, sensor)
+    for number, own in enumerate(_passages(comparison)):
+        group = joined(passages, own.place, own.time, own.lateral, own.sensor)
         groups += [[]] * (len(passages) - len(groups))
         groups[group] = [*groups[group], number]
     return [own for own in groups if len(own) > 1]
+
+
+def near_repeats(comparison: xr.Dataset) -> list[str]:
+    """Of every drive that repeats none but nearly does, as fast but for NEAR, what keeps it from that, in words."""
+    passages, names = _passages(comparison), comparison["drive"].values
+    repeated = {number for group in repeats(comparison) for number in group}
+    said = []
+    for number in sorted({*range(len(passages))} - repeated):
+        others = [other for other in range(len(passages)) if (other < number or other in repeated) and passages[other].is_along(passages[number])]
+        differ = {other: passages[other].differences(passages[number]) for other in others}
+        nearest = min(differ, key=lambda other: differ[other][0], default=None)
+        if nearest is None or not differ[nearest][0] < NEAR:
+            continue
+        limits = ("speeds {:.0f} %", 100 * SAME_SPEED, 100.0), ("paths {:.2f} m", SAME_PATH, 1.0), ("sensors {:.2f} m", SAME_SENSOR, 1.0)
+        apart = [(told, factor * own, most) for own, (told, most, factor) in zip(differ[nearest], limits) if factor * own >= most]
+        if apart:
+            beyond = " and ".join(f"{told.format(own)} apart ({told.partition(' ')[2].format(most)} at most)" for told, own, most in apart)
+            said.append(f"{names[number]} is no repeat of {names[nearest]}: {beyond}")
+    return said
+
+
+def _passages(comparison: xr.Dataset) -> list[Passage]:
+    """What every drive drove where it is compared."""
+    found = []
+    compared = np.isfinite(comparison["residual"].isel(state=-1)).all("signal").transpose("drive", "time").values
+    for number, place in enumerate(comparison["s"].transpose("drive", "time").values):
+        known = np.isfinite(place) & compared[number]
+        aside = np.nan_to_num(comparison["e"].isel(drive=number).values[known])
+        sensor = [float(comparison[name][number]) for name in SENSOR if name in comparison]
+        found.append(Passage(place[known], aside, comparison["time"].values[known], sensor))
+    return found
 
 
 def joined(
@@ -194,10 +233,8 @@ def joined(
     drives, and which it joins; of a passage of its own, which is added, where there is none. A lateral position that nobody knows is nan."""
     own = Passage(place, np.nan_to_num(lateral), time, sensor)
     for number, known in enumerate(passages):
-        start, end = max(own.start, known.start), min(own.end, known.end)
-        is_along = end - start > COMMON * min(own.end - own.start, known.end - known.start)
         # Beside a short one two may differ where only they drove.
-        if is_along and all(one.is_repeated_by(own) for one in (known, *known.others)):
+        if known.is_along(own) and all(one.is_repeated_by(own) for one in (known, *known.others)):
             passages[number] = known._replace(others=(*known.others, own))
             return number
     passages.append(own)

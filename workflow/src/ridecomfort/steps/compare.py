@@ -48,6 +48,8 @@ def main(road, measured, vehicle, calibration, config, output, workers, elsewher
     )
     for doubt in doubts:
         note(doubt)
+    if result.attrs["near_repeats"]:
+        note(f"{config['site']}: {result.attrs['near_repeats']}")
     if calibration is None:
         note(NOT_CALIBRATED.format(site=config["site"]))
     elif calibration.attrs["calibrated_on"] == config["site"] and "check" not in result["role"].values:
