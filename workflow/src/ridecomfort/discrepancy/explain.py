@@ -207,10 +207,10 @@ def near_repeats(comparison: xr.Dataset) -> list[str]:
         if nearest is None or not differ[nearest][0] < NEAR:
             continue
         limits = ("speeds {:.0f} %", 100 * SAME_SPEED, 100.0), ("paths {:.2f} m", SAME_PATH, 1.0), ("sensors {:.2f} m", SAME_SENSOR, 1.0)
-        apart = [(told, factor * own, most) for own, (told, most, factor) in zip(differ[nearest], limits) if factor * own >= most]
-        if apart:
-            beyond = " and ".join(f"{told.format(own)} apart ({told.partition(' ')[2].format(most)} at most)" for told, own, most in apart)
-            said.append(f"{names[number]} is no repeat of {names[nearest]}: {beyond}")
+        beyond = [(told, factor * own, most) for own, (told, most, factor) in zip(differ[nearest], limits) if factor * own >= most]
+        if beyond:
+            how_far = " and ".join(f"{told.format(own)} apart ({told.partition(' ')[2].format(most)} at most)" for told, own, most in beyond)
+            said.append(f"{names[number]} is no repeat of {names[nearest]}: {how_far}")
     return said
 
 
