@@ -60,6 +60,16 @@ def test_what_one_of_two_repeats_does_not_record_is_not_the_others_noise():
     assert explain(compared)["floor_rmse"].values.ravel() == pytest.approx(2 * [up_to_both.std()], rel=0.1)
 
 
+def test_what_a_slower_instrument_does_not_tell_is_known_from_the_others_all_the_same():
+    compared = comparison()[1].copy(deep=True)
+    residual = compared["residual"].values
+    residual[:, 2] = [low_pass(own.T, 0.01, 8.0).T for own in residual[:, 2]]
+    compared = compared.assign(cut_off=("drive", [45.0, 45.0, 8.0]))
+    found, alone = explain(compared), explain(compared.isel(drive=[0, 1]))
+    np.testing.assert_allclose(found["floor_rmse"][:2], alone["floor_rmse"])
+    assert (found["floor_rmse"][2] > 0.0).all()
+
+
 def test_a_short_repeat_leaves_the_floors_of_the_others_as_they_are():
     """Behind 600 m of 1,200 noise is three times and what is shared five times as large; the third of three repeats ends there."""
     _, compared = comparison()
@@ -167,14 +177,18 @@ def test_drives_of_one_mean_speed_repeat_one_another_only_where_they_are_as_fast
     assert repeats(compared.assign(s=(("drive", "time"), place))) == found
 
 
+PACE = "mean speeds 8.3 % apart (5 % at most) and speeds over stretches of the road 8.3 % apart (8 % at most)"
+PATH, SENSORS = "paths 0.304 m apart (0.3 m at most)", "sensors 0.200 m apart (0.05 m at most)"
+
+
 @pytest.mark.parametrize(
     ("slower", "aside", "ahead", "said"),
     [
-        (0.0, 0.0, 0.0, []),
-        (0.08, 0.0, 0.0, ["two is no repeat of one: speeds 8 % apart (5 % at most)"]),
-        (0.0, 0.5, 0.0, ["two is no repeat of one: paths 0.50 m apart (0.30 m at most)"]),
-        (0.08, 0.5, 0.2, ["two is no repeat of one: speeds 8 % apart (5 % at most) and paths 0.50 m apart (0.30 m at most) and sensors 0.20 m apart (0.05 m at most)"]),
-        (0.3, 0.5, 0.0, []),
+        (0.0, 0.0, 0.0, ""),
+        (0.08, 0.0, 0.0, PACE),
+        (0.0, 0.304, 0.0, PATH),
+        (0.08, 0.304, 0.2, f"{PACE} and {PATH} and {SENSORS}"),
+        (0.3, 0.304, 0.0, ""),
     ],
 )
 def test_what_keeps_a_drive_from_repeating_another_is_told(slower, aside, ahead, said):
@@ -183,7 +197,17 @@ def test_what_keeps_a_drive_from_repeating_another_is_told(slower, aside, ahead,
     place[1] = place[1, 0] + (1.0 - slower) * (place[1] - place[1, 0])
     sensors = {"sensor_x": ("drive", [0.0, ahead]), "sensor_y": ("drive", np.zeros(2)), "sensor_z": ("drive", np.zeros(2))}
     moved = compared.assign(s=(("drive", "time"), place), e=compared["e"] + xr.DataArray([0.0, aside], dims="drive"), **sensors)
-    assert near_repeats(moved) == said
+    assert near_repeats(moved) == ([f"two is no repeat of one: {said}"] if said else [])
+
+
+def test_of_a_drive_that_repeats_one_but_not_the_other_it_is_told_which_it_does_not():
+    """At 20, 20.8 and 19.2 m/s."""
+    compared = comparison(repeats=3)[1].assign_coords(drive=["one", "two", "three"])
+    factor = xr.DataArray([1.0, 1.04, 0.96], dims="drive")
+    start = compared["s"].isel(time=0)
+    moved = compared.assign(s=start + factor * (compared["s"] - start))
+    assert repeats(moved) == [[0, 1]]
+    assert near_repeats(moved) == ["three is no repeat of two: mean speeds 8.0 % apart (5 % at most) and speeds over stretches of the road 8.0 % apart (8 % at most)"]
 
 
 def test_repeats_know_better_than_a_data_sheet():

@@ -138,6 +138,16 @@ def test_the_floor_is_the_least_that_any_rung_shows():
     assert found["floor_rmse"].sel(site="ts1", group="fitted").item() == pytest.approx(np.sqrt(0.5))
 
 
+def test_a_floor_that_is_taken_as_nil_beside_one_model_is_not_less_than_one_that_is_known():
+    """Two drives repeat one another beside the first model, and by a hair not beside the second."""
+    base, better = comparison(5.0, 5.0, floor=1.0), comparison(5.0, 1.0, floor=0.0).assign_attrs(floor="taken as nil: no drive was repeated")
+    graded = {name: sections((0, 0, 0, 0), (0, 0, 0, 0)) for name in ("base", "one")}
+    for models in (("base", "one"), ("one", "base")):
+        found = ladder({"ts1": Measured({"base": base, "one": better}, graded, True)}, models, ["+ one"])
+        assert found["floor_rmse"].sel(site="ts1", group="fitted").item() == pytest.approx(1.0)
+        assert found["floor_known"].item() == "from repeats"
+
+
 def test_drives_of_a_site_that_was_not_fitted_are_all_held_out():
     graded = {"base": sections((0, 0, 0, 0), (0, 0, 0, 0))}
     found = ladder({"ts2": Measured({"base": comparison(9.0, 5.0)}, graded, False)}, ["base"], [])

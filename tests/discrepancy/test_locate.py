@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy import findings, locate
+from ridecomfort.discrepancy import findings, judged, locate
+from ridecomfort.drive.sampling import low_pass
 from ridecomfort.vocabulary import SIGNALS
 
 from .drives import put_between_1400_and_1600_m
@@ -89,6 +90,19 @@ def test_the_floor_is_what_a_drive_has_of_its_own(comparison):
     # By chance some bands lie below the floor: none above it is more than all of the error for that.
     bands = found["explainable_share"].sum("stretch").values
     assert bands.min() < 0.0 and bands.max() <= 1.0 and bands[bands > 0.0].sum() == pytest.approx(1.0)
+
+
+def test_a_floor_that_is_assumed_is_where_each_instrument_tells_anything(comparison):
+    """White noise of a density of 0.1 up to 45 and 10 Hz, as the densities of the instruments tell."""
+    cut_offs, density, rng = (45.0, 10.0), 0.1, np.random.default_rng(4)
+    white = density * np.sqrt(50.0) * rng.standard_normal(comparison["residual"].shape)
+    told = np.stack([[low_pass(own.T, 0.01, cut_off).T for own, cut_off in zip(white[0], cut_offs)]])
+    floor = density * np.sqrt(np.array(cut_offs)[:, None] - judged.lowest(comparison["signal"].values))
+    two = comparison.assign(residual=(comparison["residual"].dims, told), cut_off=("drive", list(cut_offs)), floor_rmse=(("drive", "signal"), floor))
+    found = locate.locate(two.assign(e=two["e"] + xr.DataArray([0.0, 2.0], dims="drive")))
+    np.testing.assert_allclose(found["band_floor"], found["error_power"].mean("stretch"), rtol=0.2, atol=2e-3)
+    highest = found["frequency_map"] > 1.1 * max(cut_offs)
+    assert not found["floor_density"].where(highest, 0.0).any() and (found["floor_density"].where(found["frequency_map"] < 9.0, 1.0) > 0.0).all()
 
 
 def test_conditions_are_divided_into_classes_of_equal_duration(located, comparison):

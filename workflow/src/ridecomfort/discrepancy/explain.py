@@ -16,14 +16,14 @@ from .experiment import Record
 from .floor import apart
 from .judged import band, judged, lowest
 
-SAME_SPEED, COMMON, SAME_PATH, SAME_SENSOR = 0.05, 0.5, 0.3, 0.05
-"""Relative difference (rms) of their speeds over stretches of the road where both drove, within which drives repeat one another, share of the shorter
+SAME_SPEED, SAME_PACE, COMMON, SAME_PATH, SAME_SENSOR = 0.05, 0.08, 0.5, 0.3, 0.05
+"""Relative difference of mean speeds where both drove, and of those over stretches (rms), within which drives repeat one another, share of the shorter
 that both must have driven, m (rms) that their paths may lie apart, and m that their instruments may. At other speeds, or on other tracks, where wheels
-meet another road, errors of the model differ, too, and pass for noise: up to 15 % of them at 0.3 m, half at 0.6 m; where one
-goes from 15 to 25 m/s and the other from 25 to 15, half of a_z and all of the pitch rate. Elsewhere on a body that rolls and pitches all accelerations are others."""
+meet another road, errors of the model differ, too, and pass for noise: up to 15 % of them at 0.3 m, half at 0.6 m; with speeds 13 % apart an eighth of
+a_z and half of the pitch rate, with 36 % half of one and all of the other. Elsewhere on a body that rolls and pitches all accelerations are others."""
 
 NEAR = 0.15
-"""Relative difference (rms) of the speeds of two drives within which one that repeats none was meant to, perhaps."""
+"""Relative difference (rms over stretches) of the speeds of two drives within which one that repeats none was meant to, perhaps."""
 
 SENSOR = ("sensor_x", "sensor_y", "sensor_z")
 """Where the instrument of a drive was, in m from the centre of gravity, as a comparison has it over drives and a drive among its attributes."""
@@ -85,19 +85,37 @@ class Passage(NamedTuple):
         return common > COMMON * min(self.end - self.start, other.end - other.start)
 
     def is_repeated_by(self, other: Passage) -> bool:
-        """Whether the first is, wherever both drove: at its speed stretch by stretch, on its path, with the sensor at its place."""
-        speed, path, sensor = self.differences(other)
-        return speed < SAME_SPEED and path < SAME_PATH and sensor < SAME_SENSOR
+        """Whether the first is, wherever both drove: at its speed, on the whole and stretch by stretch, on its path, with the sensor at its place."""
+        return not self.apart(other)
 
-    def differences(self, other: Passage) -> tuple[float, float, float]:
-        """How far another is from the first where both drove: in its speed from stretch to stretch (rms, relative), its path (rms, m) and the place of
-        its sensor (m)."""
+    def pace_apart(self, other: Passage) -> float:
+        """Relative difference (rms) of the speeds over stretches where both drove."""
+        places = self._common(other, STRETCH)
+        return float(np.sqrt(np.mean(_relative(self.paces(places), other.paces(places)) ** 2)))
+
+    def apart(self, other: Passage) -> list[str]:
+        """By what another is too far from the first, where both drove, to repeat it, in words."""
+        ends, places = self._common(other, np.inf), self._common(other, 0.0)
+        speed = abs(float(_relative(self.paces(ends), other.paces(ends))[0]))
+        aside = np.interp(places, other.place, other.lateral) - np.interp(places, self.place, self.lateral)
+        path, sensor = float(np.sqrt(np.mean(aside**2))), dist(self.sensor, other.sensor)
+        found = (
+            (speed, SAME_SPEED, "mean speeds {:.1f} % apart ({:g} % at most)", 100.0),
+            (self.pace_apart(other), SAME_PACE, "speeds over stretches of the road {:.1f} % apart ({:g} % at most)", 100.0),
+            (path, SAME_PATH, "paths {:.3f} m apart ({:g} m at most)", 1.0),
+            (sensor, SAME_SENSOR, "sensors {:.3f} m apart ({:g} m at most)", 1.0),
+        )
+        return [words.format(factor * own, factor * most) for own, most, words, factor in found if own >= most]
+
+    def _common(self, other: Passage, length: float) -> np.ndarray:
+        """Places (m) from end to end of what both drove, about a ``length`` from one another; 200 where that is nil."""
         start, end = max(self.place.min(), other.place.min()), min(self.place.max(), other.place.max())
-        places = np.linspace(start, end, max(1, round((end - start) / STRETCH)) + 1)
-        speed = np.sqrt(np.mean((other.paces(places) / self.paces(places) - 1.0) ** 2))
-        place = np.linspace(start, end, 200)
-        aside = np.interp(place, other.place, other.lateral) - np.interp(place, self.place, self.lateral)
-        return float(speed), float(np.sqrt(np.mean(aside**2))), dist(self.sensor, other.sensor)
+        return np.linspace(start, end, max(1, round((end - start) / length)) + 1 if length else 200)
+
+
+def _relative(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Difference of two speeds over their mean."""
+    return 2.0 * (other - one) / (other + one)
 
 
 @dataclass(frozen=True)
@@ -158,23 +176,35 @@ def explain(
 
 
 def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
-    """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise, up to the frequency to which all
-    hold it and wherever another drove as well."""
+    """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise, wherever another drove as well: beside
+    those that tell as much as it does, if any do, else up to the frequency to which all tell anything."""
+    found: dict[int, OwnNoise] = {}
+    for group in repeats(comparison):
+        cut_offs = dict(zip(group, highest(comparison)[group]))
+        as_much = {drive: tuple(other for other in group if cut_offs[other] >= (1.0 - SAME_CUT_OFF) * cut_offs[drive]) for drive in group}
+        beside = {drive: others if len(others) > 1 else tuple(group) for drive, others in as_much.items()}
+        for among in dict.fromkeys(beside.values()):
+            own = _own_noise_among(comparison, state, among)
+            found |= {drive: own[drive] for drive in group if beside[drive] == among and drive in own}
+    return found
+
+
+def _own_noise_among(comparison: xr.Dataset, state: str, group: Sequence[int]) -> dict[int, OwnNoise]:
+    """``own_noise`` of drives that repeat one another, up to the frequency to which all of them hold it."""
     found, signals = {}, comparison["signal"].values
     rate = rate_of(comparison["time"].values)
-    for group in repeats(comparison):
-        records, residuals = [], []
-        upper = _known_to_all(highest(comparison)[group])
-        for drive in group:
-            row = comparison.sel(state=state).isel(drive=drive)
-            residual = row["residual"].transpose("signal", "time").values
-            kept = np.isfinite(residual).all(axis=0)
-            place = row["s"].values[kept]
-            records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
-            residuals.append(band(judged(residual[:, kept], rate, signals), rate, (0.0, upper)))
-        for drive, record, residual, own in zip(group, records, residuals, apart(records, residuals)):
-            square = np.mean(residual[:, own.inside] ** 2, axis=1)
-            found[drive] = OwnNoise(record.place[own.inside], own.noise, square, own.common)
+    records, residuals = [], []
+    upper = _known_to_all(highest(comparison)[list(group)])
+    for drive in group:
+        row = comparison.sel(state=state).isel(drive=drive)
+        residual = row["residual"].transpose("signal", "time").values
+        kept = np.isfinite(residual).all(axis=0)
+        place = row["s"].values[kept]
+        records.append(Record(str(drive), "fit", "", "", 1.0, (0.0, 1.0), place, 1.0))
+        residuals.append(band(judged(residual[:, kept], rate, signals), rate, (0.0, upper)))
+    for drive, record, residual, own in zip(group, records, residuals, apart(records, residuals)):
+        square = np.mean(residual[:, own.inside] ** 2, axis=1)
+        found[drive] = OwnNoise(record.place[own.inside], own.noise, square, own.common)
     return found
 
 
@@ -196,21 +226,17 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
 
 
 def near_repeats(comparison: xr.Dataset) -> list[str]:
-    """Of every drive that repeats none but nearly does, as fast but for NEAR, what keeps it from that, in words."""
+    """Of every drive that repeats none but nearly does, as fast but for NEAR, what keeps it from repeating the one which it is nearest to, in words."""
     passages, names = _passages(comparison), comparison["drive"].values
     repeated = {number for group in repeats(comparison) for number in group}
     said = []
     for number in sorted({*range(len(passages))} - repeated):
         others = [other for other in range(len(passages)) if (other < number or other in repeated) and passages[other].is_along(passages[number])]
-        differ = {other: passages[other].differences(passages[number]) for other in others}
-        nearest = min(differ, key=lambda other: differ[other][0], default=None)
-        if nearest is None or not differ[nearest][0] < NEAR:
-            continue
-        limits = ("speeds {:.0f} %", 100 * SAME_SPEED, 100.0), ("paths {:.2f} m", SAME_PATH, 1.0), ("sensors {:.2f} m", SAME_SENSOR, 1.0)
-        beyond = [(told, factor * own, most) for own, (told, most, factor) in zip(differ[nearest], limits) if factor * own >= most]
-        if beyond:
-            how_far = " and ".join(f"{told.format(own)} apart ({told.partition(' ')[2].format(most)} at most)" for told, own, most in beyond)
-            said.append(f"{names[number]} is no repeat of {names[nearest]}: {how_far}")
+        why = {other: passages[other].apart(passages[number]) for other in others}
+        pace = {other: passages[other].pace_apart(passages[number]) for other in others if why[other]}
+        nearest = min(pace, key=lambda other: pace[other], default=None)
+        if nearest is not None and pace[nearest] < NEAR:
+            said.append(f"{names[number]} is no repeat of {names[nearest]}: {' and '.join(why[nearest])}")
     return said
 
 

@@ -11,6 +11,7 @@ from scipy.stats import wilcoxon
 
 from ..fitrecord import AGREE
 from . import critical
+from .explain import REPEATS
 
 UNCALIBRATED, CALIBRATED = "uncalibrated", "calibrated"
 """The first rungs: the nominal vehicle, and the base model with its calibration."""
@@ -136,7 +137,7 @@ def ladder(sites: Mapping[str, Measured], models: Sequence[str], titles: Sequenc
             **{name: ((*over, "method"), values) for name, values in counts.items()},
             "repeats_agreeing": (("site", "group", "method"), repeated),
             "starts": (("rung", "site"), starts.astype(str)),
-            "floor_known": ("site", np.array([site.comparisons[models[0]].attrs["floor"] for site in sites.values()])),
+            "floor_known": ("site", np.array([_floor_known(site, models) for site in sites.values()])),
         },
         {
             "rung": rungs,
@@ -235,9 +236,17 @@ def _mean_of_drives(values: np.ndarray) -> np.ndarray:
 
 
 def _floor_squares(site: Measured, drives: np.ndarray) -> np.ndarray:
-    """Mean square (signal,) of the floor: the least that any model shows."""
-    floors = [(each["floor_rmse"].isel(drive=drives) ** 2).mean("drive").values for each in site.comparisons.values()]
+    """Mean square (signal,) of the floor: the least that any model shows, of those that know it from repeats if any do: paths are aligned for each model,
+    and what are repeats by a hair beside one are none beside another."""
+    known = [each for each in site.comparisons.values() if each.attrs["floor"] == REPEATS] or list(site.comparisons.values())
+    floors = [(each["floor_rmse"].isel(drive=drives) ** 2).mean("drive").values for each in known]
     return np.fmin.reduce(floors, axis=0)
+
+
+def _floor_known(site: Measured, models: Sequence[str]) -> str:
+    """What the floor of a site is known from: repeats, if any of the models has these, else as of the first."""
+    said = [str(site.comparisons[model].attrs["floor"]) for model in models]
+    return REPEATS if REPEATS in said else said[0]
 
 
 def _count(sections: xr.Dataset, state: str, grades: Mapping[int, np.ndarray], counts, at) -> np.ndarray:

@@ -69,7 +69,8 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     drives = [_drive(rows.isel(drive=k), noise.get(k)) for k in range(comparison.sizes["drive"])]
     rate = drives[0].rate
     bands = [band for band in BANDS if band[0] < 0.4 * rate]
-    white_floor = _white_floor(rows, bands)
+    lengths = [len(drive.place) for drive in drives]
+    white_floor = _white_floor(rows, bands, lengths)
     edges = _stretches(drives)
     errors, own_noises = [(d.place, d.error) for d in drives], [(d.own.place, d.own.noise) for d in drives if d.own]
     power, seconds = _by_stretch(errors, edges, bands, rate)
@@ -81,7 +82,7 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
         floor = np.where(length[:, None] > 0, own, mean)
     powers = [[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives]
-    measured = np.average(powers, axis=0, weights=[len(d.place) for d in drives]).T
+    measured = np.average(powers, axis=0, weights=lengths).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
     whole = np.maximum(above.sum(axis=1, keepdims=True), 0.0).sum(axis=2, keepdims=True)  # bands below the floor take nothing off
     by_condition = classes.by_condition(drives, bands)
@@ -90,7 +91,8 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     if noise:
         floor_density = np.nanmean(_map(own_noises, rate, window)[2], axis=1)
     else:
-        floor_density = np.where(frequency <= explain.highest(rows).mean(), _density(rows)[:, None], 0.0)
+        is_told = frequency <= explain.highest(rows)[:, None, None]
+        floor_density = np.average(np.where(is_told, _density(rows)[:, :, None], 0.0), axis=0, weights=lengths)
     joined = lambda part: np.concatenate([getattr(drive, part) for drive in drives], axis=1)
     signal, error = joined("signal"), joined("error")
     recorded, names = joined("measured"), comparison["signal"].values
@@ -158,19 +160,19 @@ def _by_stretch(parts, edges: np.ndarray, bands, rate: float) -> tuple[np.ndarra
 
 
 def _density(rows: xr.Dataset) -> np.ndarray:
-    """One-sided power density (signal,) of a white floor, from the ``floor_rmse`` of the comparison; nil without one."""
+    """One-sided power density (drive, signal) of a white floor, from the ``floor_rmse`` of the comparison; nil without one."""
     if "floor_rmse" not in rows:
-        return np.zeros(rows.sizes["signal"])
-    width = explain.highest(rows).mean() - judged.lowest(rows["signal"].values)
-    return (rows["floor_rmse"] ** 2).mean("drive").values / width
+        return np.zeros((rows.sizes["drive"], rows.sizes["signal"]))
+    width = explain.highest(rows)[:, None] - judged.lowest(rows["signal"].values)
+    return rows["floor_rmse"].transpose("drive", "signal").values ** 2 / width
 
 
-def _white_floor(rows: xr.Dataset, bands) -> np.ndarray:
-    """Power (signal, band) of a white floor, of what is judged and not low-passed away."""
+def _white_floor(rows: xr.Dataset, bands, weights: Sequence[float]) -> np.ndarray:
+    """Power (signal, band) of a white floor, of what is judged and not low-passed away, mean over drives of these ``weights``."""
     lower, upper = np.array(bands).T
     lowest = judged.lowest(rows["signal"].values)[:, None]
-    widths = np.minimum(upper, explain.highest(rows).mean()) - np.maximum(lower, lowest)
-    return _density(rows)[:, None] * np.maximum(widths, 0.0)
+    widths = np.minimum(upper, explain.highest(rows)[:, None, None]) - np.maximum(lower, lowest)
+    return np.average(_density(rows)[:, :, None] * np.maximum(widths, 0.0), axis=0, weights=weights)
 
 
 def _map(parts, rate: float, window: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
