@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy import findings, judged, locate
+from ridecomfort.discrepancy import explain, findings, judged, locate
 from ridecomfort.drive.sampling import low_pass
 from ridecomfort.vocabulary import SIGNALS
 
@@ -103,6 +103,23 @@ def test_a_floor_that_is_assumed_is_where_each_instrument_tells_anything(compari
     np.testing.assert_allclose(found["band_floor"], found["error_power"].mean("stretch"), rtol=0.2, atol=2e-3)
     highest = found["frequency_map"] > 1.1 * max(cut_offs)
     assert not found["floor_density"].where(highest, 0.0).any() and (found["floor_density"].where(found["frequency_map"] < 9.0, 1.0) > 0.0).all()
+
+
+def test_a_floor_that_is_known_from_another_site_is_there_by_frequency_too(comparison):
+    """Noise below 5 Hz of 0.3 and white noise of 0.1: on a site without repeats the first is where it is, not spread."""
+    rng, noisy = np.random.default_rng(6), comparison.assign_coords(drive=["one", "two"])
+    noise = rng.standard_normal(noisy["residual"].shape)
+    slow = np.stack([[low_pass(own.T, 0.01, 5.0).T for own in rng.standard_normal(noise.shape)[0]]])
+    noisy = noisy.assign(residual=noisy["residual"] + 0.1 * noise + 0.3 * slow / slow.std())
+    known = explain.explain(noisy)
+    there = known.merge(locate.locate(known))
+    here = explain.explain(noisy.isel(drive=[0]), None, ("ts1", there))
+    found = locate.locate(here, elsewhere=there)
+    assert here.attrs["floor"].startswith("from repeats on ts1")
+    np.testing.assert_allclose(found["band_floor"], there["band_floor"])
+    np.testing.assert_allclose(found["floor_density"], there["floor_density"])
+    assert (found["band_floor"].sel(signal="a_z")[0] > 5.0 * locate.locate(here)["band_floor"].sel(signal="a_z")[0]).all()
+    assert locate.locate(known, elsewhere=there.assign(band_floor=0.0 * there["band_floor"]))["band_floor"].sum() > 0.0
 
 
 def test_conditions_are_divided_into_classes_of_equal_duration(located, comparison):

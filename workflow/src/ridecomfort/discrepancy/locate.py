@@ -49,10 +49,11 @@ class Drive:
         return self.series["s"]
 
 
-def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
+def locate(comparison: xr.Dataset, state: str | None = None, elsewhere: xr.Dataset | None = None) -> xr.Dataset:
     """Power of the residuals of a comparison (``compare.compare``) by place, frequency and condition.
 
-    ``state``: whose residuals, by default the last. Powers are mean squares, in the unit of the signal squared and over all
+    ``state``: whose residuals, by default the last. ``elsewhere``: what this function returned on the site whose repeats the floor is known from, if it is
+    known from another's: by frequency it is taken as there, one that is assumed as white. Powers are mean squares, in the unit of the signal squared and over all
     drives, of what is judged (``judged.judged``):
     ``error_power(signal, stretch, band)`` and ``floor_power`` of the floor there; ``power_share``, the error above the
     floor over the signal's measured power in all bands, and ``explainable_share``, over its own in all bands above the floor; ``error_map(signal, s_map,
@@ -70,11 +71,12 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     rate = drives[0].rate
     bands = [band for band in BANDS if band[0] < 0.4 * rate]
     lengths = [len(drive.place) for drive in drives]
-    white_floor = _white_floor(rows, bands, lengths)
+    there = elsewhere if str(comparison.attrs.get("floor", "")).startswith(explain.FROM_ELSEWHERE.partition("{")[0]) else None
+    even_floor = _white_floor(rows, bands, lengths) if there is None else there["band_floor"].sel(signal=rows["signal"]).transpose("signal", "band").values
     edges = _stretches(drives)
     errors, own_noises = [(d.place, d.error) for d in drives], [(d.own.place, d.own.noise) for d in drives if d.own]
     power, seconds = _by_stretch(errors, edges, bands, rate)
-    floor = np.broadcast_to(white_floor[:, None, :], power.shape).copy()
+    floor = np.broadcast_to(even_floor[:, None, :], power.shape).copy()
     time_share = np.full(comparison.sizes["signal"], np.nan)
     if noise:
         time_share = bursts.time_share([own for _, own in own_noises], rate)
@@ -90,6 +92,9 @@ def locate(comparison: xr.Dataset, state: str | None = None) -> xr.Dataset:
     places, frequency, density = _map(errors, rate, window)
     if noise:
         floor_density = np.nanmean(_map(own_noises, rate, window)[2], axis=1)
+    elif there is not None:
+        known = there["floor_density"].sel(signal=rows["signal"]).transpose("signal", "frequency_map").values
+        floor_density = np.stack([np.interp(frequency, there["frequency_map"].values, own) for own in known])
     else:
         is_told = frequency <= explain.highest(rows)[:, None, None]
         floor_density = np.average(np.where(is_told, _density(rows)[:, :, None], 0.0), axis=0, weights=lengths)

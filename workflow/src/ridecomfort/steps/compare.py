@@ -12,7 +12,7 @@ NOT_CALIBRATED = "{site}: compared with the vehicle of its file, calibrated on n
 ALL_FITTED = "{site}: no drive is held out here (role: check), so that only other sites could tell whether what is fitted holds"
 
 
-FLOOR = ("floor_rmse",)
+FLOOR = ("floor_rmse", "band_floor", "floor_density")
 """What is read of the comparison of the site that the vehicle is calibrated on."""
 
 
@@ -24,6 +24,7 @@ def main(road, measured, vehicle, calibration, config, output, workers, elsewher
         states["calibrated"] = calibrated.apply(calibration, car, config["effects"])
     elif config["effects"]:
         states["with_effects"] = (car, config["effects"])
+    elsewhere = None if elsewhere is None else store.read(elsewhere, FLOOR)
     result = compare.compare(
         store.read(measured),
         simulate.prepare(store.read(road)),
@@ -31,10 +32,10 @@ def main(road, measured, vehicle, calibration, config, output, workers, elsewher
         simulate=simulate.run,
         options={"step": config["simulation"]["step"], "effects_folder": config["effects_folder"]},
         noise_density=config["noise_density"],
-        elsewhere=None if elsewhere is None else (calibration.attrs["calibrated_on"], store.read(elsewhere, FLOOR)),
+        elsewhere=None if elsewhere is None else (calibration.attrs["calibrated_on"], elsewhere),
         each=pool.side_by_side(int(workers)),
     )
-    located = locate.locate(result)
+    located = locate.locate(result, elsewhere=elsewhere)
     words, doubts = findings.words(located), findings.doubts(located)
     result = result.merge(located).assign_attrs(**located.attrs, words="\n".join(words))
     if calibration is not None:
