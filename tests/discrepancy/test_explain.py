@@ -130,6 +130,13 @@ def test_noise_that_was_low_passed_away_is_no_floor(cut_off, bandwidth):
     assert found["floor_rmse"].values.ravel() == pytest.approx(expected, rel=0.01)
 
 
+def test_a_density_that_is_told_of_one_drive_is_that_of_another_as_far_as_that_records():
+    compared = comparison(repeats=2)[1].isel(signal=[0]).assign_coords(drive=["one", "two"], signal=["a_z"])
+    compared = compared.assign(cut_off=("drive", [40.0, 10.0]), e=compared["e"] + xr.DataArray([0.0, 2.0], dims="drive"))
+    found = explain(compared, {"one": {"accelerometer": 0.01}})
+    assert found["floor_rmse"].values.ravel() == pytest.approx(0.01 * np.sqrt([40.0 - LOWEST, 10.0 - LOWEST]), rel=0.01)
+
+
 def test_on_another_road_the_floor_is_that_of_the_repeats_on_which_the_vehicle_is_calibrated():
     compared = comparison()[1]
     there, here = explain(compared), compared.isel(drive=[0])

@@ -155,8 +155,8 @@ def explain(
     square, by_stretch, starts = _squares(comparison)
     if np.isfinite(floors).any():
         floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
-    elif noise_density and np.isfinite(of_instruments := _of_instruments(comparison, noise_density)).any():
-        floor_squares, known_from = _filled(of_instruments), ASSUMED
+    elif noise_density and np.isfinite(densities := _squared_densities(comparison, noise_density)).any():
+        floor_squares, known_from = _filled(densities) * _widths(comparison), ASSUMED
     elif elsewhere is not None and elsewhere[1].attrs["floor"] == REPEATS:
         site, repeated = elsewhere
         one = (repeated["floor_rmse"] ** 2).mean("drive").sel(signal=comparison["signal"]).values
@@ -296,20 +296,24 @@ def highest(comparison: xr.Dataset) -> np.ndarray:
     return np.minimum(half, comparison["cut_off"].values) if "cut_off" in comparison else half
 
 
-def _of_instruments(comparison: xr.Dataset, density: Mapping[str, Mapping[str, float]]) -> np.ndarray:
-    """Mean square (drive, signal) of white noise of these densities, of what is judged and not low-passed away."""
-    width = highest(comparison)[:, None] - lowest(comparison["signal"].values)
+def _widths(comparison: xr.Dataset) -> np.ndarray:
+    """Hz (drive, signal) of what is judged and not low-passed away."""
+    return np.maximum(highest(comparison)[:, None] - lowest(comparison["signal"].values), 0.0)
+
+
+def _squared_densities(comparison: xr.Dataset, density: Mapping[str, Mapping[str, float]]) -> np.ndarray:
+    """Squared densities (drive, signal) of the noise of the instruments, nan where none is told."""
     instruments = [INSTRUMENT[VARIABLES[str(signal)].unit] for signal in comparison["signal"].values]
     return np.array(
         [
             [density.get(str(drive), {}).get(instrument, np.nan) ** 2 for instrument in instruments]
             for drive in comparison["drive"].values
         ]
-    ) * np.maximum(width, 0.0)
+    )
 
 
-def _filled(floor_squares: np.ndarray) -> np.ndarray:
-    """The floor (drive, signal) of every drive: one that is not known is the mean of those that are, else nil."""
-    known = np.isfinite(floor_squares)
-    mean = np.where(known.any(axis=0), np.where(known, floor_squares, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1), 0.0)
-    return np.where(known, floor_squares, mean)
+def _filled(values: np.ndarray) -> np.ndarray:
+    """Values (drive, signal) of every drive: one that is not known is the mean of those that are, else nil."""
+    known = np.isfinite(values)
+    mean = np.where(known.any(axis=0), np.where(known, values, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1), 0.0)
+    return np.where(known, values, mean)
