@@ -217,6 +217,16 @@ def test_of_a_drive_that_repeats_one_but_not_the_other_it_is_told_which_it_does_
     assert near_repeats(moved) == ["three is no repeat of two: mean speeds 8.0 % apart (5 % at most) and speeds over stretches of the road 8.0 % apart (8 % at most)"]
 
 
+def test_of_a_drive_that_repeats_one_where_the_other_ended_it_is_told_that_it_counts_as_none():
+    """From 0 to 600 m, to 1,200 m, and from 600 m on."""
+    compared = comparison(repeats=3)[1].assign_coords(drive=["one", "two", "three"])
+    which = xr.DataArray([0, 1, 2], dims="drive")
+    driven = ((which != 0) | (compared["s"] < 600.0)) & ((which != 2) | (compared["s"] > 600.0))
+    parts = compared.assign(residual=compared["residual"].where(driven))
+    assert repeats(parts) == [[0, 1]]
+    assert near_repeats(parts) == ["three repeats two, but hardly any of the way that all of its repeats drove: it counts as no repeat"]
+
+
 def test_repeats_know_better_than_a_data_sheet():
     compared = comparison()[1].assign_coords(drive=["one", "two", "three"])
     found = explain(compared, {"one": {"accelerometer": 10.0, "gyroscope": 10.0}})

@@ -237,6 +237,9 @@ def near_repeats(comparison: xr.Dataset) -> list[str]:
         nearest = min(pace, key=lambda other: pace[other], default=None)
         if nearest is not None and pace[nearest] < NEAR:
             said.append(f"{names[number]} is no repeat of {names[nearest]}: {' and '.join(why[nearest])}")
+        elif any(not own for own in why.values()):
+            alike = next(other for other, own in why.items() if not own)
+            said.append(f"{names[number]} repeats {names[alike]}, but hardly any of the way that all of its repeats drove: it counts as no repeat")
     return said
 
 
