@@ -83,6 +83,18 @@ def test_what_is_found_is_what_is_found_without_borrowing_and_took_fewer_drives(
     assert fewer < 0.6 * every
 
 
+@pytest.mark.parametrize("met", [{1}, {2}, {1, 2}])
+def test_what_the_lender_does_not_meet_is_asked_of_every_drive(met):
+    """A stop that only faster repeats reach, a place that only longer ones come to."""
+    model = Varied(1, {"effect_2.size": 1.0}, 0.95)
+    for index in {0, 1, 2} - met:
+        model.columns[index] = {**model.columns[index], "effect_2.size": np.zeros(SAMPLES)}
+    assert lenders(model) == {0: 0, 1: 0, 2: 0}
+    selection, _ = found(model, {candidate.name for candidate in model.candidates})
+    assert selection.accepted == ("effect_2",)
+    assert ("effect_2", 0) in selection.probed
+
+
 def test_what_drives_borrowed_is_known_to_no_later_search():
     model = Varied(1, {"effect_2.size": 1.0}, 0.9)
     selection, _ = found(model, {f"effect_{k}" for k in range(1, LIBRARY)})

@@ -27,6 +27,13 @@ def comparison(repeats=3):
     )
 
 
+def white(compared):
+    """The same, its floor a white one up to 45 Hz."""
+    frequency = np.arange(LOWEST, 45.0, 0.5)
+    density = np.ones((compared.sizes["signal"], frequency.size))
+    return compared.assign(floor_density=(("signal", "frequency_map"), density), frequency_map=frequency)
+
+
 def test_the_floor_is_the_noise_and_three_quarters_are_explained_by_half_the_common_error():
     noise, compared = comparison()
     found = explain(compared)
@@ -68,6 +75,34 @@ def test_what_a_slower_instrument_does_not_tell_is_known_from_the_others_all_the
     found, alone = explain(compared), explain(compared.isel(drive=[0, 1]))
     np.testing.assert_allclose(found["floor_rmse"][:2], alone["floor_rmse"])
     assert (found["floor_rmse"][2] > 0.0).all()
+
+
+@pytest.mark.parametrize(("cut_offs", "up_to"), [((45.0, 30.0, 8.0), 30.0), ((45.0, 44.4, 8.0), 44.4)])
+def test_what_none_tells_as_much_of_is_known_as_far_as_the_next_one_tells(cut_offs, up_to):
+    """White noise and an error that all share, in three repeats by instruments of unlike cut-offs."""
+    random = np.random.default_rng(3)
+    compared = comparison()[1].isel(state=[0], signal=[0])
+    noise = 0.05 * random.standard_normal((3, 6000))
+    residual = 0.1 * random.standard_normal(6000) + noise
+    residual = np.stack([low_pass(own[:, None], 0.01, cut_off)[:, 0] for own, cut_off in zip(residual, cut_offs)])
+    compared = compared.assign(residual=(compared["residual"].dims, residual[None, :, None]), cut_off=("drive", list(cut_offs)))
+    known = band(judged(noise, 100.0, ["a_z"]), 100.0, (0.0, HIGHEST * up_to))
+    assert explain(compared)["floor_rmse"].values[:2, 0] == pytest.approx(2 * [known.std()], rel=0.1)
+
+
+def test_noise_that_a_drive_beside_repeats_does_not_record_is_no_floor_of_it():
+    """White noise and an error, up to 45 Hz in two repeats and up to 8 Hz in a drive 2 m aside of them, or on another site."""
+    random = np.random.default_rng(3)
+    compared = comparison()[1].isel(state=[0], signal=[0]).assign_coords(signal=["a_z"])
+    noise = 0.05 * random.standard_normal((3, 6000))
+    residual = 0.1 * random.standard_normal(6000) + noise
+    residual[2] = low_pass(residual[2, :, None], 0.01, 8.0)[:, 0]
+    aside = compared["e"] + xr.DataArray([0.0, 0.0, 2.0], dims="drive")
+    compared = compared.assign(residual=(compared["residual"].dims, residual[None, :, None]), cut_off=("drive", [45.0, 45.0, 8.0]), e=aside)
+    known = band(judged(noise, 100.0, ["a_z"]), 100.0, (0.0, 8.0)).std()
+    other = explain(compared.isel(drive=[2]), elsewhere=("alpha", white(explain(compared.isel(drive=[0, 1])))))
+    for found in (explain(compared)["floor_rmse"][2, 0], other["floor_rmse"][0, 0]):
+        assert float(found) == pytest.approx(known, rel=0.1)
 
 
 def test_a_short_repeat_leaves_the_floors_of_the_others_as_they_are():
@@ -139,16 +174,17 @@ def test_a_density_that_is_told_of_one_drive_is_that_of_another_as_far_as_that_r
 
 def test_on_another_road_the_floor_is_that_of_the_repeats_on_which_the_vehicle_is_calibrated():
     compared = comparison()[1]
-    there, here = explain(compared), compared.isel(drive=[0])
+    compared = compared.assign_coords(signal=["a_z", "roll_rate", "pitch_rate", "a_y"][: compared.sizes["signal"]])
+    there, here = white(explain(compared)), compared.isel(drive=[0])
     found = explain(here, elsewhere=("alpha", there))
     assert found["floor_rmse"].values[0] == pytest.approx(np.sqrt((there["floor_rmse"] ** 2).mean("drive").values))
     assert found.attrs["floor"].startswith("from repeats on alpha")
     # Its own noise densities and repeats are nearer, and a site without repeats knows nothing either.
-    named = here.isel(signal=[0]).assign_coords(drive=["one"], signal=["a_z"])
+    named = here.isel(signal=[0]).assign_coords(drive=["one"])
     known = explain(named, {"one": {"accelerometer": 0.01, "gyroscope": 0.002}}, ("alpha", there))
     assert "assumed from the noise densities" in known.attrs["floor"]
     assert explain(compared, elsewhere=("alpha", there)).attrs["floor"] == "from repeats"
-    assert "nil" in explain(here, elsewhere=("alpha", explain(here))).attrs["floor"]
+    assert "nil" in explain(here, elsewhere=("alpha", white(explain(here)))).attrs["floor"]
 
 
 def test_densities_of_no_drive_that_is_compared_are_not_known():
@@ -225,6 +261,16 @@ def test_of_a_drive_that_repeats_one_where_the_other_ended_it_is_told_that_it_co
     parts = compared.assign(residual=compared["residual"].where(driven))
     assert repeats(parts) == [[0, 1]]
     assert near_repeats(parts) == ["three repeats two, but hardly any of the way that all of its repeats drove: it counts as no repeat"]
+
+
+def test_of_a_drive_that_hardly_meets_those_it_repeats_that_is_told_whatever_else_is_near():
+    """The same behind a drive that is 12 % slower."""
+    compared = comparison(repeats=4)[1].assign_coords(drive=["slower", "one", "two", "three"])
+    which, start = xr.DataArray(range(4), dims="drive"), compared["s"].isel(time=0)
+    compared = compared.assign(s=(start + xr.DataArray([0.88, 1.0, 1.0, 1.0], dims="drive") * (compared["s"] - start)).transpose(*compared["s"].dims))
+    driven = ((which != 1) | (compared["s"] < 600.0)) & ((which != 3) | (compared["s"] > 600.0))
+    said = near_repeats(compared.assign(residual=compared["residual"].where(driven)))
+    assert said[-1] == "three repeats two, but hardly any of the way that all of its repeats drove: it counts as no repeat"
 
 
 def test_repeats_know_better_than_a_data_sheet():

@@ -105,6 +105,16 @@ def test_a_floor_that_is_assumed_is_where_each_instrument_tells_anything(compari
     assert not found["floor_density"].where(highest, 0.0).any() and (found["floor_density"].where(found["frequency_map"] < 9.0, 1.0) > 0.0).all()
 
 
+def test_the_floor_of_repeats_beside_a_slower_instrument_is_where_each_tells_anything(comparison):
+    """White noise in two repeats up to 45 Hz and in a drive 2 m aside up to 8 Hz: no band's error lies below its floor."""
+    rng, three = np.random.default_rng(4), comparison.isel(drive=[0, 1, 1]).assign_coords(drive=["one", "two", "three"])
+    white = rng.standard_normal(three["residual"].shape)
+    white[:, 2] = [low_pass(own.T, 0.01, 8.0).T for own in white[:, 2]]
+    aside = three["e"] + xr.DataArray([0.0, 0.0, 2.0], dims="drive")
+    found = locate.locate(three.assign(residual=(three["residual"].dims, white), cut_off=("drive", [45.0, 45.0, 8.0]), e=aside))
+    np.testing.assert_allclose(found["band_floor"], found["error_power"].mean("stretch"), rtol=0.25)
+
+
 def test_a_floor_that_is_known_from_another_site_is_there_by_frequency_too(comparison):
     """Noise below 5 Hz of 0.3 and white noise of 0.1: on a site without repeats the first is where it is, not spread."""
     rng, noisy = np.random.default_rng(6), comparison.assign_coords(drive=["one", "two"])
@@ -115,6 +125,9 @@ def test_a_floor_that_is_known_from_another_site_is_there_by_frequency_too(compa
     there = known.merge(locate.locate(known))
     here = explain.explain(noisy.isel(drive=[0]), None, ("ts1", there))
     found = locate.locate(here, elsewhere=there)
+    slower = locate.locate(here.assign(cut_off=("drive", [8.0])), elsewhere=there)
+    for name, highest in (("band_floor", slower["band_upper"]), ("floor_density", slower["frequency_map"])):
+        np.testing.assert_allclose(slower[name], there[name].where(highest <= 8.0, 0.0))
     assert here.attrs["floor"].startswith("from repeats on ts1")
     np.testing.assert_allclose(found["band_floor"], there["band_floor"])
     np.testing.assert_allclose(found["floor_density"], there["floor_density"])

@@ -75,6 +75,18 @@ def test_noise_that_is_told_of_some_instruments_is_assumed_of_the_others():
         assert (floors > 0).all()
 
 
+def test_a_density_that_is_told_of_one_instrument_fills_the_band_of_another_as_far_as_that_goes():
+    model = Linear(3, {})
+    widths = (40.0, 20.0, 10.0, 40.0)
+    model.records = [
+        replace(record, condition=str(k), band=(0.3, upper), noise=() if k else (0.02,) * 4)
+        for k, (record, upper) in enumerate(zip(model.records, widths))
+    ]
+    rung = begin(model, {"stiffness": 0.0})
+    floors = np.concatenate([rung.floor_squares, rung.held_out_floor_squares])
+    np.testing.assert_allclose(floors, np.array([[0.02**2 * (upper - 0.3)] * 4 for upper in widths]))
+
+
 def test_where_nil_is_best_it_stays():
     model = Linear(3, {})
     sizes = [*model.free, model.candidates[2].sizes[0]]

@@ -35,7 +35,7 @@ EXPORTS = {
 }
 
 
-@pytest.mark.parametrize("rate", [128, 200, 1000])
+@pytest.mark.parametrize("rate", [100, 128, 200, 1000])
 @pytest.mark.parametrize("how", EXPORTS)
 def test_another_export_of_a_record_is_a_copy_of_it(rate, how):
     one, other = drive(*raw(rate)), drive(*EXPORTS[how](*raw(rate)))

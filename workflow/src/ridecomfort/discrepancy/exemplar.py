@@ -1,7 +1,7 @@
 """One drive for all that repeat it: a first look at many candidates need not simulate each of them on every repeat.
 
 At the same place of the same road at nearly the same speed an effect changes the signals in nearly the same way. What is borrowed so tells
-which candidates are worth a look of their own on every drive; it decides nothing.
+which candidates are worth a look of their own on every drive. Of the others it tells how little speaks for them.
 """
 
 from __future__ import annotations

@@ -135,32 +135,39 @@ def explain(
     """A comparison (``compare.compare``) with its floor and its explainable error.
 
     Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no
-    model of this road and car could explain, from the differences of repeats at equal place in the best state;
+    model of this road and car could explain, from the differences of repeats at equal place in the best state, of a drive that repeats none the
+    mean of theirs up to its own cut-off;
     ``explainable_rmse(state, drive, signal)``, the root of mean square less floor;
     ``explained_share(state, drive, signal)``, the share of the first state's explainable mean square that is gone; and
     ``square_by_stretch(state, drive, signal, stretch_of_road)``, mean squares of the error over STRETCH each, the same for all drives, nan where
     one does not cover a stretch. Without
     repeats the floor is that of the instruments alone, ``noise_density`` by drive ({"accelerometer": m/s2/sqrt(Hz),
-    "gyroscope": rad/s/sqrt(Hz)}, one-sided); else the mean of those of ``elsewhere``, the site that the vehicle is calibrated on and what this
-    function returned there, if drives were repeated on it; else nil. Attribute ``floor`` says which, ``near_repeats`` what keeps drives from
+    "gyroscope": rad/s/sqrt(Hz)}, one-sided); else the mean of those of ``elsewhere`` up to the same, the site that the vehicle is calibrated on and
+    what this function and ``locate.locate`` returned there, if drives were repeated on it; else nil. Attribute ``floor`` says which, ``near_repeats`` what keeps drives from
     repeating others (``near_repeats``).
     """
     floors = np.full((comparison.sizes["state"], comparison.sizes["drive"], comparison.sizes["signal"]), np.nan)
-    groups = repeats(comparison)
+    groups, cut_offs, rate = repeats(comparison), highest(comparison), rate_of(comparison["time"].values)
     for state, name in enumerate(comparison["state"].values):
         own = own_noise(comparison, name)
         for group in groups:
             # Noise of a quiet and of a loud repeat is known as their mean; what they share is the same for both, and the rest of either its own.
             floors[state, group] = [np.maximum(own[drive].square - np.maximum(own[drive].common, 0.0), 0.0) for drive in group]
+        for drive in {*range(len(cut_offs))} - {*own} if own else ():
+            others = [floors[state, k] * _share_below(own[k].noise, rate, cut_offs[drive]) for k in own]
+            floors[state, drive] = np.mean(others, axis=0)
     square, by_stretch, starts = _squares(comparison)
     if np.isfinite(floors).any():
-        floor_squares, known_from = _filled(np.fmin.reduce(floors, axis=0)), REPEATS
+        floor_squares, known_from = np.fmin.reduce(floors, axis=0), REPEATS
     elif noise_density and np.isfinite(densities := _squared_densities(comparison, noise_density)).any():
         floor_squares, known_from = _filled(densities) * _widths(comparison), ASSUMED
     elif elsewhere is not None and elsewhere[1].attrs["floor"] == REPEATS:
-        site, repeated = elsewhere
-        one = (repeated["floor_rmse"] ** 2).mean("drive").sel(signal=comparison["signal"]).values
-        floor_squares, known_from = np.broadcast_to(one, floors.shape[1:]), FROM_ELSEWHERE.format(site=site)
+        site, repeated = elsewhere[0], elsewhere[1].sel(signal=comparison["signal"])
+        density, frequency = repeated["floor_density"].transpose("signal", "frequency_map").values, repeated["frequency_map"].values
+        recorded = np.stack([density[:, frequency <= cut_off].sum(axis=1) for cut_off in cut_offs])
+        all_told = density.sum(axis=1)
+        one = (repeated["floor_rmse"] ** 2).mean("drive").values
+        floor_squares, known_from = one * recorded / np.where(all_told > 0, all_told, 1.0), FROM_ELSEWHERE.format(site=site)
     else:
         floor_squares, known_from = np.zeros(floors.shape[1:]), NIL
     floor_squares = np.minimum(floor_squares, square.min(axis=0))
@@ -177,12 +184,12 @@ def explain(
 
 def own_noise(comparison: xr.Dataset, state: str) -> dict[int, OwnNoise]:
     """By number of the drive, for drives that were repeated: what each has of its own, of the power of its noise, wherever another drove as well: beside
-    those that tell as much as it does, if any do, else up to the frequency to which all tell anything."""
+    those that tell as much as it does, else beside those that tell most, as far as they do."""
     found: dict[int, OwnNoise] = {}
     for group in repeats(comparison):
         cut_offs = dict(zip(group, highest(comparison)[group]))
-        as_much = {drive: tuple(other for other in group if cut_offs[other] >= (1.0 - SAME_CUT_OFF) * cut_offs[drive]) for drive in group}
-        beside = {drive: others if len(others) > 1 else tuple(group) for drive, others in as_much.items()}
+        shared = {drive: min(cut_offs[drive], max(cut_offs[other] for other in group if other != drive)) for drive in group}
+        beside = {drive: tuple(other for other in group if cut_offs[other] >= (1.0 - SAME_CUT_OFF) * shared[drive]) for drive in group}
         for among in dict.fromkeys(beside.values()):
             own = _own_noise_among(comparison, state, among)
             found |= {drive: own[drive] for drive in group if beside[drive] == among and drive in own}
@@ -208,6 +215,12 @@ def _own_noise_among(comparison: xr.Dataset, state: str, group: Sequence[int]) -
     return found
 
 
+def _share_below(noise: np.ndarray, rate: float, upper: float) -> np.ndarray:
+    """Share (signal,) of the power of a series (signal, sample) at ``rate`` Hz below a frequency (Hz)."""
+    whole = np.mean(noise**2, axis=1)
+    return np.mean(band(noise, rate, (0.0, upper)) ** 2, axis=1) / np.where(whole > 0, whole, 1.0)
+
+
 def _known_to_all(cut_offs: np.ndarray) -> float:
     """Hz up to which drives of these cut-offs tell what each has of its own: above what one holds, half of another's error is no noise."""
     least, most = cut_offs.min(), cut_offs.max()
@@ -228,12 +241,15 @@ def repeats(comparison: xr.Dataset) -> list[list[int]]:
 def near_repeats(comparison: xr.Dataset) -> list[str]:
     """Of every drive that repeats none but nearly does, as fast but for NEAR, what keeps it from repeating the one which it is nearest to, in words."""
     passages, names = _passages(comparison), comparison["drive"].values
-    repeated = {number for group in repeats(comparison) for number in group}
+    group_of = {number: group for group in repeats(comparison) for number in group}
     said = []
-    for number in sorted({*range(len(passages))} - repeated):
-        others = [other for other in range(len(passages)) if (other < number or other in repeated) and passages[other].is_along(passages[number])]
+    for number in sorted({*range(len(passages))} - {*group_of}):
+        others = [other for other in range(len(passages)) if (other < number or other in group_of) and passages[other].is_along(passages[number])]
         why = {other: passages[other].apart(passages[number]) for other in others}
-        pace = {other: passages[other].pace_apart(passages[number]) for other in others if why[other]}
+        # Whoever it repeats is the one that it was meant to, and those that repeat that one.
+        mates = {mate for other in others if not why[other] for mate in group_of.get(other, [other])}
+        why = {other: own for other, own in why.items() if not mates or other in mates}
+        pace = {other: passages[other].pace_apart(passages[number]) for other in why if why[other]}
         nearest = min(pace, key=lambda other: pace[other], default=None)
         if nearest is not None and pace[nearest] < NEAR:
             said.append(f"{names[number]} is no repeat of {names[nearest]}: {' and '.join(why[nearest])}")

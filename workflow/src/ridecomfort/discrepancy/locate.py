@@ -53,7 +53,7 @@ def locate(comparison: xr.Dataset, state: str | None = None, elsewhere: xr.Datas
     """Power of the residuals of a comparison (``compare.compare``) by place, frequency and condition.
 
     ``state``: whose residuals, by default the last. ``elsewhere``: what this function returned on the site whose repeats the floor is known from, if it is
-    known from another's: by frequency it is taken as there, one that is assumed as white. Powers are mean squares, in the unit of the signal squared and over all
+    known from another's: by frequency it is taken as there as far as drives record here, one that is assumed as white. Powers are mean squares, in the unit of the signal squared and over all
     drives, of what is judged (``judged.judged``):
     ``error_power(signal, stretch, band)`` and ``floor_power`` of the floor there; ``power_share``, the error above the
     floor over the signal's measured power in all bands, and ``explainable_share``, over its own in all bands above the floor; ``error_map(signal, s_map,
@@ -72,7 +72,11 @@ def locate(comparison: xr.Dataset, state: str | None = None, elsewhere: xr.Datas
     bands = [band for band in BANDS if band[0] < 0.4 * rate]
     lengths = [len(drive.place) for drive in drives]
     there = elsewhere if str(comparison.attrs.get("floor", "")).startswith(explain.FROM_ELSEWHERE.partition("{")[0]) else None
-    even_floor = _white_floor(rows, bands, lengths) if there is None else there["band_floor"].sel(signal=rows["signal"]).transpose("signal", "band").values
+    told = _told(rows, bands)
+    if there is None:
+        even_floor = _white_floor(rows, bands, lengths)
+    else:
+        even_floor = there["band_floor"].sel(signal=rows["signal"]).transpose("signal", "band").values * np.average(told, axis=0, weights=lengths)
     edges = _stretches(drives)
     errors, own_noises = [(d.place, d.error) for d in drives], [(d.own.place, d.own.noise) for d in drives if d.own]
     power, seconds = _by_stretch(errors, edges, bands, rate)
@@ -81,8 +85,10 @@ def locate(comparison: xr.Dataset, state: str | None = None, elsewhere: xr.Datas
     if noise:
         time_share = bursts.time_share([own for _, own in own_noises], rate)
         own, length = _by_stretch(own_noises, edges, bands, rate)
+        repeated = sorted(noise)
+        share = _over(np.average(told, axis=0, weights=lengths), np.average(told[repeated], axis=0, weights=np.array(lengths)[repeated]))
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
-        floor = np.where(length[:, None] > 0, own, mean)
+        floor = share * np.where(length[:, None] > 0, own, mean)
     powers = [[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives]
     measured = np.average(powers, axis=0, weights=lengths).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
@@ -90,14 +96,16 @@ def locate(comparison: xr.Dataset, state: str | None = None, elsewhere: xr.Datas
     by_condition = classes.by_condition(drives, bands)
     window = min(int(WINDOW * rate), min(len(place) for place, _ in (*errors, *own_noises)) // 2)
     places, frequency, density = _map(errors, rate, window)
+    is_told = frequency <= explain.highest(rows)[:, None]
+    are_told = np.average(is_told, axis=0, weights=lengths)
     if noise:
-        floor_density = np.nanmean(_map(own_noises, rate, window)[2], axis=1)
+        share = _over(are_told, np.average(is_told[repeated], axis=0, weights=np.array(lengths)[repeated]))
+        floor_density = share * np.nanmean(_map(own_noises, rate, window)[2], axis=1)
     elif there is not None:
         known = there["floor_density"].sel(signal=rows["signal"]).transpose("signal", "frequency_map").values
-        floor_density = np.stack([np.interp(frequency, there["frequency_map"].values, own) for own in known])
+        floor_density = are_told * np.stack([np.interp(frequency, there["frequency_map"].values, own) for own in known])
     else:
-        is_told = frequency <= explain.highest(rows)[:, None, None]
-        floor_density = np.average(np.where(is_told, _density(rows)[:, :, None], 0.0), axis=0, weights=lengths)
+        floor_density = np.average(is_told[:, None] * _density(rows)[:, :, None], axis=0, weights=lengths)
     joined = lambda part: np.concatenate([getattr(drive, part) for drive in drives], axis=1)
     signal, error = joined("signal"), joined("error")
     recorded, names = joined("measured"), comparison["signal"].values
@@ -162,6 +170,17 @@ def _by_stretch(parts, edges: np.ndarray, bands, rate: float) -> tuple[np.ndarra
             for i, row in enumerate(judged.band(series, rate, band) ** 2):
                 power[i, :, k] += np.bincount(where, row, minlength=count) / rate
     return power / np.maximum(seconds, 1e-9)[None, :, None], seconds
+
+
+def _told(rows: xr.Dataset, bands) -> np.ndarray:
+    """Share (drive, band) of every band that the record of each drive holds anything of."""
+    lower, upper = np.array(bands).T
+    return np.clip((explain.highest(rows)[:, None] - lower) / (upper - lower), 0.0, 1.0)
+
+
+def _over(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """A quotient, 1 where the denominator is nil."""
+    return np.divide(one, other, out=np.ones_like(other), where=other > 0)
 
 
 def _density(rows: xr.Dataset) -> np.ndarray:

@@ -272,8 +272,9 @@ def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tu
     cleaned = frame.all_cleaned(fit.residuals)
     held_out = check_frame.all_cleaned(check) if check else {}
     known = floor.floor(experiment, {**cleaned, **held_out})
-    told = [floor.assumed(record) for record in experiment.records if record.noise] or [np.zeros(1)]
-    assumed = lambda record: floor.assumed(record) if record.noise else np.mean(told, axis=0)
+    told = [np.square(record.noise) for record in experiment.records if record.noise]
+    usual = tuple(np.sqrt(np.mean(told, axis=0))) if told else ()
+    assumed = lambda record: floor.assumed(record if record.noise else replace(record, noise=usual))
     reached: dict[str, list[np.ndarray]] = {}
     for parts in (cleaned, held_out):
         for index, row in zip(sorted(parts), floor.squares(experiment, parts) if parts else ()):

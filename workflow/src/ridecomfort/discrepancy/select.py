@@ -256,9 +256,13 @@ class _Search:
         self.borrowed = set(borrowing) if len(asked) < len(lenders) else set()
         simulated = [job for job in unknown if job not in self.borrowed]
         self.probed = {**self.probed, **dict(zip(simulated, self.each(own, simulated)))}
-        found, some = dict(self.probed), replace(own, residuals={index: residuals[index] for index in asked})
-        if self.borrowed:
-            found |= {job: exemplar.borrowed(sooner, lenders, raw) for job, raw in zip(borrowing, self.each(some, borrowing))}
+        some = replace(own, residuals={index: residuals[index] for index in asked})
+        lent = dict(zip(borrowing, self.each(some, borrowing))) if self.borrowed else {}
+        # What an exemplar does not meet, others may: a stop that only a faster one reaches, a place that only a longer one comes to.
+        unmet = [job for job, raw in lent.items() if len(raw) < len(self.by_name[job[0]].sizes)]
+        self.probed |= dict(zip(unmet, self.each(own, unmet)))
+        self.borrowed -= {*unmet}
+        found = {**self.probed, **{job: exemplar.borrowed(sooner, lenders, lent[job]) for job in self.borrowed}}
         silent = [name for name in self.by_name if not any(found[job] for job in jobs if job[0] == name)]
         refusals = zip(silent, self.each(own.refusal, [(name, 0) for name in silent]))
         self.refused |= {name: f"{UNDRIVEN}: {why}" for name, why in refusals if why}

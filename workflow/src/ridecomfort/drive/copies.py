@@ -9,14 +9,14 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 from scipy.signal import butter, correlate, sosfiltfilt
 
-from .sampling import rate_of
+from .sampling import low_pass, rate_of
 
 BELOW, OF_CUT_OFF = 10.0, 0.6
 """Hz, and share of the lower of their cut-offs, up to which records are compared: what filters do to exports of other rates lies above."""
 
 SAME = 2e-3
-"""rms of the difference over that of a piece up to which both are one: exports at another rate leave 0.0017, cut ones, in other units or with four
-digits 0.0002; two drives on one path, with a noise of 0.01 m/s2, would differ by 0.004 by that alone."""
+"""rms of the difference over that of a piece up to which both are one: exports at another rate leave 0.0003 to 0.002, cut ones, in other units or with
+four digits 0.0002; two drives on one path, with a noise of 0.01 m/s2, would differ by 0.004 by that alone."""
 
 LEAST = 3.0
 """s of a drive of less than which none is known to be a copy: it is refused for that."""
@@ -39,9 +39,17 @@ def is_copy(one, other, name: str = "a_z") -> bool:
     rate = rate_of(one["time"].values)
     if min(one.sizes["time"], other.sizes["time"]) < LEAST * rate:
         return False
-    cut_off = min(float(drive.attrs.get("cut_off", rate)) for drive in (one, other))
-    low_pass = butter(4, min(BELOW, OF_CUT_OFF * cut_off, 0.4 * rate), fs=rate, output="sos")
-    short, long = sorted((sosfiltfilt(low_pass, drive[name].values) for drive in (one, other)), key=len)
+    cut_offs = [float(drive.attrs.get("cut_off", 0.5 * rate)) for drive in (one, other)]
+    slow = butter(4, min(BELOW, OF_CUT_OFF * min(cut_offs), 0.4 * rate), fs=rate, output="sos")
+    pairs = [[drive[name].values for drive in (one, other)]]
+    if cut_offs[0] != cut_offs[1]:  # the filter that brought one to the study's rate has a ripple, which the other may lack
+        filtered = lambda own, cut_off: low_pass(own[:, None], 1.0 / rate, min(cut_offs))[:, 0] if cut_off > min(cut_offs) else own
+        pairs.append([filtered(own, cut_off) for own, cut_off in zip(pairs[0], cut_offs)])
+    return any(_is_in(*sorted((sosfiltfilt(slow, own) for own in pair), key=len), rate) for pair in pairs)
+
+
+def _is_in(short: np.ndarray, long: np.ndarray, rate: float) -> bool:
+    """Whether TWICE of the pieces of the shorter series are in the longer one, at some lag."""
     size, margin = min(int(PIECE * rate), len(short) // 2), min(int(MARGIN * rate), len(short) // 4)
     spline, least = make_interp_spline(np.arange(len(long)), long, k=5), max(STILL * short.std(), 1e-9 * np.max(np.abs(short)))
     starts = np.linspace(margin, len(short) - margin - size, PIECES).astype(int)

@@ -151,7 +151,7 @@ def floor_note(site: Compared) -> str:
     """How the floor of a site is known, as a sentence, which drives nearly repeat others, what of it is no noise, and what is taken for the driver's
     foot."""
     near, driver = (site.comparison.attrs.get(name, "") for name in ("near_repeats", "driver"))
-    said = [f"the floor is {_known(str(site.comparison.attrs['floor']))}", near, *located.of_floor(site.comparison), driver]
+    said = [f"the floor is {_known(str(site.comparison.attrs['floor']))}", notation.literal(near), *located.of_floor(site.comparison), driver]
     return "; ".join(filter(None, said)) + "."
 
 
