@@ -98,14 +98,17 @@ def noise_share(experiment: Car, index: int, values, deviation: float, explainab
 def of_drives(experiment: Car) -> list[str]:
     """Reasons in words to doubt a record, from what its samples show, what its alignment found and how far it turned."""
     reasons = []
+    gains = {record.name: again.drive.attrs.get("acceleration_gain", 1.0) for record, again in zip(experiment.records, experiment.replays)}
     for record, again in zip(experiment.records, experiment.replays):
         found = again.drive.attrs
         reasons += [f"{record.name}: {fault}" for fault in found.get("faults", "").split("; ") if fault]
-        error, gain = found.get("clock_offset_error", 0.0), found.get("acceleration_gain", 1.0)
+        error, gain = found.get("clock_offset_error", 0.0), gains[record.name]
         if np.isfinite(error) and error > CLOCK:
             reasons.append(f"{record.name}: the clock offset is known to {1e3 * error:.1f} ms only")
         if np.isfinite(gain) and abs(gain - 1.0) > GAIN:
-            reasons.append(f"{record.name}: the accelerometer's gain is {gain:.3f} against gravity")
+            others = ", ".join(f"{name} {other:.3f}" for name, other in gains.items() if name != record.name and np.isfinite(other))
+            beside = f" (on the others: {others})" if others else ""
+            reasons.append(f"{record.name}: the accelerometer's gain is {gain:.3f} against gravity{beside}")
         if said := turning.words(again.drive, again.road.road):
             reasons.append(f"{record.name}: {said}")
     return reasons
