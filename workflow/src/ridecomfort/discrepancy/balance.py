@@ -95,9 +95,7 @@ def balanced(selection: Selection, notes: Sequence[str], matters: bool, left: fl
     was_shared = selection.shared_z > SHARED_Z or not selection.has_repeats
     may_be_left = gone.left_z > LEFT_Z or (known < LITTLE and selection.remaining.z > LEFT_Z) or not selection.has_repeats
     enough = ENOUGH if may_be_road else DOUBTFUL  # another road makes errors that repeats share, whatever was named
-    # What drives the model by its own record's noise, as a foot that is heard does, may be sure of every repeat and shared by none.
-    was_found = was_shared or bool({*selection.kept} - {*unnamed})
-    is_little = (was_shared and explained < ENOUGH and may_be_left) or (was_found and is_refuted) or (known < enough and is_left)
+    is_little = was_shared and ((explained < ENOUGH and may_be_left) or is_refuted) or (known < enough and is_left)
     worth_gone = gone.part * (1.0 - left)
     is_all = is_little and not (matters or held_out <= 0) and worth_gone > ENOUGH
     is_most = is_little and not (matters or is_all or may_be_road or held_out <= 0) and selection.faster_z > SHARED_Z and gone.faster >= ENOUGH

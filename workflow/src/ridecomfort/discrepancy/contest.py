@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy.stats import chi2
 
-from . import cluster, foresight, probe, refit
+from . import across, cluster, foresight, probe, refit
 from .confirm import LEAST_SHARE, Confirmation, best
 from .experiment import Candidate, Experiment, Size
 from .probe import Job, Raw
@@ -86,8 +86,9 @@ class Contest:
             if winner is None:
                 trials += self._followed_up(stage)
                 winner = best(trials, self.simpler)
-        like, correlation, apart = (), {}, {}
+        like, correlation, apart, borne = (), {}, {}, across.Borne()
         if winner is not None:
+            borne = across.borne_out(rung.frame, rung.fit.residuals, self._change(winner))
             frames = [frame for frame in (rung.frame, rung.check_frame) if frame is not None]
             like, correlation, apart = cluster.cluster(
                 rung.experiment, frames, rung.fit.values, winner, trials, found.columns
@@ -95,8 +96,14 @@ class Contest:
         return Round(
             found.names, found.p_value, found.gain, found.absorbed, (*trials, *vain.values()), winner,
             like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
-            passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials, vain),
+            passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials, vain), borne,
         )  # fmt: skip
+
+    def _change(self, trial: Trial) -> dict[int, np.ndarray]:
+        """What an effect of the size that its refit gave it changes of the residuals, by record, as far as that is proportional to its sizes."""
+        raw, sizes = self.columns[self.proposal.best[trial.name]], self.candidates[trial.name].sizes
+        amounts = {size.key: (trial.fit.values[size.key] - size.neutral) / size.probe for size in sizes if size.key in raw}
+        return {index: sum(amount * raw[key][index] for key, amount in amounts.items()) for index in self.rung.frame.indices}
 
     @cached_property
     def proposal(self) -> Proposal:

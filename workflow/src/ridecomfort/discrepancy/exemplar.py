@@ -29,10 +29,10 @@ def exemplars(frame: Frame, raw: Raw) -> dict[int, int]:
 
 def borrowed(experiment: Experiment, found: Mapping[int, int], raw: Raw) -> Raw:
     """Columns by key that are known of exemplars alone, for all records ``found`` beside these; nil where the exemplar did not drive."""
-    return {key: {index: _at_places(experiment, parts[other], other, index) for index, other in found.items()} for key, parts in raw.items()}
+    return {key: {index: at_places(experiment, parts[other], other, index) for index, other in found.items()} for key, parts in raw.items()}
 
 
-def _at_places(experiment: Experiment, column: np.ndarray, other: int, index: int) -> np.ndarray:
+def at_places(experiment: Experiment, column: np.ndarray, other: int, index: int) -> np.ndarray:
     """A column (channel, sample) of another record at the places of a record."""
     if other == index:
         return column
@@ -45,7 +45,7 @@ def _likeness(frame: Frame, raw: Raw, other: int, index: int) -> float:
     experiment = frame.experiment
     if not raw or experiment.records[index].site != experiment.records[other].site:
         return 0.0
-    pairs = [(parts[index], _at_places(experiment, parts[other], other, index)) for parts in raw.values()]
+    pairs = [(parts[index], at_places(experiment, parts[other], other, index)) for parts in raw.values()]
     white = [[frame.flat_of(index, part) for part in pair] for pair in pairs]
     alike = [float(own @ its) / np.sqrt(float(own @ own) * float(its @ its)) for own, its in white if own.any() and its.any()]
     return float(np.mean(alike)) if alike else 0.0

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import floor
+from .across import Borne
 from .allowance import Allowance
 from .experiment import Frame
 from .probe import Job, Raw
@@ -62,6 +63,8 @@ class Round:
     """Whether the winner gains so much that the error changes its colour by it."""
     passed_over: Mapping[str, str] = field(default_factory=dict)
     """Why others that are significant were not refitted, or not judged after it, by name; in the first round, why some could not be tested."""
+    borne: Borne = Borne()
+    """How far repeats bear the winner out among themselves (``across``)."""
 
     @classmethod
     def empty(cls) -> Round:
