@@ -158,7 +158,7 @@ def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):
     turned["pitch_rate"] *= -1.0
     store.write(turned, files / "turned.nc", title="Turned", configuration={})
     compare.main(**common | {"measured": files / "turned.nc"}, calibration=None, config=model, output=files / "comparison.nc", workers="1")
-    assert f"{NOTE}pitch_rate runs against the model" in capsys.readouterr().err
+    assert f"{NOTE}here: pitch_rate runs against the model" in capsys.readouterr().err
 
 
 @pytest.fixture(scope="module")

@@ -48,7 +48,7 @@ def main(road, measured, vehicle, calibration, config, output, workers, elsewher
         seed=None if calibration is None else calibration.attrs.get("seed"),
     )
     for doubt in doubts:
-        note(doubt)
+        note(f"{config['site']}: {doubt}")
     if result.attrs["near_repeats"]:
         note(f"{config['site']}: {result.attrs['near_repeats']}")
     if calibration is None:
