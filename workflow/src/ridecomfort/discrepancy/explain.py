@@ -154,7 +154,7 @@ def explain(
             # Noise of a quiet and of a loud repeat is known as their mean; what they share is the same for both, and the rest of either its own.
             floors[state, group] = [np.maximum(own[drive].square - np.maximum(own[drive].common, 0.0), 0.0) for drive in group]
         for drive in {*range(len(cut_offs))} - {*own} if own else ():
-            others = [floors[state, k] * _share_below(own[k].noise, rate, cut_offs[drive]) for k in own]
+            others = [floors[state, k] * (_share_below(own[k].noise, rate, cut_offs[drive]) if cut_offs[drive] < cut_offs[k] else 1.0) for k in own]
             floors[state, drive] = np.mean(others, axis=0)
     square, by_stretch, starts = _squares(comparison)
     if np.isfinite(floors).any():

@@ -22,7 +22,7 @@ MOST = 0.8
 
 BORNE_OUT = 0.5
 """Share of the evidence for an effect that repeats must bear out among themselves: 0.4 and 0.6 of links against diving and squatting where nothing was missing
-but foot and speed were noisy (z of 1 to 2), 1.0 of effects that were there, at a kappa of 0.1 (z of 8 to 10)."""
+but foot and speed were noisy (z of 1.6 and 2.6), 1.0 of effects that were there, at a kappa of 0.1 (z of 8 and 10)."""
 
 ANOTHER_SHAPE = 0.05
 """Share of what an effect removes below which a later one at the same port may be no more than another shape of it."""
