@@ -162,12 +162,8 @@ def explain(
     elif noise_density and np.isfinite(densities := _squared_densities(comparison, noise_density)).any():
         floor_squares, known_from = _filled(densities) * _widths(comparison), ASSUMED
     elif elsewhere is not None and elsewhere[1].attrs["floor"] == REPEATS:
-        site, repeated = elsewhere[0], elsewhere[1].sel(signal=comparison["signal"])
-        density, frequency = repeated["floor_density"].transpose("signal", "frequency_map").values, repeated["frequency_map"].values
-        recorded = np.stack([density[:, frequency <= cut_off].sum(axis=1) for cut_off in cut_offs])
-        all_told = density.sum(axis=1)
-        one = (repeated["floor_rmse"] ** 2).mean("drive").values
-        floor_squares, known_from = one * recorded / np.where(all_told > 0, all_told, 1.0), FROM_ELSEWHERE.format(site=site)
+        site, repeated = elsewhere
+        floor_squares, known_from = _as_there(repeated.sel(signal=comparison["signal"]), cut_offs), FROM_ELSEWHERE.format(site=site)
     else:
         floor_squares, known_from = np.zeros(floors.shape[1:]), NIL
     floor_squares = np.minimum(floor_squares, square.min(axis=0))
@@ -213,6 +209,13 @@ def _own_noise_among(comparison: xr.Dataset, state: str, group: Sequence[int]) -
         square = np.mean(residual[:, own.inside] ** 2, axis=1)
         found[drive] = OwnNoise(record.place[own.inside], own.noise, square, own.common)
     return found
+
+
+def _as_there(repeated: xr.Dataset, cut_offs: np.ndarray) -> np.ndarray:
+    """Mean squares (drive, signal) of the floor of another site's drives, the mean of these, as far as drives of such cut-offs record it."""
+    density, frequency = repeated["floor_density"].transpose("signal", "frequency_map").values, repeated["frequency_map"].values
+    recorded, whole = np.stack([density[:, frequency <= cut_off].sum(axis=1) for cut_off in cut_offs]), density.sum(axis=1)
+    return (repeated["floor_rmse"] ** 2).mean("drive").values * recorded / np.where(whole > 0, whole, 1.0)
 
 
 def _share_below(noise: np.ndarray, rate: float, upper: float) -> np.ndarray:

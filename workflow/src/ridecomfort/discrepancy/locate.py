@@ -76,7 +76,7 @@ def locate(comparison: xr.Dataset, state: str | None = None, elsewhere: xr.Datas
     if there is None:
         even_floor = _white_floor(rows, bands, lengths)
     else:
-        even_floor = there["band_floor"].sel(signal=rows["signal"]).transpose("signal", "band").values * np.average(told, axis=0, weights=lengths)
+        even_floor = there["band_floor"].sel(signal=rows["signal"]).transpose("signal", "band").values * _mean_of(told, lengths)
     edges = _stretches(drives)
     errors, own_noises = [(d.place, d.error) for d in drives], [(d.own.place, d.own.noise) for d in drives if d.own]
     power, seconds = _by_stretch(errors, edges, bands, rate)
@@ -85,10 +85,8 @@ def locate(comparison: xr.Dataset, state: str | None = None, elsewhere: xr.Datas
     if noise:
         time_share = bursts.time_share([own for _, own in own_noises], rate)
         own, length = _by_stretch(own_noises, edges, bands, rate)
-        repeated = sorted(noise)
-        share = _over(np.average(told, axis=0, weights=lengths), np.average(told[repeated], axis=0, weights=np.array(lengths)[repeated]))
         mean = np.sum(own * length[:, None], axis=1, keepdims=True) / length.sum()
-        floor = share * np.where(length[:, None] > 0, own, mean)
+        floor = _more_of_all(told, lengths, noise) * np.where(length[:, None] > 0, own, mean)
     powers = [[np.var(judged.band(d.signal, rate, band), axis=1) for band in bands] for d in drives]
     measured = np.average(powers, axis=0, weights=lengths).T
     above = (power - floor) * (seconds / seconds.sum())[:, None]
@@ -97,15 +95,13 @@ def locate(comparison: xr.Dataset, state: str | None = None, elsewhere: xr.Datas
     window = min(int(WINDOW * rate), min(len(place) for place, _ in (*errors, *own_noises)) // 2)
     places, frequency, density = _map(errors, rate, window)
     is_told = frequency <= explain.highest(rows)[:, None]
-    are_told = np.average(is_told, axis=0, weights=lengths)
     if noise:
-        share = _over(are_told, np.average(is_told[repeated], axis=0, weights=np.array(lengths)[repeated]))
-        floor_density = share * np.nanmean(_map(own_noises, rate, window)[2], axis=1)
+        floor_density = _more_of_all(is_told, lengths, noise) * np.nanmean(_map(own_noises, rate, window)[2], axis=1)
     elif there is not None:
         known = there["floor_density"].sel(signal=rows["signal"]).transpose("signal", "frequency_map").values
-        floor_density = are_told * np.stack([np.interp(frequency, there["frequency_map"].values, own) for own in known])
+        floor_density = _mean_of(is_told, lengths) * np.stack([np.interp(frequency, there["frequency_map"].values, own) for own in known])
     else:
-        floor_density = np.average(is_told[:, None] * _density(rows)[:, :, None], axis=0, weights=lengths)
+        floor_density = _mean_of(is_told[:, None] * _density(rows)[:, :, None], lengths)
     joined = lambda part: np.concatenate([getattr(drive, part) for drive in drives], axis=1)
     signal, error = joined("signal"), joined("error")
     recorded, names = joined("measured"), comparison["signal"].values
@@ -178,9 +174,16 @@ def _told(rows: xr.Dataset, bands) -> np.ndarray:
     return np.clip((explain.highest(rows)[:, None] - lower) / (upper - lower), 0.0, 1.0)
 
 
-def _over(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """A quotient, 1 where the denominator is nil."""
-    return np.divide(one, other, out=np.ones_like(other), where=other > 0)
+def _mean_of(told: np.ndarray, lengths: Sequence[int]) -> np.ndarray:
+    """Mean over drives (drive, ...) of so many samples."""
+    return np.average(told, axis=0, weights=lengths)
+
+
+def _more_of_all(told: np.ndarray, lengths: Sequence[int], repeated: Mapping[int, object]) -> np.ndarray:
+    """How much more of what is told (drive, ...) all drives hold in the mean than those that are repeated; 1 where these hold nothing."""
+    among = sorted(repeated)
+    known = _mean_of(told[among], np.array(lengths)[among])
+    return np.divide(_mean_of(told, lengths), known, out=np.ones_like(known), where=known > 0)
 
 
 def _density(rows: xr.Dataset) -> np.ndarray:
@@ -196,7 +199,7 @@ def _white_floor(rows: xr.Dataset, bands, weights: Sequence[float]) -> np.ndarra
     lower, upper = np.array(bands).T
     lowest = judged.lowest(rows["signal"].values)[:, None]
     widths = np.minimum(upper, explain.highest(rows)[:, None, None]) - np.maximum(lower, lowest)
-    return np.average(_density(rows)[:, :, None] * np.maximum(widths, 0.0), axis=0, weights=weights)
+    return _mean_of(_density(rows)[:, :, None] * np.maximum(widths, 0.0), weights)
 
 
 def _map(parts, rate: float, window: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
