@@ -105,6 +105,19 @@ def test_noise_that_a_drive_beside_repeats_does_not_record_is_no_floor_of_it():
         assert float(found) == pytest.approx(known, rel=0.1)
 
 
+def test_a_drive_beside_repeats_has_the_floor_of_those_that_tell_as_much_as_it_does():
+    """White noise and an error, up to 45 Hz in two of three repeats, up to 8 Hz in the third, and up to 45 Hz in a drive 2 m aside of them."""
+    random = np.random.default_rng(3)
+    compared = comparison(repeats=4)[1].isel(state=[0], signal=[0]).assign_coords(signal=["a_z"])
+    noise = 0.05 * random.standard_normal((4, 6000))
+    residual = 0.1 * random.standard_normal(6000) + noise
+    residual[2] = low_pass(residual[2, :, None], 0.01, 8.0)[:, 0]
+    aside = compared["e"] + xr.DataArray([0.0, 0.0, 0.0, 2.0], dims="drive")
+    compared = compared.assign(residual=(compared["residual"].dims, residual[None, :, None]), cut_off=("drive", [45.0, 45.0, 8.0, 45.0]), e=aside)
+    found = explain(compared)["floor_rmse"].values[:, 0]
+    assert found[3] == pytest.approx(judged(noise, 100.0, ["a_z"])[3].std(), rel=0.05)
+
+
 def test_a_short_repeat_leaves_the_floors_of_the_others_as_they_are():
     """Behind 600 m of 1,200 noise is three times and what is shared five times as large; the third of three repeats ends there."""
     _, compared = comparison()

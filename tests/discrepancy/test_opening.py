@@ -78,6 +78,24 @@ def test_what_one_of_two_repeats_does_not_record_is_not_the_others_noise():
         assert found.power(record.band, RATE)[0] == pytest.approx(0.0025 * width / (0.5 * RATE), rel=0.2)
 
 
+def test_a_drive_beside_repeats_is_judged_as_far_as_some_of_these_tell():
+    """Beyond that nobody knows its floor: what repeats differ by there is half of what only one of them records."""
+    bands = lambda *speeds, cut_offs: [record.band[1] for record in records(*speeds, cut_offs=cut_offs)]
+    assert bands(20.0, 20.0, 12.0, cut_offs=(25.0, 10.0, 25.0)) == pytest.approx(3 * [8.5])
+    assert bands(20.0, 20.0, 12.0, 12.0, cut_offs=(25.0, 10.0, 20.0, 20.0)) == pytest.approx([8.5, 8.5, 17.0, 17.0])
+    assert bands(20.0, 12.0, cut_offs=(25.0, 10.0)) == pytest.approx([21.25, 8.5])
+
+
+@pytest.mark.parametrize(("lengths", "kept"), [((300.0, 3000.0, 3000.0), 3000.0), ((2900.0, 3000.0), 2900.0)])
+def test_of_drives_that_repeat_one_another_elsewhere_one_that_was_ended_early_is_not_asked(lengths, kept):
+    drives = []
+    for length in lengths:
+        time = np.arange(0.0, length / 20.0, 0.02)
+        drives.append(xr.Dataset({"s": ("time", 20.0 * time), "e": ("time", np.zeros(time.size))}, {"time": time}))
+    (one,) = opening._not_repeated(drives)
+    assert float(one["s"][-1]) == pytest.approx(kept, abs=1.0)
+
+
 def long_enough(*seconds, role="fit"):
     """What stays of drives of a site that are judged for these times (s), by number, and what is said of the others."""
     replays, drives = [], [xr.Dataset(attrs={"name": f"drive {number}", "role": role}) for number in range(len(seconds))]

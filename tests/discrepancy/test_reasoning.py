@@ -83,12 +83,15 @@ def test_drives_are_not_said_to_be_less_likely_with_what_gained_more_and_was_ref
     assert reasoning.nearly_as_good(replace(selection, rounds=rounds), found.effects[0]) == []
 
 
+@pytest.mark.parametrize("told", [3, 1])
 @pytest.mark.parametrize(("times", "is_asked"), [(1.0, False), (10.0, True)])
-def test_noise_that_is_told_far_larger_than_the_error_is_asked_about(times, is_asked):
+def test_noise_that_is_told_far_larger_than_the_error_is_asked_about(times, is_asked, told):
+    """Of all fitted drives, or of one of them."""
     model = alone(Linear(1, {"stiffness": 0.7, "effect_2.size": 1.0}))
     low, high = model.records[0].band
     left = judged(model)[0].states[-1].squares.mean()
-    model.records = [replace(record, noise=(times * np.sqrt(left / (high - low)),) * 4) for record in model.records]
+    noise = (times * np.sqrt(left / (high - low)),) * 4
+    model.records = [replace(record, noise=noise if number < told else ()) for number, record in enumerate(model.records)]
     reasons = judged(model)[1].reasons
     assert any("is its unit right?" in reason for reason in reasons) is is_asked
 

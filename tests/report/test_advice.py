@@ -74,7 +74,7 @@ def test_a_form_that_removes_little_of_a_little_error_of_fitted_drives_is_not_to
         found = {**little, "at_first": at_first, "proposal": PROPOSAL | {"share": 0.06, "held_out_share": 0.41}}
         said = rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
         assert ("Look at the proposed form" in said) == is_tried
-        assert said.endswith("What is left is no more than 0.2 % of the power of any signal: the loop may end here.") != is_tried
+        assert said.endswith("What is left is no more than 1.5 % of the power of any signal: the loop may end here.") != is_tried
 
 
 def test_where_no_form_is_found_either_it_is_said_whether_what_is_left_matters():
@@ -82,6 +82,13 @@ def test_where_no_form_is_found_either_it_is_said_whether_what_is_left_matters()
         found = {**made_up.nothing(), "verdict": "outside", "remainder": {"a_z": 0.002, "a_x": left}}
         said = rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
         assert said.startswith("No form was found") and end in said
+
+
+def test_what_is_not_to_be_switched_on_takes_nothing_of_what_is_left():
+    """An effect that a search kept and that got no name."""
+    found = {**made_up.nothing(), "verdict": "outside", "remainder": {"a_z": 0.012}, "at_first": {"a_z": 0.045}}
+    said = rows(diagnosed.tables(made_up.diagnosis(found))["verdict"])[-1]["in_words"]
+    assert said.startswith("No form was found") and "4.5 % of the power of a_z, is worth a look" in said
 
 
 def test_what_of_the_library_helps_an_error_from_outside_of_it_can_be_gone_on_from():

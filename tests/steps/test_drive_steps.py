@@ -12,8 +12,9 @@ import pytest
 import xarray as xr
 
 from ridecomfort import simulate, store
+from ridecomfort.drive import record
 from ridecomfort.errors import InputError
-from ridecomfort.steps import calibrate, compare, measured, realigned
+from ridecomfort.steps import calibrate, compare, diagnose, measured, realigned
 from ridecomfort.steps.command import NOTE
 from ridecomfort.vocabulary import CALIBRATED, SIGNALS, STANDARD_GRAVITY
 from tests import quarter_cars
@@ -89,6 +90,18 @@ def test_a_record_under_two_names_is_refused_by_its_samples(files, car_file, tmp
         measured.main(files / "road.nc", car_file, drives, config, tmp_path / "measured.nc", workers=1)
     assert str(problem.value).startswith(f"{drives[1]}: a_z: is that of {drives[0]}, expected a record once")
     assert not (tmp_path / "measured.nc").exists()
+
+
+def test_a_fitted_record_is_not_held_out_on_another_site():
+    """Another export of it, with a gain and cut at both ends, beside a drive of its own."""
+    time, random = np.arange(6000) / 100.0, np.random.default_rng(3)
+    driven = lambda signal, name: xr.Dataset({"a_z": ("time", signal)}, {"time": time[: signal.size]}, {"name": name})
+    one, other = (np.cumsum(random.standard_normal(6000)) for _ in range(2))
+    site = lambda *drives: (None, record.stack(list(drives)))
+    sites = {"first": site(driven(one, "fit")), "second": site(driven(other, "own"), driven(1.01 * one[300:5000], "again"))}
+    with pytest.raises(InputError, match="^second: drive again: a_z: is the record of first fit, expected one that nothing is fitted to$"):
+        diagnose.check_once(sites, ["first"])
+    diagnose.check_once({**sites, "second": site(driven(other, "own"))}, ["first"])
 
 
 def test_records_are_aligned_fitted_and_compared(files, car_file, capsys):

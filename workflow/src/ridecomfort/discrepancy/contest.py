@@ -88,7 +88,7 @@ class Contest:
                 winner = best(trials, self.simpler)
         like, correlation, apart, borne = (), {}, {}, across.Borne()
         if winner is not None:
-            borne = across.borne_out(rung.frame, rung.fit.residuals, self._change(winner))
+            borne = across.borne_out(rung.frame, rung.fit.residuals, self._change(winner), self._fitted_raw)
             frames = [frame for frame in (rung.frame, rung.check_frame) if frame is not None]
             like, correlation, apart = cluster.cluster(
                 rung.experiment, frames, rung.fit.values, winner, trials, found.columns
@@ -122,8 +122,13 @@ class Contest:
     @cached_property
     def _free(self) -> np.ndarray:
         """White directions that are fitted anyway."""
+        return self.rung.frame.flats(self._fitted_raw)
+
+    @property
+    def _fitted_raw(self) -> list[Mapping[int, np.ndarray]]:
+        """Change of the residuals per probe of all that is fitted anyway and is not at the end of what is plausible."""
         rung = self.rung
-        return rung.frame.flats([rung.raw[size.key] for size in self.fitted if refit.is_within(size, rung.fit.values)])
+        return [rung.raw[size.key] for size in self.fitted if refit.is_within(size, rung.fit.values)]
 
     @cached_property
     def _scored(self) -> Proposal:

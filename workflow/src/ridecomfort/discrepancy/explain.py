@@ -120,13 +120,14 @@ def _relative(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class OwnNoise:
-    """What a repeat has of its own, of what is judged: ``noise`` (signal, sample) in the units of the signals, ``place`` in m; and the mean squares
-    (signal,) of all of its error there, ``square``, and of what repeats share of it, ``common``."""
+    """What a repeat has of its own, of what is judged: ``noise`` (signal, sample) in the units of the signals, ``place`` in m; the mean squares
+    (signal,) of all of its error there, ``square``, and of what repeats share of it, ``common``; and how far they are known, ``highest`` (Hz)."""
 
     place: np.ndarray
     noise: np.ndarray
     square: np.ndarray
     common: np.ndarray
+    highest: float
 
 
 def explain(
@@ -136,7 +137,7 @@ def explain(
 
     Added, of what is judged (``judged.judged``) and in the unit of the signal: ``floor_rmse(drive, signal)``, what no
     model of this road and car could explain, from the differences of repeats at equal place in the best state, of a drive that repeats none the
-    mean of theirs up to its own cut-off;
+    mean of theirs up to its own cut-off, of those that tell as much as it does or, where none does, most;
     ``explainable_rmse(state, drive, signal)``, the root of mean square less floor;
     ``explained_share(state, drive, signal)``, the share of the first state's explainable mean square that is gone; and
     ``square_by_stretch(state, drive, signal, stretch_of_road)``, mean squares of the error over STRETCH each, the same for all drives, nan where
@@ -153,8 +154,11 @@ def explain(
         for group in groups:
             # Noise of a quiet and of a loud repeat is known as their mean; what they share is the same for both, and the rest of either its own.
             floors[state, group] = [np.maximum(own[drive].square - np.maximum(own[drive].common, 0.0), 0.0) for drive in group]
+        most = max((one.highest for one in own.values()), default=0.0)
         for drive in {*range(len(cut_offs))} - {*own} if own else ():
-            others = [floors[state, k] * (_share_below(own[k].noise, rate, cut_offs[drive]) if cut_offs[drive] < cut_offs[k] else 1.0) for k in own]
+            upper = cut_offs[drive]
+            telling = {k: one for k, one in own.items() if one.highest >= (1.0 - SAME_CUT_OFF) * min(upper, most)}
+            others = [floors[state, k] * (_share_below(one.noise, rate, upper) if upper < one.highest else 1.0) for k, one in telling.items()]
             floors[state, drive] = np.mean(others, axis=0)
     square, by_stretch, starts = _squares(comparison)
     if np.isfinite(floors).any():
@@ -197,7 +201,8 @@ def _own_noise_among(comparison: xr.Dataset, state: str, group: Sequence[int]) -
     found, signals = {}, comparison["signal"].values
     rate = rate_of(comparison["time"].values)
     records, residuals = [], []
-    upper = _known_to_all(highest(comparison)[list(group)])
+    cut_offs = highest(comparison)[list(group)]
+    upper = _known_to_all(cut_offs)
     for drive in group:
         row = comparison.sel(state=state).isel(drive=drive)
         residual = row["residual"].transpose("signal", "time").values
@@ -207,7 +212,7 @@ def _own_noise_among(comparison: xr.Dataset, state: str, group: Sequence[int]) -
         residuals.append(band(judged(residual[:, kept], rate, signals), rate, (0.0, upper)))
     for drive, record, residual, own in zip(group, records, residuals, apart(records, residuals)):
         square = np.mean(residual[:, own.inside] ** 2, axis=1)
-        found[drive] = OwnNoise(record.place[own.inside], own.noise, square, own.common)
+        found[drive] = OwnNoise(record.place[own.inside], own.noise, square, own.common, min(upper, float(cut_offs.min())))
     return found
 
 

@@ -151,12 +151,15 @@ def _kept(selection: Selection, found: Sequence[Named], by_name) -> tuple[list[N
             reasons.append(f"{effect.name} adds {percent(effect.share)}, which may be another shape of {same}")
         elif moments:
             reasons.append(f"{effect.name} helps in {moments}, less than what drives differ by there within moments: it may stand in for what a driver did")
-        elif borne.share < BORNE_OUT or (not shared and borne.z < SHARED_Z):
+        elif borne.share < BORNE_OUT:
             unnamed.append(effect.name)
             reasons.append(
                 f"{effect.name} helps every drive by what it does in that drive, and hardly by what it does in its repeats: it answers to noise of what"
                 " the model is driven with"
             )
+        elif not shared and borne.z < SHARED_Z:
+            unnamed.append(effect.name)
+            reasons.append(f"{effect.name} may be chance or noise of what the model is driven with: repeats share no error for certain, nor do they surely bear it out")
         elif not shared and effect.p_value > SURE:
             unnamed.append(effect.name)
             reasons.append(f"{effect.name} may be chance: repeats share no error for certain")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -30,6 +31,9 @@ from .judged import LOWEST, LOWEST_OF_DRIVER
 
 CALIBRATION_PROBE = 0.02
 """Share of the bounds' width that a calibrated parameter is probed with."""
+
+WHOLE = 0.9
+"""Share of the longest of drives that repeat one another from which on one may stand for all: one that was ended early is asked less."""
 
 BLOCK = 1.0
 """s at the mean speed of the fastest drive on a site; white errors farther apart are independent."""
@@ -220,12 +224,14 @@ def _known(names: Iterable[str], known: Collection[str], place: str) -> None:
 
 
 def _not_repeated(drives: Sequence[xr.Dataset]) -> list[xr.Dataset]:
-    """The drives but those that repeat one before."""
+    """One of all drives that repeat one another: the first that is WHOLE."""
     passages: list[Passage] = []
-    first = {}
+    alike: dict[int, list[xr.Dataset]] = {}
     for drive in drives:
-        first.setdefault(joined(passages, drive["s"].values, drive["time"].values, drive["e"].values, _sensor(drive)), drive)
-    return list(first.values())
+        number = joined(passages, drive["s"].values, drive["time"].values, drive["e"].values, _sensor(drive))
+        alike.setdefault(number, []).append(drive)
+    length = lambda drive: float(np.ptp(drive["s"].values))
+    return [next(drive for drive in own if length(drive) >= WHOLE * max(map(length, own))) for own in alike.values()]
 
 
 def _sensor(drive: xr.Dataset) -> list[float]:
@@ -288,7 +294,7 @@ def _records(sites: Sequence[Site], fitted_on: Sequence[str], replays: Sequence[
             noise = tuple(density.get(INSTRUMENT[VARIABLES[name].unit], 0.0) for name in SIGNALS) if density else ()
             own.append(replace(_record(site.name, next(rest), role, passages, len(sites) > 1), noise=noise))
         records += _side_by_side(own)
-    return records
+    return _as_far_as_repeats(records)
 
 
 def _side_by_side(records: Sequence[Record]) -> list[Record]:
@@ -299,6 +305,13 @@ def _side_by_side(records: Sequence[Record]) -> list[Record]:
         upper[record.condition] = min(record.band[1], upper.get(record.condition, np.inf))
     # Above it one of two repeats holds nothing, and half of the other's error would pass for noise.
     return [replace(record, block=longest, band=(record.band[0], upper[record.condition])) for record in records]
+
+
+def _as_far_as_repeats(records: Sequence[Record]) -> list[Record]:
+    """Records with the band of those that repeat none no wider than that of some repeats: beyond it their floor is not known."""
+    counts = Counter(record.condition for record in records)
+    most = max((record.band[1] for record in records if counts[record.condition] > 1), default=np.inf)
+    return [record if counts[record.condition] > 1 else replace(record, band=(record.band[0], min(record.band[1], most))) for record in records]
 
 
 def _record(site: str, again: Replay, role: str, passages: list[Passage], several: bool) -> Record:

@@ -163,7 +163,8 @@ def of_drives(selection: Selection, is_found: bool) -> list[str]:
     the fitted ones."""
     said = [_floor(selection)]
     noise = [floor.assumed(selection.frame.experiment.records[index]) for index in selection.frame.indices]
-    times = float(np.sqrt(np.median([known / left for known, left in zip(noise, selection.states[-1].squares)])))
+    told = np.concatenate([(known / left)[known > 0] for known, left in zip(noise, selection.states[-1].squares) if known.any()] or [[]])
+    times = float(np.sqrt(np.median(told))) if told.size else 0.0
     if times > TOO_NOISY and not selection.is_floor_known:
         said.append(f"the noise that is told of the instruments is {times:.1f} times the error that is left: is its unit right?")
     if is_found and selection.check_frame is None:

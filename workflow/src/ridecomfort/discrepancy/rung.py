@@ -267,11 +267,12 @@ def _anew(experiment: Experiment, fit: Fit, sizes: Sequence[Size], each: Callabl
 
 def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tuple[bool, np.ndarray, np.ndarray]:
     """Whether the floor is known from repeats, and its mean squares on fitted and held-out records; of a condition without repeats, the mean
-    of the others; without any, that of instruments whose noise is told, of others the mean of these. Repeats differ in their path, so what the
+    of the others that are known as far; without any, that of instruments whose noise is told, of others the mean of these. Repeats differ in their path, so what the
     model lacks differs too: the floor sinks as the model improves."""
     cleaned = frame.all_cleaned(fit.residuals)
     held_out = check_frame.all_cleaned(check) if check else {}
     known = floor.floor(experiment, {**cleaned, **held_out})
+    highest = {record.condition: record.band[1] for record in experiment.records}
     told = [np.square(record.noise) for record in experiment.records if record.noise]
     usual = tuple(np.sqrt(np.mean(told, axis=0))) if told else ()
     assumed = lambda record: floor.assumed(record if record.noise else replace(record, noise=usual))
@@ -284,7 +285,7 @@ def _floor_squares(experiment, frame: Frame, fit: Fit, check, check_frame) -> tu
         rows = np.zeros((len(indices), len(experiment.channels)))
         for row, index in zip(rows, indices):
             record = experiment.records[index]
-            found = [known[record.condition]] if record.condition in known else list(known.values())
+            found = [known[record.condition]] if record.condition in known else [own for name, own in known.items() if highest[name] >= record.band[1]]
             row[:] = np.mean([one.power(record.band, record.rate) for one in found], axis=0) if found else assumed(record)
             # No floor lies above what a model has reached, in the mean over a condition: drive by drive, a quiet one would lower it for all.
             if record.condition in reached:

@@ -163,8 +163,7 @@ def is_file_alone(said: Mapping) -> bool:
     that repeats share and that is worth explaining, no more than SMALL of any signal, and no sign of anything else."""
     is_more = said["effects"] or (said.get("proposal") or {}).get("form") or any(said.get(key) for key in ("is_left", "may_be_more", "is_like_error"))
     # What effects without a name took of it, they leave as well: that is there at first.
-    left = [share for key in ("remainder", "at_first") for share in (said.get(key) or {}).values()]
-    is_all = not is_more and max(left, default=0.0) < SMALL
+    is_all = not is_more and max(left_without(said).values(), default=0.0) < SMALL
     return is_vehicle_first(said) and said["verdict"] == "outside" and is_all
 
 
@@ -187,6 +186,15 @@ def left_of(said: Mapping) -> Mapping[str, float]:
     """Share of the power of each signal that the model leaves above the floor with what a verdict, as ``Verdict.json`` gives it, finds: where that
     is nothing, what it left at first, whatever was tried."""
     return (said.get("at_first") if said["verdict"] == "nothing" else None) or said.get("remainder") or {}
+
+
+def left_without(said: Mapping) -> Mapping[str, float]:
+    """Share of the power of each signal that is left above the floor where nothing of what a verdict, as ``Verdict.json`` gives it, finds is switched on:
+    what was left at first, or now where that is more."""
+    if said["verdict"] == "nothing":
+        return left_of(said)
+    first, now = (said.get(key) or {} for key in ("at_first", "remainder"))
+    return {signal: max(first.get(signal, 0.0), now.get(signal, 0.0)) for signal in {**first, **now}}
 
 
 def is_of_little(said: Mapping) -> bool:

@@ -12,7 +12,9 @@ from pathlib import Path
 
 from ridecomfort import store
 from ridecomfort.discrepancy.diagnosis import diagnose
+from ridecomfort.drive import copies, record
 from ridecomfort.effects import library
+from ridecomfort.errors import InputError
 from ridecomfort.steps.command import Command, note
 from ridecomfort.study import digest
 from ridecomfort.vehicle import parameters
@@ -31,6 +33,7 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     settings["calibration"] = None if calibration is None else store.read(calibration)
     settings["options"] = {"step": config["simulation"]["step"]}
     settings["say"] = lambda words: print(words, file=sys.stderr, flush=True)
+    check_once(drives, config["fitted_on"])
     car = parameters.read(vehicle)
     known = library.find(config["effects_folder"])
     name = next(name for name in _names() if name not in known)
@@ -54,6 +57,15 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
     _write(verdict, json.dumps(content, indent=1) + "\n")
     for words in conclusions:
         note(words)
+
+
+def check_once(drives, fitted_on):
+    """InputError where a drive of a site that nothing is fitted to is the record of a fitted drive (``copies``): within a site that was asked before."""
+    fitted = [(site, one) for site in drives if site in fitted_on for one in record.unstack(drives[site][1])]
+    held_out = [(site, one) for site in drives if site not in fitted_on for one in record.unstack(drives[site][1])]
+    for (site, one), (other, two) in itertools.product(held_out, fitted):
+        if copies.is_copy(one, two):
+            raise InputError(f"is the record of {other} {two.attrs['name']}, expected one that nothing is fitted to", place=f"{site}: drive {one.attrs['name']}: a_z")
 
 
 def _names():

@@ -8,7 +8,7 @@ from pathlib import Path
 from ...discrepancy.balance import ENOUGH, LITTLE
 from ...discrepancy.confirm import EQUAL
 from ...discrepancy.explain import NIL
-from ...discrepancy.verdict import SMALL, at_most, is_file_alone, is_of_little, is_vehicle_first, left_of, told_beyond
+from ...discrepancy.verdict import SMALL, at_most, is_file_alone, is_of_little, is_vehicle_first, left_without, told_beyond
 from ...effects import library
 from ...schema import as_written, as_yaml
 from ...vehicle.parameters import PARAMETERS
@@ -176,8 +176,8 @@ def _may_end(verdict: Mapping, *found: Mapping) -> str:
 
 
 def _left(verdict: Mapping) -> str:
-    """Whether what is left matters."""
-    remainder = left_of(verdict)
+    """Whether what is left matters where nothing is to be switched on."""
+    remainder = left_without(verdict)
     if not remainder:
         return "See where the error lies (compare)."
     signal = max(remainder, key=remainder.get)
