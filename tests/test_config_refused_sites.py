@@ -22,6 +22,7 @@ SITE_MISTAKES = [
     ({"road": {"file": "road.crg"}, "speed": {"limit_km_h": -50}}, "speed: limit_km_h: -50, expected at least 5"),
     ({"road": {"file": "road.crg"}, "drives": [DRIVE]}, "drives: entry 1: file: no such file 'drive.csv'"),
     ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "role": "fix"}]}, "role: 'fix', expected one of fit, check"),
+    ({"road": {"file": "road.crg"}, "drives": {**DRIVE, "role": "check"}}, "drives: a mapping of file, role, sensor, expected a list, each entry of which begins with '- '"),
     ({"road": {"file": "road.crg"}, "drives": [{**DRIVE, "name": " "}]}, "drives: entry 1: name: ' ', expected some text (Name of the drive"),
     (
         {"road": {"file": "road.crg"}, "drives": [{**DRIVE, "file": "road.crg", "columns": {"time": {"column": "t", "unit": "m"}}}]},

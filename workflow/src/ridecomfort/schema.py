@@ -25,6 +25,9 @@ _TYPES = {
     "null": "null",
 }
 
+SHORT = 60
+"""Characters up to which a mapping that stands in the place of a list is told as it is."""
+
 NOT_TEXT = {type(None): "nothing (null, ~)", bool: "yes or no (true, false)"}
 """What YAML makes of words that are no text; of all else a number or a date."""
 
@@ -161,6 +164,9 @@ def _explain(error: ValidationError) -> str:
             kinds = [expected] if isinstance(expected, str) else expected
             as_text = f"; YAML reads this as text, write {as_yaml(float(value))}" if _is_number_as_text(error) else ""
             quoted = ""
+            if kinds == ["array"] and isinstance(value, dict):
+                told = f"{value!r}" if len(f"{value!r}") <= SHORT else f"a mapping of {', '.join(map(str, value))}"
+                return f"{told}, expected a list, each entry of which begins with '- '{meaning}"
             if "string" in kinds and not isinstance(value, (str, dict, list)):
                 quoted = f"; YAML reads what stands there as {NOT_TEXT.get(type(value), 'a number or a date')}, write it in quotes if it is a name"
             return f"{value!r}, expected {' or '.join(_TYPES[kind] for kind in kinds)}{as_text}{meaning}{quoted}"
