@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ridecomfort.discrepancy.explain import HIGHEST, explain, joined, near_repeats, repeats
+from ridecomfort.discrepancy.explain import HIGHEST, explain, joined, near_repeats, repeats, too_short
 from ridecomfort.discrepancy.judged import LOWEST, LOWEST_OF_DRIVER, band, judged
 from ridecomfort.drive.sampling import low_pass
 
@@ -116,6 +116,13 @@ def test_a_drive_beside_repeats_has_the_floor_of_those_that_tell_as_much_as_it_d
     compared = compared.assign(residual=(compared["residual"].dims, residual[None, :, None]), cut_off=("drive", [45.0, 45.0, 8.0, 45.0]), e=aside)
     found = explain(compared)["floor_rmse"].values[:, 0]
     assert found[3] == pytest.approx(judged(noise, 100.0, ["a_z"])[3].std(), rel=0.05)
+
+
+def test_a_drive_that_is_hardly_compared_is_told():
+    compared = comparison()[1].assign_coords(drive=["first", "second", "third"])
+    assert too_short(compared) == []
+    compared["residual"][:, 1, :, 320:] = np.nan
+    assert too_short(compared) == ["second is compared for 3.2 s only, which tells little (expected 10 s at least)"]
 
 
 def test_a_short_repeat_leaves_the_floors_of_the_others_as_they_are():

@@ -43,6 +43,9 @@ REACHED = 1.0
 HIGHEST = 0.85
 """Share of the cut-off up to which a diagnosis judges errors, and repeats of different cut-offs are compared."""
 
+SHORTEST = 10.0
+"""s of a drive that are judged at least: one of less holds too few spectra of 4 s to tell how the errors of six signals go together."""
+
 SAME_CUT_OFF = 0.01
 """Relative difference of cut-offs up to which they are the same: each is told from the times of its record."""
 
@@ -265,6 +268,14 @@ def near_repeats(comparison: xr.Dataset) -> list[str]:
             alike = next(other for other, own in why.items() if not own)
             said.append(f"{names[number]} repeats {names[alike]}, but hardly any of the way that all of its repeats drove: it counts as no repeat")
     return said
+
+
+def too_short(comparison: xr.Dataset) -> list[str]:
+    """Drives that are compared for less than SHORTEST, in words."""
+    compared = np.isfinite(comparison["residual"].isel(state=-1)).all("signal").transpose("drive", "time").values
+    seconds = compared.sum(axis=1) / rate_of(comparison["time"].values)
+    names = comparison["drive"].values
+    return [f"{name} is compared for {own:.1f} s only, which tells little (expected {SHORTEST:g} s at least)" for name, own in zip(names, seconds) if own < SHORTEST]
 
 
 def _passages(comparison: xr.Dataset) -> list[Passage]:

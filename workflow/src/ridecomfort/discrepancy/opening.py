@@ -26,7 +26,7 @@ from ..vocabulary import SIGNALS, VARIABLES
 from .candidates import candidate
 from .car import Car
 from .experiment import Record, Size
-from .explain import HIGHEST, INSTRUMENT, SENSOR, Passage, joined
+from .explain import HIGHEST, INSTRUMENT, SENSOR, SHORTEST, Passage, joined
 from .judged import LOWEST, LOWEST_OF_DRIVER
 
 CALIBRATION_PROBE = 0.02
@@ -46,9 +46,8 @@ cross-wind or bump steer."""
 SPARED = 0.75
 """Share of what is compared that settling leaves of a short drive."""
 
-SHORTEST, LEAST = 10.0, 6.0
-"""s of a drive that are judged at least, one of less holds too few spectra of 4 s to tell how the errors of six signals go together, and s that
-all fitted drives hold at least."""
+LEAST = 6.0
+"""s that are judged at least of all fitted drives together."""
 
 STUB = 2.0
 """s below which no drive is fitted: half a segment of the spectra, of which the shortest drive of a condition sets the length for all; of one that
