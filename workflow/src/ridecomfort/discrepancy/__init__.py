@@ -7,7 +7,7 @@ The modules, by what they are for and in the order in which they rest on one ano
   ladder
 - which effect is missing: candidates, opening, probe, exemplar, evidence, across, event, propose, refit, rung, allowance, selection, tries,
   foresight, balance, confirm, cluster, contest, consistency, turns, select, off_file, beyond, ranking
-- what is said of it: verdict, found, suspect, reasoning, judge, amended, naming
+- what is said of it: verdict, found, suspect, one_signal, reasoning, judge, amended, naming
 - a force that is in no library: terms, places, meanings, made, form, discovery, curves, signature, missing_force
 - all of it together: reconsider, righted, diagnosis, score
 """

@@ -10,7 +10,7 @@ import xarray as xr
 
 from .. import pool
 from ..drive import pedals
-from . import floor, opening, suspect, turns
+from . import floor, one_signal, opening, suspect, turns
 from .amended import with_remainder
 from .balance import CONFIRMED, ENOUGH, is_slow, may_share, total_shares, worth_explaining
 from .car import Car
@@ -81,6 +81,9 @@ def ranked(
     is_left = matters and (may_share(selection) or not selection.has_repeats)
     of_fit = suspicions_of_fit(experiment, selection, is_explained, is_left)
     of_data, of_noise = suspicions(experiment, selection), suspicions_of_road(experiment, selection)
+    of_data += one_signal.of_repeats(experiment, selection.frame, selection.states[-1].fit.residuals)
+    if is_left and selection.has_repeats and not is_explained:
+        of_data += one_signal.of_all(experiment, rung.frame, rung.fit.residuals, [rung.raw[size.key] for size in rung.experiment.free])
     doubts = [*of_data, *of_fit, *of_noise]
     said_of_road = "; ".join(of_road)
     if smoothness > suspect.SMOOTHER and not stands and _best_share(selection) < CONFIRMED and not is_slow(selection):
