@@ -35,11 +35,12 @@ class Recorded(Linear):
         return self.driven - self.signals[index]
 
 
-def late(channel, samples, numbers=(0, 1, 2)):
-    """Signals of which one comes later by so many samples, in the records of these numbers."""
+def late(channels, samples, numbers=(0, 1, 2)):
+    """Signals of which one, or some, come later by so many samples, in the records of these numbers."""
     def spoilt(number, signals):
         found = signals.copy()
-        found[channel] = one_signal.delayed(signals[channel], samples) if number in numbers else signals[channel]
+        for channel in np.atleast_1d(channels) if number in numbers else ():
+            found[channel] = one_signal.delayed(signals[channel], samples)
         return found
 
     return spoilt
@@ -104,6 +105,13 @@ def test_a_delay_of_one_signal_in_all_drives_is_found_beside_what_is_calibrated(
     (said,) = of_all(Recorded(1, 0.0, late(3, samples)))
     way = "late" if samples > 0 else "early"
     assert said.startswith(f"d comes {abs(1e3 * samples / RATE):.0f} ms too {way} beside the other signals of the fitted drives")
+
+
+def test_a_delay_of_all_rates_is_that_of_the_gyroscope():
+    model = Recorded(1, 0.0, late([2, 3], 1.2))
+    model.channels = ("a_x", "a_z", "roll_rate", "pitch_rate")
+    (said,) = of_all(model)
+    assert said.startswith("the rates come 12 ms too late beside the other signals of the fitted drives")
 
 
 def test_a_scale_of_one_signal_in_all_drives_is_found_beside_what_is_calibrated():

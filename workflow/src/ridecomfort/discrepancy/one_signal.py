@@ -1,4 +1,5 @@
-"""Signs that one signal of a record is wrong by itself, in its scale or its time: repeats differ in it, or the model does, until that comes in time.
+"""Signs that one signal of a record, or all rates, are wrong by themselves, in scale or time: repeats differ in them, or the model does, until these
+come in time.
 
 Repeats meet the same road in the same car, so that what the model lacks is alike in all of them. An instrument, or the channel that it is
 recorded by, may be another in one of them.
@@ -11,12 +12,16 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ..drive.turning import GAIN, STANDARD_ERRORS
+from ..vocabulary import SIGNALS
 from .balance import SHARED_Z
 from .car import Car
 from .experiment import Frame
 from .floor import repeats
 from .judged import judged
 from .shared import shared_power
+
+RATES = SIGNALS[3:]
+"""The signals of a gyroscope."""
 
 LATE = 0.004
 """s by which one signal must come later than the others."""
@@ -79,8 +84,8 @@ def _gains_and_delays(experiment: Car, index: int, residual: np.ndarray) -> tupl
 
 
 def of_all(experiment: Car, frame: Frame, residuals: Mapping[int, np.ndarray], free: Sequence[Mapping[int, np.ndarray]]) -> list[str]:
-    """The signal, in words, with which in time, or at another scale, nearly all is gone that the records of a ``frame`` have in common of their
-    ``residuals`` (channel, sample), of a calibrated model; ``free``: columns of what is calibrated, which is fitted anew."""
+    """The signal (or the rates), in words, with which in time, or at another scale, nearly all is gone that the records of a ``frame`` have in common of
+    their ``residuals`` (channel, sample), of a calibrated model; ``free``: columns of what is calibrated, which is fitted anew."""
     before, z = shared_power(frame, _fitted(frame, {index: residuals[index] for index in frame.indices}, free)[1])
     if not z > SHARED_Z:
         return []
@@ -88,12 +93,16 @@ def of_all(experiment: Car, frame: Frame, residuals: Mapping[int, np.ndarray], f
     is_all = lambda left: 1.0 - shared_power(frame, left)[0] / before > ALL_BUT_NIL
     goes = "the other signals of the fitted drives, and nearly all of their error goes with that"
     for channel, name in enumerate(experiment.channels):
-        late, left = _in_time(experiment, frame, simulated, channel, free)
+        late, left = _in_time(experiment, frame, simulated, [channel], free)
         if abs(late) > LATE and is_all(left):
             return [f"{name} comes {1e3 * abs(late):.0f} ms too {'late' if late > 0 else 'early'} beside {goes}: its filter, or its channel?"]
         gain, left = _to_scale(experiment, frame, simulated, channel, free)
         if abs(gain) > GAIN and is_all(left):
             return [f"{name} is {100 * abs(gain):.1f} % too {'large' if gain > 0 else 'small'} beside {goes}: its scale, or its unit?"]
+    rates = [channel for channel, name in enumerate(experiment.channels) if name in RATES]
+    late, left = _in_time(experiment, frame, simulated, rates, free) if rates else (0.0, {})
+    if abs(late) > LATE and is_all(left):
+        return [f"the rates come {1e3 * abs(late):.0f} ms too {'late' if late > 0 else 'early'} beside {goes}: the filter of the gyroscope, or its channel?"]
     return []
 
 
@@ -102,7 +111,7 @@ def _to_scale(
 ) -> tuple[float, dict[int, np.ndarray]]:
     """Share by which one signal was recorded too large, and the residuals with that and what is ``free`` fitted."""
     start = {index: simulated[index] - experiment.measured(index) for index in frame.indices}
-    alone = {index: _with_row(np.zeros_like(simulated[index]), channel, simulated[index][channel]) for index in frame.indices}
+    alone = {index: np.where(np.arange(len(part))[:, None] == channel, part, 0.0) for index, part in simulated.items()}
     amounts, left = _fitted(frame, start, [alone, *free])
     return float(amounts[0]), left
 
@@ -116,18 +125,18 @@ def _fitted(
 
 
 def _in_time(
-    experiment: Car, frame: Frame, simulated: Mapping[int, np.ndarray], channel: int, free: Sequence[Mapping[int, np.ndarray]]
+    experiment: Car, frame: Frame, simulated: Mapping[int, np.ndarray], channels: Sequence[int], free: Sequence[Mapping[int, np.ndarray]]
 ) -> tuple[float, dict[int, np.ndarray]]:
-    """Seconds that one signal was recorded later than the others, and the residuals with that and what is ``free`` fitted."""
+    """Seconds that some signals were recorded later than the others, and the residuals with that and what is ``free`` fitted."""
     measured = {index: experiment.measured(index) for index in frame.indices}
     rate = {index: experiment.records[index].rate for index in frame.indices}
     late, now = 0.0, dict(simulated)
     for _ in range(ROUNDS):
-        further = float(np.median([_lag(now[index][channel], measured[index][channel], rate[index]) for index in frame.indices]))
+        further = float(np.median([_lag(now[index][k], measured[index][k], rate[index]) for index in frame.indices for k in channels]))
         late = float(np.clip(late + further, -FARTHEST, FARTHEST))
         if abs(late) <= LATE:
             break
-        put = lambda parts: {index: _with_row(parts[index], channel, delayed(parts[index][channel], late * rate[index])) for index in frame.indices}
+        put = lambda parts: {index: _later(parts[index], channels, late * rate[index]) for index in frame.indices}
         columns, start = [put(column) for column in free], put(simulated)
         _, left = _fitted(frame, {index: start[index] - measured[index] for index in frame.indices}, columns)
         now = {index: left[index] + measured[index] for index in frame.indices}
@@ -136,10 +145,9 @@ def _in_time(
     return late, {index: now[index] - measured[index] for index in frame.indices}
 
 
-def _with_row(series: np.ndarray, channel: int, row: np.ndarray) -> np.ndarray:
-    series = np.array(series, dtype=float)
-    series[channel] = row
-    return series
+def _later(series: np.ndarray, channels: Sequence[int], samples: float) -> np.ndarray:
+    """Signals (channel, sample), some of them later by so many samples."""
+    return np.stack([delayed(row, samples) if channel in channels else row for channel, row in enumerate(series)])
 
 
 def delayed(row: np.ndarray, samples: float) -> np.ndarray:
