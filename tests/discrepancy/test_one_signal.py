@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -94,8 +97,20 @@ def test_a_clock_that_is_late_in_all_signals_is_none_of_one():
     assert of_repeats(Recorded(3, 0.0, whole)) == []
 
 
+def test_what_a_model_lacks_where_not_all_repeats_drove_is_no_scale_of_a_signal():
+    """It is a tenth wrong in the second half, which the third repeat did not drive."""
+    half = SAMPLES // 2
+    model = Recorded(4)
+    for number, signals in enumerate(model.signals):
+        signals[0, half:] += 0.1 * model.driven[0, half:]
+        model.signals[number] = signals if number < 2 else signals[:, :half]
+    model.records[2] = replace(model.records[2], place=model.records[2].place[:half])
+    residuals = {number: model.driven[:, : signals.shape[1]] - signals for number, signals in enumerate(model.signals)}
+    assert one_signal.of_repeats(model, SimpleNamespace(indices=[0, 1, 2]), residuals) == []
+
+
 def test_of_two_repeats_that_differ_either_may_be_wrong():
-    said = of_repeats(Recorded(1, 0.0, scaled(2, 0.12, numbers=[1]), repeats=2))
+    said = of_repeats(Recorded(1, 0.0, scaled(2, 0.06, numbers=[1]), repeats=2))
     assert [words.partition(":")[0] for words in said] == ["drive 0", "drive 1"]
     assert "too small, if these are right" in said[0] and "too large, if these are right" in said[1]
 

@@ -41,14 +41,18 @@ ROUNDS = 6
 
 def of_repeats(experiment: Car, frame: Frame, residuals: Mapping[int, np.ndarray]) -> list[str]:
     """Signals, in words, whose gain or time beside the model is in one of the records of a ``frame`` another than in its repeats, by their ``residuals``
-    (channel, sample)."""
+    (channel, sample), where all of these drove: elsewhere the model may lack something else."""
     said = []
     for group in repeats(experiment, frame.indices).values():
-        found = [_gains_and_delays(experiment, index, residuals[index]) for index in group]
+        places = [experiment.records[index].place for index in group]
+        start, end = max(place[0] for place in places), min(place[-1] for place in places)
+        if end <= start:
+            continue
+        found = [_gains_and_delays(experiment, index, residuals[index], (place >= start) & (place <= end)) for index, place in zip(group, places)]
         gains, delays, gain_errors, delay_errors = (np.stack(part) for part in zip(*found))
         delays = delays - np.median(delays, axis=1, keepdims=True)  # of the whole record it is one of the clock
         for values, errors, least, words in ((gains, gain_errors, GAIN, _scaled), (delays, delay_errors, LATE, _delayed)):
-            apart = values - np.median(values, axis=0)
+            apart = values - (np.median(values, axis=0) if len(group) > 2 else values[::-1])
             is_apart = np.abs(apart) - STANDARD_ERRORS * np.hypot(errors, np.median(errors, axis=0)) > least
             said += [words(experiment, group, row, channel, apart[row, channel]) for channel, row in zip(*np.nonzero(is_apart.T))]
     return said
@@ -68,17 +72,17 @@ def _beside(experiment: Car, group: Sequence[int], row: int, channel: int) -> st
     return f"{names[row]}: {experiment.channels[channel]}, beside what the model does there and in {others},"
 
 
-def _gains_and_delays(experiment: Car, index: int, residual: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """By how much each signal of a record is too large (1) and too late (s) beside the model, in the band that is judged, and the standard errors of
-    these, (channel,) each."""
+def _gains_and_delays(experiment: Car, index: int, residual: np.ndarray, inside: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """By how much each signal of a record is too large (1) and too late (s) beside the model, in the band that is judged and in the samples ``inside``,
+    and the standard errors of these, (channel,) each."""
     record = experiment.records[index]
     measured, simulated = (judged(series, record.rate, experiment.channels) for series in (experiment.measured(index), experiment.measured(index) + residual))
     power, late = (lambda series: np.maximum(np.sum(series**2, axis=1), np.finfo(float).tiny)), np.zeros(len(simulated))
     for _ in range(ROUNDS):
         in_time = np.stack([delayed(row, record.rate * own) for row, own in zip(simulated, late)])
-        slope, left = np.gradient(in_time, 1.0 / record.rate, axis=1), in_time - measured
+        slope, left = (series[:, inside] for series in (np.gradient(in_time, 1.0 / record.rate, axis=1), in_time - measured))
         late = np.clip(late + np.sum(left * slope, axis=1) / power(slope), -FARTHEST, FARTHEST)
-    error = np.sum(left**2, axis=1) / (INDEPENDENT * residual.shape[1] / record.rate)
+    error, in_time = np.sum(left**2, axis=1) / (INDEPENDENT * inside.sum() / record.rate), in_time[:, inside]
     gain = -np.sum(left * in_time, axis=1) / power(in_time)
     return gain, late, np.sqrt(error / power(in_time)), np.sqrt(error / power(slope))
 
