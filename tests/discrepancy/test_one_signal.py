@@ -98,11 +98,11 @@ def test_a_clock_that_is_late_in_all_signals_is_none_of_one():
 
 
 def test_what_a_model_lacks_where_not_all_repeats_drove_is_no_scale_of_a_signal():
-    """It is a tenth wrong in the second half, which the third repeat did not drive."""
+    """It is three tenths wrong in the second half, which the third repeat did not drive."""
     half = SAMPLES // 2
     model = Recorded(4)
     for number, signals in enumerate(model.signals):
-        signals[0, half:] += 0.1 * model.driven[0, half:]
+        signals[0, half:] += 0.3 * model.driven[0, half:]
         model.signals[number] = signals if number < 2 else signals[:, :half]
     model.records[2] = replace(model.records[2], place=model.records[2].place[:half])
     residuals = {number: model.driven[:, : signals.shape[1]] - signals for number, signals in enumerate(model.signals)}
