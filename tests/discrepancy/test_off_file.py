@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -75,6 +76,18 @@ def test_what_is_more_than_half_of_the_floor_matters_however_large_the_signals_a
     assert max(found.left.values()) < 0.001
     assert list(found.of_floor.values()) == pytest.approx([1.5**2] * 4, rel=0.3), "its column is as large as the noise"
     assert " times the floor of " in found.words() and found.words().endswith(" is left")
+
+
+@pytest.mark.parametrize(("size", "is_told"), [(0.4, True), (2.0, False)])
+def test_what_is_as_much_as_small_effects_remove_matters_beside_these(size, is_told):
+    """As of a top mount of a tenth of its usual size and an inertia 3 % beside the file: on the ladder, beside the inertia of the file, it did not help."""
+    selection = searched(OfVehicle({"inertia": 0.4, "effect_1.size": size}, power=1e4))
+    assert selection.accepted == ("effect_1",) and off_file(selection) is None
+    found = off_file(selection, is_named=True)
+    assert (found is not None) is is_told
+    if is_told:
+        assert found.of_gone == pytest.approx(1.0, abs=0.3)
+        assert re.search(r"with the values of the file another \d+ % of what the effects remove is left$", found.words())
 
 
 def test_where_no_floor_is_known_only_power_tells():

@@ -184,6 +184,8 @@ def test_what_shapes_an_effect_and_was_held_is_told_with_its_value():
     found = made_up.diagnosis({**made_up.VERDICT, "effects": [{**made_up.VERDICT["effects"][0], "held": [held]}]})
     (row,) = [row for row in rows(diagnosed.tables(found)["missing_effects"]) if row["parameter"] == "knee velocity"]
     assert (row["size"], row["unit"], row["plausible"], row["interval_lower"]) == (0.1, "m/s", "typical: the drives ask for no other", None)
+    assert "Found with knee velocity 0.1 m/s held: with another value these sizes and intervals may be others." in words(diagnosed.tables(found)["verdict"])
+    assert "Found with" not in words(diagnosed.tables(made_up.diagnosis())["verdict"])
 
 
 def test_the_score_is_marked_as_that_of_stand_ins():

@@ -80,7 +80,8 @@ def _beside_the_file(verdict: Verdict, outcome: Outcome, found: BeyondBounds | N
     is_in_model = found is None or found.is_first
     if verdict.verdict in ("named", "cluster", "nothing"):
         is_explained = verdict.verdict == "nothing" or left(verdict) <= 1.0 - DOUBTFUL or is_all_but_nil(verdict.remainder)
-        return off_file(outcome.selection, found.names() if found else ()) if is_in_model and is_explained else None
+        told = found.names() if found else ()
+        return off_file(outcome.selection, told, bool(verdict.effects)) if is_in_model and is_explained else None
     if found is not None:
         return None
     explains = outcome.proposed is not None and left(outcome.proposed) <= 1.0 - DOUBTFUL

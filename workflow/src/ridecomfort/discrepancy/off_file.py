@@ -21,6 +21,10 @@ LEAST_OF_FLOOR = 0.5
 """Share of the floor of a signal (mean square) that suffices, too: beside quiet instruments a thousandth of the power may be most of what an
 error ladder shows."""
 
+LEAST_OF_GONE = 0.5
+"""Share of what effects removed of the error, all signals alike, that suffices as well: on an error ladder, whose models are calibrated with the
+values of the file, a small effect would else not help that is there."""
+
 LEAST_POWER = 0.05
 """White power of what one of them does alone, against the most that any does, from which on it is told."""
 
@@ -47,16 +51,19 @@ class Held:
 @dataclass(frozen=True)
 class OffFile:
     """``parameters`` that calibration holds beside the values that drives give them; ``left``: share of the power of each signal that is left
-    more by it, of what is judged; ``of_floor``: the same as a multiple of its floor, where that is known."""
+    more by it, of what is judged; ``of_floor``: the same as a multiple of its floor, where that is known; ``of_gone``: what is left more in all as a
+    share of what effects removed, each signal's error at first weighing alike, nil where there are none."""
 
     parameters: tuple[Held, ...]
     left: Mapping[str, float] = field(default_factory=dict)
     of_floor: Mapping[str, float] = field(default_factory=dict)
+    of_gone: float = 0.0
 
     def words(self) -> str:
         """What they are, and what holding them costs."""
         told = [f"{100 * self.left[name]:.1f} % of the power of {name}" for name in _most(self.left, LEAST_LEFT)]
         told = told or [f"{self.of_floor[name]:.2g} times the floor of {name}" for name in _most(self.of_floor, LEAST_OF_FLOOR)]
+        told = told or [f"{100 * self.of_gone:.0f} % of what the effects remove"]
         less = [f"{-100 * self.left[name]:.1f} % less of that of {name}" for name in _most({name: -cost for name, cost in self.left.items()}, LEAST_LEFT)]
         left = f"another {' and '.join(told)} is left" + (f", and {' and '.join(less)}" if less else "")
         return f"the drives ask for {', '.join(one.words() for one in self.parameters)}, which calibration holds fixed: with the values of the file {left}"
@@ -73,9 +80,9 @@ def beside_given(parameter: str, unit: str, value: float, interval: tuple[float,
     return f"{parameter} {own} {unit}".removesuffix(" 1") + f" ({lower} to {upper}) for {first}"
 
 
-def off_file(selection: Selection, told: Collection[str] = ()) -> OffFile | None:
+def off_file(selection: Selection, told: Collection[str] = (), is_named: bool = False) -> OffFile | None:
     """What calibration holds beside the drives in the last model of a selection, but what is ``told`` otherwise; None where the intervals hold the
-    values of the file, or hardly more is left with these.
+    values of the file, or hardly more is left with these. ``is_named``: whether effects have names, so that what they remove counts.
 
     All else that was fitted makes good what it can of values that are held otherwise, as a calibration would.
     """
@@ -94,11 +101,14 @@ def off_file(selection: Selection, told: Collection[str] = ()) -> OffFile | None
     more, known = (with_file - with_own).mean(axis=0), selection.floor_squares.mean(axis=0)
     share_of = lambda whole: np.divide(more, whole, out=np.zeros_like(more), where=whole > 0)
     left, of_floor = share_of(floor.squares(frame.experiment, measured).mean(axis=0)), share_of(known)
-    if not (np.max(left) >= LEAST_LEFT or np.max(of_floor) >= LEAST_OF_FLOOR):
+    first, last = (state.squares.mean(axis=0) for state in (selection.states[0], selection.states[-1]))
+    gone = float(np.sum((first - last) / first)) if is_named else 0.0
+    of_gone = float(np.sum(more / first)) / gone if gone > 0 else 0.0
+    if not (np.max(left) >= LEAST_LEFT or np.max(of_floor) >= LEAST_OF_FLOOR or of_gone >= LEAST_OF_GONE):
         return None
     channels = frame.experiment.channels
     those = (Held(size.key, size.unit, size.neutral, final.values[size.key], selection.intervals[size.key]) for size in held)
-    return OffFile(tuple(those), dict(zip(channels, left.tolist())), dict(zip(channels, of_floor.tolist())))
+    return OffFile(tuple(those), dict(zip(channels, left.tolist())), dict(zip(channels, of_floor.tolist())), of_gone)
 
 
 def _is_off(size: Size, selection: Selection) -> bool:

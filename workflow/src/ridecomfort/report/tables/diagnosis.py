@@ -111,8 +111,14 @@ def verdict(found: Diagnosis) -> Table:
 def _found(effect: Mapping) -> str:
     """The sizes of an effect with their intervals, and what it removes; of an error of the measurement, what that is comes first."""
     what = f"{literal(sentence(effect['sentence'].removesuffix('.')))} " if effect.get("is_of_measurement") else ""
-    sizes = sentence(", ".join(map(_size, effect["sizes"])))
+    sizes = sentence(", ".join(map(_size, effect["sizes"]))) + _beside_held(effect)
     return f"{what}{sizes} It takes {percent(effect['share'])} of the explainable error{_checked(effect)}."
+
+
+def _beside_held(effect: Mapping) -> str:
+    """What shapes an effect and was held while its sizes were found, in words."""
+    told = [f"{words(one['parameter'])} {one['size']:.3g} {unit(one['unit'])}".removesuffix(" 1").strip() for one in effect.get("held") or ()]
+    return f" Found with {', '.join(told)} held: with another value these sizes and intervals may be others." if told else ""
 
 
 def _before(effect: Mapping) -> str:
