@@ -42,7 +42,7 @@ NUMBERS = 3.5
 LONGEST = 16
 """Letters in a line under a rung."""
 
-NONE_LEFT = "nothing above the floor on any rung"
+NONE_LEFT = "the model that is 100 %\nleaves nothing above the floor\n(rms: error_ladder.md)"
 """What a panel says that has no line."""
 
 CROWDED, SMALL = 0.45, 5.0
