@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ridecomfort.discrepancy import experiment as exp
-from ridecomfort.discrepancy import one_signal
+from ridecomfort.discrepancy import one_signal, unlike
 from ridecomfort.discrepancy.span import taken_apart
 
 from .coloured import coloured
@@ -43,7 +43,7 @@ def late(channels, samples, numbers=(0, 1, 2)):
     def spoilt(number, signals):
         found = signals.copy()
         for channel in np.atleast_1d(channels) if number in numbers else ():
-            found[channel] = one_signal.delayed(signals[channel], samples)
+            found[channel] = unlike.delayed(signals[channel], samples)
         return found
 
     return spoilt
@@ -93,7 +93,7 @@ def test_a_delay_that_one_repeat_alone_has_is_told():
 
 
 def test_a_clock_that_is_late_in_all_signals_is_none_of_one():
-    whole = lambda number, signals: np.stack([one_signal.delayed(row, 0.8 * (number == 1)) for row in signals])
+    whole = lambda number, signals: np.stack([unlike.delayed(row, 0.8 * (number == 1)) for row in signals])
     assert of_repeats(Recorded(3, 0.0, whole)) == []
 
 
@@ -136,9 +136,3 @@ def test_a_scale_of_one_signal_in_all_drives_is_found_beside_what_is_calibrated(
 
 def test_what_leaves_much_of_the_error_is_not_what_is_wrong():
     assert of_all(Recorded(1, 0.5, late(3, 1.2))) == []
-
-
-def test_a_signal_is_delayed_between_its_samples():
-    time = np.arange(400) / 100.0
-    wave = lambda late: np.exp(-(((time - 2.0 - late) / 0.1) ** 2))
-    assert one_signal.delayed(wave(0.0), 1.37) == pytest.approx(wave(0.0137), abs=1e-6)

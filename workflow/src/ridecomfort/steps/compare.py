@@ -3,7 +3,7 @@
 import sys
 
 from ridecomfort import calibrated, pool, simulate, store
-from ridecomfort.discrepancy import compare, explain, findings, locate
+from ridecomfort.discrepancy import compare, explain, findings, locate, unlike
 from ridecomfort.steps.command import Command, note
 from ridecomfort.vehicle import parameters
 
@@ -49,8 +49,8 @@ def main(road, measured, vehicle, calibration, config, output, workers, elsewher
     )
     for doubt in doubts:
         note(f"{config['site']}: {doubt}")
-    for short in explain.too_short(result):
-        note(f"{config['site']}: {short}")
+    for said in (*explain.too_short(result), *unlike.of_comparison(result)):
+        note(f"{config['site']}: {said}")
     if result.attrs["near_repeats"]:
         note(f"{config['site']}: {result.attrs['near_repeats']}")
     if calibration is None:
