@@ -258,8 +258,20 @@ def test_a_gain_beyond_what_is_drawn_is_marked(study):
     comparison["model_gain"].loc[{"signal": "a_x"}] = conditions.HIGHEST - 0.5
     with style.styled():
         titles = [axes.get_title(loc="left") for axes in conditions.responses(replace(site, comparison=comparison), "base").axes]
-    marked = {signal: titles[3 * place + 1] for place, signal in enumerate(SIGNALS)}
+    marked = {signal: titles[4 * place + 1] for place, signal in enumerate(SIGNALS)}
     assert marked["a_z"] == "drives over model (▲: above 2)" and marked["a_x"] == "drives over model"
+
+
+def test_drives_that_come_late_have_a_phase_below_nil_where_they_are_coherent_with_the_model(study):
+    site = study.sites[0]
+    comparison = site.comparison.copy(deep=True)
+    comparison["model_phase"] = (-2.0 * np.pi * 0.004 * comparison["frequency"]).broadcast_like(comparison["model_phase"])
+    comparison["model_coherence"] = xr.where(comparison["frequency"] < 20.0, 0.9, 0.1).broadcast_like(comparison["model_coherence"])
+    with style.styled():
+        axes = conditions.responses(replace(site, comparison=comparison), "base").axes[2]
+    frequency, phase = next(line.get_data() for line in axes.lines if line.get_color() == style.ERROR)
+    told = np.isfinite(phase)
+    assert frequency[told].max() < 20.0 and phase[told] == pytest.approx(-360.0 * 0.004 * frequency[told])
 
 
 @pytest.mark.parametrize("least", [0.5, 1e-2, 1e-4, 1e-7])
@@ -272,7 +284,7 @@ def test_gains_from_the_road_have_numbers_however_many_decades_they_span(study, 
     with style.styled():
         drawn = conditions.responses(replace(site, comparison=comparison), "base")
         drawn.canvas.draw()
-    for axes in drawn.axes[::3]:
+    for axes in drawn.axes[::4]:
         low, high = axes.get_ylim()
         numbers = [tick for tick in axes.get_yticks() if low <= tick <= high]
         assert 2 <= len(numbers) <= 12, axes.get_title(loc="left")

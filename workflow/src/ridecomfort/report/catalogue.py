@@ -188,7 +188,8 @@ def site_figures(name: str) -> dict[str, str]:
         ),
         f"responses_{name}": (
             f"{label(name)}: how the signals answer to the road. Left: gain from the road, of the measured drives (dark) and of the model "
-            "on the same paths (blue). Middle: gain of drives over model, above 1 where the model moves too little. Right: coherence, of "
+            "on the same paths (blue). Middle: gain of drives over model, above 1 where the model moves too little, and phase, below 0 where the "
+            "drives come later (dotted: by 10 ms), where the two are coherent. Right: coherence, of "
             "each with the road (dashed) and of drives with model (orange); below 1 it shows noise, a wrong path or clock, other inputs, "
             "or what is not linear, such as friction."
         ),

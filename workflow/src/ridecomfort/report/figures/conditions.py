@@ -26,7 +26,7 @@ SMALLEST, LARGEST = 0.1, 100.0
 
 TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)
 
-INPUTS = {"road_heave": "up and down", "road_tilt": "left against right"}
+INPUTS = {"road_heave": "heave", "road_tilt": "tilt"}
 
 SOURCES = {"measured": ("measured drives", style.MEASURED), "simulated": ("model on the same paths", style.CALIBRATED)}
 """Label and colour of what answers to the road."""
@@ -34,9 +34,17 @@ SOURCES = {"measured": ("measured drives", style.MEASURED), "simulated": ("model
 HIGHEST = 2.0
 """Gain of drives over model up to which it is drawn: about 1 is what must be seen."""
 
+LATE = 0.01
+"""s by which drives and model are apart along the lines that are drawn beside a phase."""
+
+TOLD, QUARTER = 0.5, 90.0
+"""Coherence from which on a phase is drawn, and degrees up to which it is: beyond, the model moves against the drives."""
+
 READ = (
-    "Gain of drives over model: above 1 the model moves too little, below 1 too much. Coherence: 1 where one follows from the other\n"
-    "by gain and phase alone; noise, a wrong path or clock and what is not linear (friction) lower it; with the road, other inputs, too."
+    "Road heave: up and down; tilt: left against right. Gain of drives over model: above 1 the model moves too little, below 1 too\n"
+    "much. Phase: below 0 the drives come later, by one time at all frequencies where it falls as the dotted line does (10 ms).\n"
+    "Coherence: 1 where one follows from the other by gain and phase alone; noise, a wrong path or clock and what is not linear\n"
+    "(friction) lower it; with the road, other inputs, too."
 )
 """How the figure is read."""
 
@@ -78,14 +86,14 @@ def conditions(site: Compared, model: str) -> Figure:
 
 
 def responses(site: Compared, model: str) -> Figure:
-    """Columns: gain from the road, of drives and model; gain of drives over model; coherences. A row for each signal."""
+    """Columns: gain from the road, of drives and model; gain and phase of drives over model; coherences. A row for each signal."""
     found = site.comparison
     drawn = style.figure(style.DOUBLE, 8.6)
-    panels = drawn.subplots(len(SIGNALS), 3, sharex=True)
+    panels = drawn.subplots(len(SIGNALS), 4, sharex=True)
     frequency = found["frequency"].values
     kept = (frequency >= 0.4) & (frequency <= 40.0)
     frequency = frequency[kept]
-    for (road, gain, coherent), signal in zip(panels, SIGNALS):
+    for (road, gain, phase, coherent), signal in zip(panels, SIGNALS):
         one, (factor, unit) = found.sel(signal=signal), printed(signal)
         if "road_gain" in found:
             for source, (label, colour) in SOURCES.items():
@@ -99,21 +107,30 @@ def responses(site: Compared, model: str) -> Figure:
         road.set_title(f"road {INPUTS[INPUT[signal]]} → {notation.signal(signal)}")
         gain.axhline(1.0, color=style.FAINT, linewidth=0.7)
         of_model = one["model_gain"].values[kept]
-        gain.plot(frequency, of_model, color=style.ERROR, label="gain and coherence, drives against model")
+        gain.plot(frequency, of_model, color=style.ERROR, label="gain, phase and coherence, drives against model")
         beyond = frequency[of_model > HIGHEST]
         if beyond.size:
             gain.plot(beyond, np.full(beyond.size, HIGHEST), "^", color=style.ERROR, markersize=3, clip_on=False)
         gain.set_ylim(0.0, HIGHEST)
+        for late in (-LATE, LATE):
+            phase.plot(frequency, -360.0 * late * frequency, color=style.FAINT, linewidth=0.7, linestyle=":")
+        of_model = np.degrees(one["model_phase"].values[kept])
+        phase.plot(frequency, np.where(one["model_coherence"].values[kept] > TOLD, of_model, np.nan), color=style.ERROR)
+        phase.axhline(0.0, color=style.FAINT, linewidth=0.7)
+        phase.set_ylim(-QUARTER, QUARTER)
+        phase.set_yticks([-QUARTER, 0.0, QUARTER])
+        phase.set_ylabel("phase [°]")
+        phase.set_title("drives over model")
         gain.set_ylabel("gain [-]")
         gain.set_title("drives over model" + (f" (▲: above {HIGHEST:g})" if beyond.size else ""))
         coherent.plot(frequency, one["model_coherence"].values[kept], color=style.ERROR)
         coherent.set_ylim(0.0, 1.03)
         coherent.set_ylabel("coherence [-]")
-        for axes in (road, gain, coherent):
+        for axes in (road, gain, phase, coherent):
             axes.set_xscale("log")
             axes.set_xlim(frequency[0], frequency[-1])
     for axes in panels[-1]:
-        axes.set_xticks([0.5, 1, 2, 5, 10, 20, 40], ["0.5", "1", "2", "5", "10", "20", "40"])
+        axes.set_xticks([0.5, 2, 10, 40], ["0.5", "2", "10", "40"])
         axes.minorticks_off()
         axes.set_xlabel("frequency [Hz]")
     handles = [line for axes in panels[0] for line in axes.get_legend_handles_labels()[0]]
