@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from ridecomfort import discrepancy, store
-from ridecomfort.discrepancy import opening
+from ridecomfort.discrepancy import opening, unlike
 from ridecomfort.drive import record
 from ridecomfort.effects import library
 from ridecomfort.vehicle import parameters
@@ -80,6 +80,21 @@ def test_a_record_that_is_wrong_is_called_suspect(car_file, spoilt, reason):
     trial = trials.make(103, car, {}, 1.0, **spoilt)
     _, verdict = discrepancy.rank(trial.measured, car, among=AMONG, most=1, workers=1)
     assert verdict.verdict == "suspect" and any(reason in words for words in verdict.reasons)
+
+
+@pytest.mark.parametrize(
+    ("late", "said"),
+    [([0, 1, 2], "roll_rate comes 12 ms too late beside the other signals of the fitted drives"), ([1], "drive_2: roll_rate, beside what the model does there and in drive_1, drive_3, comes 12 ms too late")],
+)
+def test_one_signal_that_comes_late_is_told_by_its_name(car_file, late, said):
+    """In all fitted drives, but not in the one held out; or in one of the repeats."""
+    car = parameters.read(car_file)
+    ((site, (road, drives)),) = trials.make(103, car, {}).measured.items()
+    for number in late:
+        rolled = unlike.delayed(drives[number]["roll_rate"].values, 0.012 * trials.RATE)
+        drives[number] = drives[number].assign(roll_rate=("time", rolled))
+    _, verdict = discrepancy.rank({site: (road, drives)}, car, among=AMONG, most=1, workers=1)
+    assert verdict.verdict == "suspect" and any(words.startswith(said) for words in verdict.reasons), verdict.reasons
 
 
 @pytest.mark.long
