@@ -43,7 +43,7 @@ def test_parameters_beside_the_file_are_told_with_a_form_that_explains_nearly_al
 @pytest.mark.parametrize(("kind", "share", "is_told"), [("named", 0.84, True), ("named", 0.64, False), ("nothing", 0.0, True)])
 def test_beside_effects_of_the_library_too_parameters_are_told_only_where_these_explain_most(monkeypatch, kind, share, is_told):
     """In a car of another program, where 69 % were explained, a roll inertia came out at 416 kg m2 (413 to 418) for 470."""
-    monkeypatch.setitem(_beside_the_file.__globals__, "off_file", lambda selection, told: HELD)
+    monkeypatch.setitem(_beside_the_file.__globals__, "off_file", lambda selection, told, is_named: HELD)
     verdict = replace(NOTHING, verdict=kind, share=share, held_out_share=share)
     assert _beside_the_file(verdict, Outcome(None, verdict, None, None, None), None) is (HELD if is_told else None)
 
@@ -52,7 +52,7 @@ def test_beside_effects_of_the_library_too_parameters_are_told_only_where_these_
 def test_where_next_to_nothing_is_left_they_are_told_however_little_there_was_to_explain(monkeypatch, remainder, is_told):
     """A tyre that progresses took 63 and 84 % of an error of 0.1 %. The centre of gravity lay 0.04 m above that of the file, of which nothing was
     said: on the ladder, where it is held, the right effect took nothing."""
-    monkeypatch.setitem(_beside_the_file.__globals__, "off_file", lambda selection, told: HELD)
+    monkeypatch.setitem(_beside_the_file.__globals__, "off_file", lambda selection, told, is_named: HELD)
     verdict = replace(NOTHING, verdict="named", share=0.63, held_out_share=0.84, remainder=remainder)
     assert _beside_the_file(verdict, Outcome(None, verdict, None, None, None), None) is (HELD if is_told else None)
 
