@@ -272,8 +272,7 @@ def near_repeats(comparison: xr.Dataset) -> list[str]:
 
 def too_short(comparison: xr.Dataset) -> list[str]:
     """Drives that are compared for less than SHORTEST, in words."""
-    compared = np.isfinite(comparison["residual"].isel(state=-1)).all("signal").transpose("drive", "time").values
-    seconds = compared.sum(axis=1) / rate_of(comparison["time"].values)
+    seconds = [own.place.size / rate_of(comparison["time"].values) for own in _passages(comparison)]
     names = comparison["drive"].values
     return [f"{name} is compared for {own:.1f} s only, which tells little (expected {SHORTEST:g} s at least)" for name, own in zip(names, seconds) if own < SHORTEST]
 

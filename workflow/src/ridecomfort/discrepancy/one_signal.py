@@ -16,7 +16,7 @@ from .car import Car
 from .experiment import Frame
 from .floor import repeats
 from .shared import shared_power
-from .unlike import FARTHEST, LATE, ROUNDS, delayed
+from .unlike import FARTHEST, LATE, ROUNDS, delayed, too_large, too_late
 
 RATES = SIGNALS[3:]
 """The signals of a gyroscope."""
@@ -47,14 +47,14 @@ def of_all(experiment: Car, frame: Frame, residuals: Mapping[int, np.ndarray], f
     for channel, name in enumerate(experiment.channels):
         late, left = _in_time(experiment, frame, simulated, [channel], free)
         if abs(late) > LATE and is_all(left):
-            return [f"{name} comes {1e3 * abs(late):.0f} ms too {'late' if late > 0 else 'early'} beside {goes}: its filter, or its channel?"]
+            return [f"{name} comes {too_late(late)} beside {goes}: its filter, or its channel?"]
         gain, left = _to_scale(experiment, frame, simulated, channel, free)
         if abs(gain) > GAIN and is_all(left):
-            return [f"{name} is {100 * abs(gain):.1f} % too {'large' if gain > 0 else 'small'} beside {goes}: its scale, or its unit?"]
+            return [f"{name} is {too_large(gain)} beside {goes}: its scale, or its unit?"]
     rates = [channel for channel, name in enumerate(experiment.channels) if name in RATES]
     late, left = _in_time(experiment, frame, simulated, rates, free) if rates else (0.0, {})
     if abs(late) > LATE and is_all(left):
-        return [f"the rates come {1e3 * abs(late):.0f} ms too {'late' if late > 0 else 'early'} beside {goes}: the filter of the gyroscope, or its channel?"]
+        return [f"the rates come {too_late(late)} beside {goes}: the filter of the gyroscope, or its channel?"]
     return []
 
 

@@ -15,6 +15,7 @@ from . import floor, nuisances
 from .car import Car
 from .experiment import Frame
 from .judged import against, doubt, judged, ratio
+from .unlike import along
 
 ROAD_BAND = (0.1, 0.8)
 """Cycles per metre in which the spectrum of a road follows a power law (ISO 8608 holds to 2.83)."""
@@ -38,10 +39,9 @@ SMOOTHER = 1.35
 """Place on the way from cubic interpolation (0) to linear (1) from which on records speak for neither: up to 1.15 where the true
 road is linear, 1.5 to 2.2 with noise of 0.1 mm in its file, 1.3 to 2.3 with tyres that envelop 0.2 m."""
 
-APART, INDEPENDENT = 0.5, 10.0
+APART = 0.5
 """Share of a gain's difference from one by which, and by STANDARD_ERRORS beyond it, a signal of an instrument, gravity or the bends of the road
-must disagree for that to have no gain: a vehicle that rolls less makes the rate of roll smaller and no other. Independent values of a
-signal in a second."""
+must disagree for that to have no gain: a vehicle that rolls less makes the rate of roll smaller and no other."""
 
 WANDERING = 0.006
 """s, the median over records, by which a clock wanders against place beyond which it is wrong where alignment has taken out more than LATE
@@ -140,9 +140,8 @@ def _own_gains(experiment: Car, index: int, residual: np.ndarray) -> tuple[np.nd
     record = experiment.records[index]
     left = judged(residual, record.rate, experiment.channels)
     simulated = judged(experiment.measured(index) + residual, record.rate, experiment.channels)
-    power = np.maximum(np.sum(simulated**2, axis=1), np.finfo(float).tiny)
-    seconds = residual.shape[1] / record.rate
-    return 1.0 - np.sum(left * simulated, axis=1) / power, np.sqrt(np.sum(left**2, axis=1) / power / (INDEPENDENT * seconds))
+    less, error = along(left, simulated, residual.shape[1] / record.rate)
+    return 1.0 - less, error
 
 
 def _are_of_one(gain: float, own: Sequence[float], errors: Sequence[float]) -> bool:

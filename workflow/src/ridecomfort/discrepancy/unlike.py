@@ -63,7 +63,7 @@ def of_repeats(drives: Sequence[Signals], channels: Sequence[str]) -> list[str]:
     gains, delays, gain_errors, delay_errors = (np.stack(part) for part in zip(*found))
     delays = delays - np.median(delays, axis=1, keepdims=True)  # of the whole record it is one of the clock
     said = []
-    for values, errors, least, words in ((gains, gain_errors, GAIN, _scaled), (delays, delay_errors, LATE, _delayed)):
+    for values, errors, least, words in ((gains, gain_errors, GAIN, _is_scaled), (delays, delay_errors, LATE, _is_late)):
         apart = values - (np.median(values, axis=0) if len(drives) > 2 else values[::-1])
         is_apart = np.abs(apart) - STANDARD_ERRORS * np.hypot(errors, np.median(errors, axis=0)) > least
         for channel, row in zip(*np.nonzero(is_apart.T)):
@@ -73,30 +73,47 @@ def of_repeats(drives: Sequence[Signals], channels: Sequence[str]) -> list[str]:
     return said
 
 
-def _scaled(apart: float) -> str:
-    return f"is {100 * abs(apart):.1f} % too {'large' if apart > 0 else 'small'}, if these are right: its scale, or its unit?"
+def _is_scaled(apart: float) -> str:
+    return f"is {too_large(apart)}, if these are right: its scale, or its unit?"
 
 
-def _delayed(apart: float) -> str:
-    return f"comes {1e3 * abs(apart):.0f} ms too {'late' if apart > 0 else 'early'}, if these are right: its filter, or its channel?"
+def _is_late(apart: float) -> str:
+    return f"comes {too_late(apart)}, if these are right: its filter, or its channel?"
+
+
+def too_large(share: float) -> str:
+    """A share by which a signal is too large, in words; negative where it is too small."""
+    return f"{100 * abs(share):.1f} % too {'large' if share > 0 else 'small'}"
+
+
+def too_late(seconds: float) -> str:
+    """A time by which a signal comes too late, in words; negative where it comes too early."""
+    return f"{1e3 * abs(seconds):.0f} ms too {'late' if seconds > 0 else 'early'}"
+
+
+def along(left: np.ndarray, column: np.ndarray, seconds: float) -> tuple[np.ndarray, np.ndarray]:
+    """How much of a ``column`` (signal, sample) is in what is ``left`` of signals that last so many ``seconds``, and the standard error of that, (signal,) each."""
+    power = np.maximum(np.sum(column**2, axis=1), np.finfo(float).tiny)
+    return np.sum(left * column, axis=1) / power, np.sqrt(np.sum(left**2, axis=1) / power / (INDEPENDENT * seconds))
 
 
 def _gains_and_delays(drive: Signals, channels: Sequence[str], inside: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """By how much each signal of a drive is too large (1) and too late (s) beside the model, in the band that is judged and in the samples ``inside``,
     and the standard errors of these, (channel,) each."""
     measured, simulated = (judged(series, drive.rate, channels) for series in (drive.measured, drive.simulated))
-    power, late = (lambda series: np.maximum(np.sum(series**2, axis=1), np.finfo(float).tiny)), np.zeros(len(simulated))
+    late, seconds = np.zeros(len(simulated)), inside.sum() / drive.rate
     for _ in range(ROUNDS):
         in_time = np.stack([delayed(row, drive.rate * own) for row, own in zip(simulated, late)])
-        slope, left = (series[:, inside] for series in (np.gradient(in_time, 1.0 / drive.rate, axis=1), in_time - measured))
-        late = np.clip(late + np.sum(left * slope, axis=1) / power(slope), -FARTHEST, FARTHEST)
-    error, in_time = np.sum(left**2, axis=1) / (INDEPENDENT * inside.sum() / drive.rate), in_time[:, inside]
-    gain = -np.sum(left * in_time, axis=1) / power(in_time)
-    return gain, late, np.sqrt(error / power(in_time)), np.sqrt(error / power(slope))
+        left = (in_time - measured)[:, inside]
+        further, late_error = along(left, np.gradient(in_time, 1.0 / drive.rate, axis=1)[:, inside], seconds)
+        late = np.clip(late + further, -FARTHEST, FARTHEST)
+    less, gain_error = along(left, in_time[:, inside], seconds)
+    return -less, late, gain_error, late_error
 
 
 def delayed(row: np.ndarray, samples: float) -> np.ndarray:
-    """A signal (sample,) later by so many samples, by its spectrum; what joins its ends, which is no motion, taken out before."""
+    """A signal (sample,) later by so many samples, by its spectrum: a spline between the samples of a record (``record.late`` is for denser ones) would
+    lose what is fast. What joins its ends, which is no motion, is taken out before."""
     line = np.linspace(row[0], row[-1], row.size)
     phase = np.exp(-2j * np.pi * np.fft.rfftfreq(row.size) * samples)
     return np.fft.irfft(np.fft.rfft(row - line) * phase, row.size) + line
