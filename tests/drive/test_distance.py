@@ -63,6 +63,16 @@ def test_a_place_that_is_held_until_the_next_is_known_is_that_of_its_changes(hol
     assert time[0] == pytest.approx(hold, abs=0.011) and time[-1] > TIME[-1] - 1.1 * hold
 
 
+@pytest.mark.parametrize("is_alone", [False, True])
+def test_a_place_that_is_held_for_too_long_is_refused(is_alone):
+    """Between two seconds a line misses it by more than half of the acceleration, and a speed made of it would be one of stairs."""
+    told = 20 * (known := 2.0 * np.floor(TIME / 2.0 + 1e-6)) + 1.5 * np.sin(0.8 * known)
+    with pytest.raises(InputError) as problem:
+        record.from_arrays(alone(told) if is_alone else quantities(s=(TIME, told), v_x=(TIME, 20 + 1.2 * np.cos(0.8 * TIME))), file="drive.csv")
+    told = "drive.csv: s: is held for 2 s at a time until the next value (expected 1.1 s at most"
+    assert str(problem.value) == told + (")" if is_alone else "; or leave s out, which is then integrated from v_x)")
+
+
 @pytest.mark.parametrize("hold", [0.1, 0.2, 1.0])
 def test_a_speed_that_is_held_until_the_next_is_known_is_that_of_its_changes(hold):
     """Told late by half a hold, its way would be 0.6 m short in 20 s with a hold of a second."""

@@ -40,7 +40,8 @@ def unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], *, file=None) ->
     of a receiver, is linear between the values where it changes, which are those of their time; ``s`` and ``v_x`` go from the first of these to the last.
     A distance that stands still now and then while the vehicle drives on is linear from there to where it goes on, and cut at its ends.
 
-    Values that lie whole steps apart were rounded: where one changes it is half a step off. Raises InputError where a distance stands for too long.
+    Values that lie whole steps apart were rounded: where one changes it is half a step off. Raises InputError where a distance stands, or is held,
+    for too long.
     """
     result, done = dict(arrays), []
     for name in ("s", "e", "v_x"):
@@ -49,10 +50,17 @@ def unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], *, file=None) ->
         if len(known) < 3:
             continue
         stands = _stands(time, values, known, arrays.get("v_x"), file=file) if name == "s" else []
-        if _is_held(name, time, values, known):
+        hold = _hold(name, time, values, known)
+        if hold > LONGEST_HOLD and name == "s":
+            raise InputError(
+                f"is held for {hold:.3g} s at a time until the next value (expected {LONGEST_HOLD:g} s at most"
+                f"{'' if 'v_x' not in arrays else '; or leave s out, which is then integrated from v_x'})",
+                file=file, place="s",
+            )  # fmt: skip
+        if 0.0 < hold <= LONGEST_HOLD:
             rows = known if name == "s" else _told(known, len(time))
             kept = slice(None) if name == "e" else slice(rows[0], rows[-1] + 1)
-            done.append(f"{name}, held for {np.median(np.diff(time[known])):.3g} s at a time, interpolated between its changes")
+            done.append(f"{name}, held for {hold:.3g} s at a time, interpolated between its changes")
         elif stands:
             rows = np.setdiff1d(np.arange(len(time)), np.concatenate([np.arange(first + (first > 0), last + 1) for first, last in stands]))
             kept = slice(rows[0], rows[-1] + 1)
@@ -67,13 +75,15 @@ def unheld(arrays: Mapping[str, tuple[np.ndarray, np.ndarray]], *, file=None) ->
     return result, done
 
 
-def _is_held(name: str, time: np.ndarray, values: np.ndarray, known: np.ndarray) -> bool:
-    """Whether values that change in the rows ``known`` are held in between until the next is known, and not rounded."""
-    if np.median(np.diff(known)) < 2 or np.median(np.diff(time[known])) > LONGEST_HOLD:
-        return False
+def _hold(name: str, time: np.ndarray, values: np.ndarray, known: np.ndarray) -> float:
+    """For how many seconds values that change in the rows ``known`` are usually held in between until the next is known; nil where they are not, or
+    were rounded."""
+    if np.median(np.diff(known)) < 2:
+        return 0.0
     changes = np.diff(values[known])
     steps = (changes if name == "v_x" else values[known] - values[0]) / np.median(np.abs(changes))
-    return not np.allclose(steps, np.round(steps), rtol=0.0, atol=ROUNDED_SPEED if name == "v_x" else ROUNDED)
+    is_rounded = np.allclose(steps, np.round(steps), rtol=0.0, atol=ROUNDED_SPEED if name == "v_x" else ROUNDED)
+    return 0.0 if is_rounded else float(np.median(np.diff(time[known])))
 
 
 def _told(known: np.ndarray, count: int) -> np.ndarray:
