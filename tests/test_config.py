@@ -3,7 +3,7 @@
 import yaml
 
 from ridecomfort import config, schema
-from tests.projects import assert_said
+from tests.projects import assert_said, write
 
 
 def test_the_study_file_states_the_defaults(repository):
@@ -51,6 +51,12 @@ def test_a_whole_number_may_be_written_with_a_point(project):
     assert found == (4000, 7, 2) and all(isinstance(value, int) for value in found)
     assert isinstance(study.settings["simulation"]["step"], float)
     assert_said(project, {"sites": ["own"], "runs": "4000"}, "runs: '4000', expected a whole number; YAML reads this as text, write 4000 ", config.STUDY)
+
+
+def test_a_road_may_be_its_file_alone(project):
+    write(project, "short", {"road": "road.crg"})
+    long, short = (config.load({"sites": [name]}, project).sites[name]["road"] for name in ("own", "short"))
+    assert short == long and short["file"] == "road.crg"
 
 
 def test_a_number_on_the_command_line_may_stand_in_a_block(project):

@@ -116,7 +116,7 @@ def test_a_file_from_elsewhere_brings_what_it_imports_of_the_package_and_nothing
     own = tmp_path / "own.py"
     own.write_text("# A name in Latin-1: \xfc\nfrom . import errors\nfrom ridecomfort.effects.lag import lag\n", encoding="latin-1")
     found = modules.with_imports([own])
-    assert {path.name for path in found} == {"own.py", "lag.py", "__init__.py"}
+    assert {path.name for path in found} == {"own.py", "lag.py", "__init__.py", "lazy.py"}
 
 
 def test_every_step_that_loads_effects_lists_their_files(repository):

@@ -40,6 +40,19 @@ def test_a_drive_holds_what_every_drive_holds(course, car):
     assert (np.diff(drive.s.values) > 0).all()
 
 
+def test_what_the_driver_aims_for_may_be_an_array_on_the_road(course, car):
+    speed, lateral = np.linspace(18.0, 20.0, course.u.size), np.full(course.u.size, 0.2)
+    over_u = lambda values: xr.DataArray(values, {"u": course.u}, "u")
+    xr.testing.assert_identical(
+        simulate.run(course, car, speed=speed, lateral=lateral), simulate.run(course, car, speed=over_u(speed), lateral=over_u(lateral))
+    )
+
+
+def test_a_road_without_what_is_needed_of_it_is_refused(course):
+    with pytest.raises(InputError, match="road: no 'bank', expected elevation, bank, curvature"):
+        simulate.prepare(course.road.drop_vars("bank"))
+
+
 def test_runs_do_not_depend_on_their_company(course, car):
     """Bit for bit: a shard is a slice of the runs and nothing else."""
     speed = xr.DataArray(np.full(course.u.size, 18.0), {"u": course.u}, "u")
@@ -180,6 +193,8 @@ def test_wheels_stay_where_the_road_has_heights_but_for_notches_as_short_as_a_ho
         (dict(speed=-3.0), "speed"),
         (dict(speed=float("nan")), "speed"),
         (dict(speed=20.0, friction=0.0), "friction"),
+        (dict(speed=20.0, friction=np.ones(3)), "friction: array.*, expected a positive number"),
+        (dict(speed=np.full(3, 20.0)), r"speed: has the shape \(3,\), expected a number, a value for each of the \d+ u of the road"),
         (dict(speed=20.0, step=0.003), "step"),
         (dict(speed=20.0, start=500.0), "start"),
         (dict(speed=20.0, start=50.0, end=50.0), "nothing of the road lies between 50 m and 50 m"),

@@ -42,8 +42,18 @@ def test_it_is_not_called_little_where_parameters_of_the_vehicle_were_put_right_
     assert "It is little" in replace(said, beyond_bounds=BeyondBounds((stiffer,), 0.1, 0.1)).words()
 
 
+def test_an_effect_has_its_first_size_beside_all_and_names_are_of_what_the_verdict_claims():
+    content = replace(NOTHING, verdict="named", effects=(replace(FOUND, sizes=(SIZE, SIZE)), replace(FOUND, name="other"))).json()
+    first, bare = content["effects"]
+    assert (first["size"], first["unit"], first["interval"]) == tuple(first["sizes"][0][key] for key in ("size", "unit", "interval"))
+    assert bare["size"] is None and content["names"] == [FOUND.name, "other"]
+    wrong = replace(FOUND, name="imu_lever_arm", is_of_measurement=True)
+    suspect = replace(NOTHING, verdict="suspect", effects=(FOUND, wrong)).json()
+    assert suspect["names"] == ["imu_lever_arm"] and len(suspect["effects"]) == 2
+
+
 def test_every_key_of_a_verdict_file_is_explained():
     section = READING.read_text(encoding="utf-8").partition("### verdict.json\n")[2].partition("\n`evidence.png`")[0]
     told = set(re.findall(r"`(\w+)`", section))
     names = {own.name for kind in (Verdict, Named, Beyond, BeyondBounds, AtBound, OffFile) for own in fields(kind)}
-    assert names | set(SIZE) | set(SURE.json()) <= told
+    assert names | set(SIZE) | set(SURE.json()) | set(NOTHING.json()) <= told

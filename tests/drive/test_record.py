@@ -120,6 +120,18 @@ def test_arrays_become_a_drive_and_survive_being_stacked():
     assert back[0].attrs["lateral_position"] == 0.2
 
 
+def test_a_drive_that_does_not_say_how_it_was_recorded_has_what_is_usual():
+    """As a simulated one, which is told by its number, at its own rate, without gravity."""
+    given = record.from_arrays(quantities(), name="mine", role="check", lateral_position=0.2)
+    bare = given.copy()
+    bare.attrs = {"role": "check", "sensor_z": 0.4}
+    told, usual = record.completed([given, bare])
+    assert told is given
+    assert usual.attrs.keys() == given.attrs.keys() and usual.attrs["cut_off"] == pytest.approx(given.attrs["cut_off"])
+    assert {"name": "drive_2", "role": "check", "gravity": 0, "sensor_z": 0.4, "place_measured": 1}.items() <= usual.attrs.items()
+    assert [one.attrs["name"] for one in record.completed(record.stack([given]))] == ["mine"]
+
+
 def test_a_record_on_the_study_clock_passes_unchanged():
     drive = record.from_arrays(quantities())
     np.testing.assert_array_equal(drive["a_z"].values, quantities()["a_z"][1])

@@ -144,6 +144,11 @@ def test_one_name_is_one_effect_and_nothing_is_none():
     assert library.choose(None) == []
 
 
+def test_names_and_sizes_may_be_listed_as_in_a_configuration():
+    listed = library.choose(["top_mount", {"payload": {"mass": 80.0}}, {"crosswind": None}])
+    assert listed == library.choose({"top_mount": None, "payload": {"mass": 80.0}, "crosswind": None})
+
+
 def test_sizes_that_are_not_given_are_typical():
     ((_, sizes),) = library.choose({"payload": {"mass": 80.0}})
     assert sizes == {"mass": 80.0, "ahead": -0.8, "height": 0.6, "radius": 0.3}

@@ -26,7 +26,7 @@ from . import fitrecord, identifiability, pool
 from . import simulate as simulator
 from .descent import Descent, descend
 from .drive import pedals
-from .drive.record import unstack
+from .drive.record import completed
 from .drive.replay import replay
 from .errors import InputError, hint
 from .problem import Problem
@@ -71,7 +71,7 @@ def problem(
     workers: int = 1,
 ) -> Problem:
     """The problem of fitting the drives whose role is "fit"; arguments as for ``calibrate``, ``scales`` as for ``Problem``."""
-    drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
+    drives = completed(drives)
     roads = list(road) if isinstance(road, (list, tuple)) else [road] * len(drives)
     each = pool.side_by_side(workers)
     fitted = [pair for pair in zip(drives, roads, strict=True) if pair[0].attrs.get("role", "fit") == "fit"]

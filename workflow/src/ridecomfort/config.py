@@ -145,7 +145,10 @@ def _standin(folder: Path) -> dict:
 
 def _site(name: str, folder: Path, standin: Mapping) -> dict:
     file = SITES / f"{name}.yaml"
-    site = {"title": name, **validate(read_yaml(folder / file), "site", file)}
+    told = read_yaml(folder / file)
+    if isinstance(told.get("road"), str):
+        told["road"] = {"file": told["road"]}
+    site = {"title": name, **validate(told, "site", file)}
     if site["standin"] and name not in standin.get("sites", {}):
         raise InputError(
             f"{STANDIN} makes no data for {name!r}; remove `standin` from the site file if its road and drives are yours",

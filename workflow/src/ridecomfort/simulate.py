@@ -50,15 +50,18 @@ class Course:
     curvature: np.ndarray
     road: xr.Dataset
 
-    def on_u(self, target: float | xr.DataArray, what: str) -> np.ndarray:
-        """A number or a DataArray over u as values on the u of the road; ends are held."""
+    def on_u(self, target: float | np.ndarray | xr.DataArray, what: str) -> np.ndarray:
+        """A number, an array on the u of the road, or a DataArray over u as values on the u of the road; ends are held."""
         if isinstance(target, xr.DataArray):
             if target.dims != ("u",):
                 raise InputError(f"has dimensions {target.dims}, expected ('u',)", place=what)
             own = target.u.values
             values = target.values.astype(float) if np.array_equal(own, self.u) else np.interp(self.u, own, target.values)
         else:
-            values = np.full(self.u.size, float(target))
+            values = np.asarray(target, dtype=float)
+            if values.shape not in ((), self.u.shape):
+                raise InputError(f"has the shape {values.shape}, expected a number, a value for each of the {self.u.size} u of the road, or a DataArray over u", place=what)
+            values = np.broadcast_to(values, self.u.shape)
         if not np.isfinite(values).all():
             raise InputError("is not finite everywhere", place=what)
         return values
@@ -78,6 +81,7 @@ def prepare(road: xr.Dataset, interpolation: str | None = None) -> Course:
 
     ``interpolation``: "cubic" or "linear"; by default what the road says (`surface.INTERPOLATION` where it does not).
     """
+    surface.require(road, "elevation", "bank", "curvature")
     elevation, u0, du, v0, dv = surface.grid(road)
     smooth = (interpolation or road.attrs.get("interpolation", surface.INTERPOLATION)) == "cubic"
     return Course(
@@ -107,7 +111,7 @@ def run(
     """One drive along the road: the drive's variables over time, with roll and pitch.
 
     ``speed`` (m/s) and ``lateral`` (m, positive to the left) are what the driver aims for: a
-    number or a DataArray over u. ``friction`` of the road, 1 when dry. ``effects``: names, or
+    number, an array on the u of the road or a DataArray over u. ``friction`` of the road, 1 when dry. ``effects``: names, or
     a mapping of name to {parameter: value}. ``sensor``: its place in m relative to the centre
     of gravity of the sprung mass. ``start`` and ``end``: m along the reference line; the whole
     road by default. ``step`` of the integration in s, ``rate`` of the records in Hz. A sensor stays at its place on the body
@@ -248,8 +252,8 @@ def _sampled(drive: xr.Dataset, every: int) -> xr.Dataset:
 
 def _record(course, vehicle, speed, lateral, friction, chosen, sensor, start, end, step, every) -> np.ndarray:
     """Columns of COLUMNS after every so many steps, shape (records, columns)."""
-    if not friction > 0:
-        raise InputError(f"{friction!r}, expected a positive number", place="friction")
+    if np.ndim(friction) or not friction > 0:
+        raise InputError(f"{friction!r:.60}, expected a positive number", place="friction")
     front = vehicle["cg_to_front_axle"]
     rear = vehicle["wheelbase"] - front
     first, last = course.u[0] + rear + OVERHANG, course.u[-1] - front - OVERHANG

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from ..drive import pedals
-from ..drive.record import require_one_rate, unstack
+from ..drive.record import completed, require_one_rate
 from ..drive.replay import CLOCK_LEFT, MARGIN, Replay, replay
 from ..drive.sampling import rate_of
 from ..vehicle.driver import SPEED_PREVIEW_TIME
@@ -71,7 +71,7 @@ def compare(
     the floor and the explainable error (``explain.explain``, which ``noise_density`` and ``elsewhere`` are for). ``each`` maps a function over drives
     (``map``, or that of threads).
     """
-    drives = unstack(drives) if isinstance(drives, xr.Dataset) else list(drives)
+    drives = completed(drives)
     require_one_rate(drives)
     length = max(drive.sizes["time"] for drive in drives)
     shape = len(drives), len(SIGNALS), length

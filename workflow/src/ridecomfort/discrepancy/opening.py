@@ -14,7 +14,7 @@ from .. import simulate as simulator
 from ..calibrated import apply
 from ..drive import pedals
 from ..drive.paced import paced
-from ..drive.record import require_one_rate, unstack
+from ..drive.record import completed, require_one_rate
 from ..drive.replay import Replay, replay
 from ..drive.sampling import rate_of
 from ..drive.steered import steered
@@ -244,7 +244,7 @@ def sites_of(measured: Mapping[str, tuple]) -> list[Site]:
         Site(
             name,
             road if isinstance(road, simulator.Course) else simulator.prepare(road),
-            unstack(drives) if isinstance(drives, xr.Dataset) else list(drives),
+            completed(drives),
         )
         for name, (road, drives) in measured.items()
     ]

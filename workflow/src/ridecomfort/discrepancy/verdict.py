@@ -117,13 +117,21 @@ class Verdict:
         return self if self.of_all is None else replace(self, share=self.of_all[0], held_out_share=self.of_all[1], of_all=None)
 
     def json(self) -> dict:
-        """Plain numbers, text and lists; null where a number is not known."""
-        return plain(asdict(self))
+        """Plain numbers, text and lists; null where a number is not known. Each effect has the first of its ``sizes`` as ``size``, ``unit`` and
+        ``interval`` as well; ``names``: what the verdict says is there, the first of each cluster."""
+        said = asdict(self)
+        for effect in said["effects"]:
+            effect |= {key: effect["sizes"][0][key] if effect["sizes"] else None for key in ("size", "unit", "interval")}
+        return plain({**said, "names": [effect.name for effect in self.claimed]})
+
+    @property
+    def claimed(self) -> tuple[Named, ...]:
+        """The effects that it says are there: beside data that are suspect none of the vehicle."""
+        return tuple(effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
 
     def words(self, form: str = "") -> str:
         """The verdict as a few sentences; ``form``: that of the force that is proposed, if any."""
-        told = (effect for effect in self.effects if self.verdict != "suspect" or effect.is_of_measurement)
-        names = [" or ".join((effect.name, *effect.like)) for effect in told]
+        names = [" or ".join((effect.name, *effect.like)) for effect in self.claimed]
         return " ".join([first_sentence({**self.json(), "proposal": {"form": form}}, names), *map(sentence, self.reasons)])
 
 

@@ -20,7 +20,7 @@ from ..errors import InputError
 from ..vocabulary import SIGNALS
 from . import axes, configured, mounting, path, pedals, place, signs, turning
 from .distance import DIFFERENTIATED
-from .record import acceleration, felt
+from .record import acceleration, completed, felt
 from .replay import Following, Simulated, replay
 
 PASSES, MOST = 3, 15
@@ -82,6 +82,7 @@ def align(
     when model and record do not agree anywhere.
     """
     options, simulate = options or {}, _with(simulate, effects or {})
+    (drive,) = completed([drive])
     path.require_on_road(drive, road)
     work = mounting.level(drive)
     measured, start = bool(drive.attrs["place_measured"]), float(drive["s"][0])

@@ -49,6 +49,9 @@ SAME_RATE = 1e-4
 ROLES = ("fit", "check")
 """A drive is fitted, or kept for checking and never fitted."""
 
+TOLD = {"name", "lateral_position", "place_measured", "cut_off"}
+"""Attributes without which a drive was not made by ``from_arrays``."""
+
 
 def from_arrays(
     quantities: Mapping[str, tuple[np.ndarray, np.ndarray]],
@@ -372,6 +375,23 @@ def _derivative(values: np.ndarray, interval: float) -> np.ndarray:
             8 * (values[..., 3:-1] - values[..., 1:-3]) - (values[..., 4:] - values[..., :-4])
         ) / (12 * interval)
     return derivative
+
+
+def completed(drives: xr.Dataset | Sequence[xr.Dataset]) -> list[xr.Dataset]:
+    """Stacked drives taken apart, or a list of them, each with all attributes of ``from_arrays``: one that does not tell them, as a simulated one,
+    is called by its number, is fitted, holds no gravity, and was recorded at its own rate by an instrument in the centre of gravity."""
+    return [_completed(drive, number) for number, drive in enumerate(unstack(drives) if isinstance(drives, xr.Dataset) else drives, start=1)]
+
+
+def _completed(drive: xr.Dataset, number: int) -> xr.Dataset:
+    if TOLD <= drive.attrs.keys():
+        return drive
+    usual = {
+        "name": f"drive_{number}", "role": "fit", "gravity": 0, "sensor_x": 0.0, "sensor_y": 0.0, "sensor_z": 0.0, "lateral_position": np.nan,
+        "road_friction": 1.0, "place_measured": 1, "cut_off": 0.5 * sampling.rate_of(drive["time"].values), "start_time": 0.0, "way_before": 0.0,
+        "treatment": "none", "faults": "",
+    }  # fmt: skip
+    return drive.assign_attrs({**usual, **drive.attrs})
 
 
 def require_one_rate(drives: Sequence[xr.Dataset]) -> None:

@@ -73,11 +73,12 @@ def find(folder=None) -> Mapping[str, Entry]:
 def choose(effects: str | Iterable[str] | Mapping[str, Mapping[str, float]] | None, folder=None):
     """The named effects with the sizes to use: list of (Entry, {parameter: value}), in the order in which they act.
 
-    ``effects``: a name or names (typical sizes), a mapping of name to sizes, or None for no effects. Raises InputError for a
+    ``effects``: a name or names (typical sizes), a mapping of name to sizes, a list of names and such mappings, as in the study's
+    configuration, or None for no effects. Raises InputError for a
     name or a parameter that does not exist, saying which there are.
     """
-    names = [effects] if isinstance(effects, str) else effects or ()
-    sizes = names if isinstance(names, Mapping) else {name: None for name in names}
+    listed = [effects] if isinstance(effects, (str, Mapping)) else effects or ()
+    sizes = {name: own for one in listed for name, own in (one.items() if isinstance(one, Mapping) else [(one, None)])}
     if not sizes:
         return []
     entries = find(folder)

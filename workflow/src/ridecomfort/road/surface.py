@@ -267,14 +267,21 @@ def smoothed_ends(road: xr.Dataset, heights: np.ndarray) -> np.ndarray:
     return heights
 
 
+def require(road: xr.Dataset, *names: str) -> None:
+    """Raise InputError where a road lacks one of these variables."""
+    if missing := [name for name in names if name not in road]:
+        raise InputError(f"no {missing[0]!r}, expected {', '.join(names)}", place="road")
+
+
 def grid(road: xr.Dataset) -> tuple[np.ndarray, float, float, float, float]:
     """What kernels take: elevation (u, v) in m, C-contiguous float64, then u0, du, v0 and dv in m.
 
     Every height is finite: beyond the edges of the road it is that of the nearest
     cell across, carried on with the cross slope (`edges.extend`), so that a wheel
     that leaves the road meets no step. Smoothing zones are put in (`smoothed_ends`). Raises InputError where the road
-    has holes; `clean.fill` closes them.
+    has holes (`clean.fill` closes them), or lacks a channel.
     """
+    require(road, "elevation", "bank")
     elevation = edges.extend(road.elevation.transpose("u", "v").values, road.v.values, road.bank.values)
     unknown = ~np.isfinite(elevation)
     if unknown.any():
@@ -297,8 +304,9 @@ def height(road: xr.Dataset, u, v, *, interpolation: str | None = None) -> np.nd
     1.2 (crgEvaluv2z); with ``border_bank`` ``held``, heights that repeat or reflect
     across carry the bank of the border, not that of their place. Beyond the edges of
     the road ``edges`` rules: ``keep`` the nearest height across, or ``none``: NaN.
-    Positions that are not finite give NaN.
+    Positions that are not finite give NaN. Raises InputError where the road lacks a channel.
     """
+    require(road, "elevation", "bank")
     interpolation = interpolation or road.attrs.get("interpolation", INTERPOLATION)
     elevation, bank = road.elevation.transpose("u", "v").values, road.bank.values
     if road.attrs.get("edges", "keep") == "keep":

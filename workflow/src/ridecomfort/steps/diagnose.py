@@ -43,7 +43,7 @@ def main(roads, measured, vehicle, calibration, config, ranking, verdict, worker
         table.attrs["calibrated"] = ", ".join(settings["calibration"]["parameter"].values.tolist())
     # By these it is known later whether another verdict speaks of the same drives.
     digests = {site: digest(drive, vehicle) for site, drive in zip(config["sites"], measured, strict=True)}
-    content = {"sites": config["sites"], "vehicle_digest": digest(vehicle), "digests": digests, **found.json()}
+    content = {"sites": config["sites"], "vehicle_digest": digest(vehicle), "digests": digests, **found.json(), "proposal": None}
     for old in Path(verdict).parent.glob(f"{DISCOVERED}*.py"):  # of drives or of a model before
         old.unlink()
     conclusions = [found.words(proposal.form if proposal is not None else "")]
