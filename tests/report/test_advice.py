@@ -117,6 +117,15 @@ def test_the_sizes_that_effects_had_before_they_were_switched_on_are_told_again(
     assert row["in_words"].startswith(f"The verdict on the model base: front {size['size']:.3g} N (") and "prefer this" in row["in_words"]
 
 
+def test_what_later_verdicts_say_of_what_was_switched_on_ends_the_table():
+    again = {"suspension_friction": {**made_up.VERDICT, "share": 0.31, "held_out_share": None}, "payload+suspension_friction": made_up.nothing()}
+    again["payload+suspension_friction"]["at_first"] = {"a_x": 0.002}
+    last = [(row["what"], row["in_words"]) for row in rows(diagnosed.tables(replace(made_up.diagnosis(), later=again))["verdict"])[-2:]]
+    assert [what for what, _ in last] == ["diagnosed again, model suspension_friction", "diagnosed again, model payload + suspension_friction"]
+    assert last[0][1].endswith("(named) This takes 31 % of what is explainable then.")
+    assert "(nothing) What is left is no more than 0.2 % of the power of any signal: the loop may end here." in last[1][1]
+
+
 def test_what_comes_next_keeps_the_order_of_what_is_switched_on():
     """In another order the models of the error ladder would be others, and calibrated anew."""
     on = ("tyre_relaxation", "damper_knee")

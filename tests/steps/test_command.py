@@ -33,6 +33,9 @@ def test_an_optional_file_may_be_empty():
     how = {"optional": ("calibration",)}
     assert called_with(how=how, line=["--calibration", "--output", "o"])["calibration"] is None
     assert called_with(how=how, line=["--calibration", "c", "--output", "o"])["calibration"] == Path("c")
+    several = {"optional": ("later",), "many": ("later",)}
+    for line, expected in (([], []), (["--later"], []), (["--later", "a", "b"], [Path("a"), Path("b")])):
+        assert called_with(how=several, line=[*line, "--output", "o"])["later"] == expected
 
 
 def test_a_mistake_is_one_line(capsys):

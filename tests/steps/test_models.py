@@ -56,7 +56,7 @@ def test_a_cluster_is_called_by_all_of_its_names(study):
 def test_the_verdict_on_disk_is_followed_unless_the_study_does_not_go_forward(study, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert models.known(study()).models == ("base",)
-    file = tmp_path / models.verdict_file(study())
+    file = tmp_path / models.verdict_file("base")
     file.parent.mkdir(parents=True)
     own = {**NAMED, "vehicle_digest": digest(tmp_path / "config" / "vehicles" / "midsize.yaml")}
     file.write_text(json.dumps(own))
@@ -67,6 +67,43 @@ def test_the_verdict_on_disk_is_followed_unless_the_study_does_not_go_forward(st
         assert models.known(study()).models == ("base",)
 
 
+@pytest.fixture
+def told(tmp_path, monkeypatch):
+    """Writes a verdict on a model that names these effects of the drives that were diagnosed, or of others."""
+    monkeypatch.chdir(tmp_path)
+
+    def write(model, *names, drives="those", kind="named"):
+        file = tmp_path / models.verdict_file(model)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        content = {"sites": ["ts1"], "verdict": kind, "effects": [{"name": name, "like": []} for name in names], "digests": {"ts1": drives}}
+        file.write_text(json.dumps({**content, "vehicle_digest": digest(tmp_path / "config" / "vehicles" / "midsize.yaml")}))
+        return file.relative_to(tmp_path).as_posix()
+
+    return write
+
+
+def test_what_a_verdict_makes_of_a_model_is_diagnosed_again_until_nothing_more_is_named(study, told):
+    own, asked = study(), []
+    told("base", "top_mount")
+    assert models.known(own).models == ("base", "top_mount") and models.later(own) == []
+    second = told("top_mount", "payload")
+    third = told("payload+top_mount", kind="nothing")
+    assert list(models.diagnosed(own, asked.append)) == asked == ["base", "top_mount", "payload+top_mount"]
+    assert models.known(own).models == tuple(asked) and models.later(own) == [second, third]
+    assert models.known(own).titles == ("+ top_mount", "+ payload")
+    assert models.later(study(diagnosis={"forward": False})) == []
+    told("top_mount", "payload", drives="others")
+    assert models.known(own).models == ("base", "top_mount") and models.later(own) == []
+
+
+def test_a_verdict_that_is_asked_for_is_made_before_it_is_read_and_no_more_than_three_are(study, told):
+    names = ["top_mount", "payload", "crosswind", "bump_steer", "anti_dive"]
+    made = lambda model: told(model, names[len(asked)]) and asked.append(model)
+    asked = []
+    assert list(models.diagnosed(study(), made)) == asked == ["base", "top_mount", "payload+top_mount"]
+    assert models.known(study()).models[-1] == "crosswind+payload+top_mount"
+
+
 def test_a_model_begins_from_the_one_before_it_in_the_chain(study, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     own = study(effects=["suspension_friction", "damper_asymmetry"])
@@ -74,7 +111,7 @@ def test_a_model_begins_from_the_one_before_it_in_the_chain(study, tmp_path, mon
     assert models.below(own, own.model) == "suspension_friction"
     assert models.below(study(effects=["damper_asymmetry", "suspension_friction"]), own.model) == "damper_asymmetry"
     assert models.below(study(), own.model) == "base"  # asked for by its name alone
-    file = tmp_path / models.verdict_file(study())
+    file = tmp_path / models.verdict_file("base")
     file.parent.mkdir(parents=True)
     file.write_text(json.dumps({**NAMED, "vehicle_digest": digest(tmp_path / "config" / "vehicles" / "midsize.yaml")}))
     assert models.below(study(), own.model) == "suspension_friction"
@@ -89,7 +126,7 @@ def test_a_ladder_is_of_the_models_that_were_compared_even_if_a_verdict_has_come
     monkeypatch.chdir(tmp_path)
     own = study(sites=["ts1"])
     asked = models.known(own).files(own, "comparison.nc")
-    file = tmp_path / models.verdict_file(own)
+    file = tmp_path / models.verdict_file("base")
     file.parent.mkdir(parents=True)
     file.write_text(json.dumps({**NAMED, "vehicle_digest": digest(tmp_path / "config" / "vehicles" / "midsize.yaml")}))
     assert json.loads(models.ladder_settings(own, asked))["models"] == ["base"]

@@ -36,6 +36,7 @@ rule diagnosed:
         code=modules.of_step("diagnosed"),
         ranking=f"results/diagnosis/{study.model}/ranking.nc",
         verdict=f"results/diagnosis/{study.model}/verdict.json",
+        later=lambda wildcards: models.later(study),
     output:
         expand("results/tables/{name}.{suffix}", name=catalogue.DIAGNOSIS_TABLES, suffix=["csv", "md", "tex", "trace.csv"]),
         expand("results/figures/{name}.pdf", name=catalogue.DIAGNOSIS_FIGURES),
@@ -65,5 +66,5 @@ rule diagnosed:
         "results/benchmarks/diagnosed/study.tsv"
     threads: 2
     shell:
-        "python -m ridecomfort.steps.diagnosed --results results"
+        "python -m ridecomfort.steps.diagnosed --results results --later {input.later:q}"
         " --config {params.config:q} --output results --workers {threads} 2> {log:q}"

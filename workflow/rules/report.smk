@@ -71,9 +71,10 @@ rule figures:
         " --config {params.config:q} --output results/figures --workers {threads} 2> {log:q}"
 
 
-# The error ladder needs the verdict first: what it names decides which models stand on it.
+# The error ladder needs the verdicts first: what they name decides which models stand on it, and the last of these is diagnosed again until
+# nothing more is named.
 after_the_verdict = lambda wildcards: [
-    *(checkpoints.diagnosis.get(model=study.model).output if study.forward else []),
+    *(map(models.verdict_file, models.diagnosed(study, lambda model: checkpoints.diagnosis.get(model=model))) if study.forward else []),
     *(rules.diagnosed.output if study.forward else []),
     *(rules.standin_score.output if study.scored else []),
     *(rules.compared.output if study.measured else []),
@@ -88,6 +89,7 @@ rule report:
         located,
         after_the_verdict,
         code=modules.of_step("report"),
+        later=lambda wildcards: models.later(study),
     output:
         "results/report.html",
     params:
@@ -97,5 +99,5 @@ rule report:
     benchmark:
         "results/benchmarks/report/study.tsv"
     shell:
-        "python -m ridecomfort.steps.report --results results"
+        "python -m ridecomfort.steps.report --results results --later {input.later:q}"
         " --config {params.config:q} --output {output:q} 2> {log:q}"

@@ -103,7 +103,8 @@ class Diagnosis:
     effects that the model has, in the order of the study's configuration, and ``held`` the sizes that it holds of them, by name.
 
     ``score`` is what the hidden truth of stand-ins says of the verdict (``steps.standin_score``), None without it. ``told_before``: what a
-    verdict on a ``model`` without them said of effects that are switched on, by name.
+    verdict on a ``model`` without them said of effects that are switched on, by name. ``later``: verdicts on the model with what was named
+    switched on, and so on, by model.
     """
 
     verdict: Mapping
@@ -116,6 +117,7 @@ class Diagnosis:
     switched_on: tuple[str, ...] = ()
     held: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     told_before: Mapping[str, Mapping] = field(default_factory=dict)
+    later: Mapping[str, Mapping] = field(default_factory=dict)
 
     def standin_note(self) -> str | None:
         """As of a Study."""

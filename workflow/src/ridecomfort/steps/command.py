@@ -23,7 +23,7 @@ class Command:
 
     ``main`` is called with one keyword argument per option. Options are files
     (``inputs``, ``outputs``; those in ``many`` take several and give a list,
-    those in ``optional`` may be left out or empty and give None), plain ``texts``, and
+    those in ``optional`` may be left out or empty and give None, or an empty list), plain ``texts``, and
     ``--config``, a JSON object of exactly the settings that the step uses.
     """
 
@@ -46,7 +46,8 @@ class Command:
                 dest=name,
                 type=Path,
                 metavar="FILE",
-                nargs="+" if name in self.many else "?" if name in self.optional else None,
+                nargs=("*" if name in self.optional else "+") if name in self.many else "?" if name in self.optional else None,
+                default=[] if name in self.many else None,
                 required=name not in self.optional,
             )
         for name in self.texts:

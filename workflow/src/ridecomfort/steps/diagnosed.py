@@ -6,8 +6,8 @@ from ridecomfort.steps import written
 from ridecomfort.steps.command import Command
 
 
-def main(results, config, output, workers):
-    diagnosis = study_results.diagnosis(results, config)
+def main(results, later, config, output, workers):
+    diagnosis = study_results.diagnosis(results, config, later)
     written.tables(diagnosed.tables(diagnosis), output / "tables")
     written.figures(diagnosed.figures(diagnosis), output / "figures", int(workers))
     if not all(config["diagnosed"].values()):  # of real drives nothing hidden is known: a score that lies there is an earlier study's
@@ -15,4 +15,4 @@ def main(results, config, output, workers):
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("results",), texts=("workers",)).run()
+    Command(main, inputs=("results",), many=("later",), optional=("later",), texts=("workers",)).run()

@@ -1,9 +1,9 @@
-"""The models that a study puts side by side: base, then effect after effect, those of the study before those of a verdict."""
+"""The models that a study puts side by side: base, then effect after effect, those of the study before those of verdicts."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +11,9 @@ from ..study import BASE, JOIN, Study, digest, effect_files, effects_of
 
 FOLLOWED = ("named", "cluster")
 """Verdicts whose effects are added; of a cluster the first of each, called by all of its names."""
+
+MOST = 3
+"""Models that a study diagnoses by itself, one after another, at most."""
 
 
 @dataclass(frozen=True)
@@ -30,12 +33,12 @@ def rung_titles(effects: Sequence[str], alike: Mapping[str, Sequence[str]] | Non
     return ["+ " + " or ".join([name, *(alike or {}).get(name, ())]) for name in effects]
 
 
-def chain(study: Study, verdict: Mapping | None = None) -> Chain:
-    """The chain of a study, continued by the effects that a verdict on its model names.
+def chain(study: Study, *verdicts: Mapping) -> Chain:
+    """The chain of a study, continued by the effects that verdicts name, that on its model first, then that on what the first one made of it.
 
-    ``verdict`` is the content of verdict.json. Effects that are in the model already, or that there is no file of, add nothing.
+    A verdict is the content of verdict.json. Effects that are in the model already, or that there is no file of, add nothing.
     """
-    found = verdict["effects"] if verdict and verdict["verdict"] in FOLLOWED else []
+    found = [effect for verdict in verdicts if verdict["verdict"] in FOLLOWED for effect in verdict["effects"]]
     known = effect_files(study.effects_folder)
     named = [effect["name"] for effect in found if effect["name"] in known]
     alike = {effect["name"]: effect.get("like", ()) for effect in found}
@@ -45,16 +48,36 @@ def chain(study: Study, verdict: Mapping | None = None) -> Chain:
 
 
 def known(study: Study) -> Chain:
-    """The chain as far as it is known now: with the verdict on the study's model where there is one and it is to be followed.
+    """The chain as far as it is known now: with the verdict on the study's model, and those on what comes of it, where they are there and to be
+    followed."""
+    return chain(study, *diagnosed(study).values()) if study.forward else chain(study)
 
-    A verdict that was fitted on another site or with another vehicle is not.
+
+def diagnosed(study: Study, ask: Callable[[str], object] = lambda model: None) -> dict[str, dict]:
+    """The verdicts that a study goes forward by, as far as they are known now, each by the model that it is on: the study's own, then, each time, that
+    with all that was named until then, as long as something more is; MOST at most.
+
+    ``ask`` is called with each model before the verdict on it is looked for. One that was fitted on another site, to other drives or with another
+    vehicle does not count.
     """
-    return chain(study, _verdict(study) if study.forward else None)
+    found: dict[str, dict] = {}
+    while len(found) < MOST and (model := chain(study, *found.values()).models[-1]) not in found:
+        ask(model)
+        verdict, first = _verdict(study, model), next(iter(found.values()), None)
+        if verdict is None or first is not None and verdict.get("digests") != first.get("digests"):
+            break
+        found[model] = verdict
+    return found
 
 
-def _verdict(study: Study) -> dict | None:
-    """The verdict on the study's model, reached on the site and with the vehicle that would be diagnosed first; None without one."""
-    file, first = Path(verdict_file(study)), study.diagnosed[:1]
+def later(study: Study) -> list[str]:
+    """Files of the verdicts but the first that a study goes forward by, as far as they are known now."""
+    return [verdict_file(model) for model in list(diagnosed(study))[1:]] if study.forward else []
+
+
+def _verdict(study: Study, model: str) -> dict | None:
+    """The verdict on a model, reached on the site and with the vehicle that would be diagnosed first; None without one."""
+    file, first = Path(verdict_file(model)), study.diagnosed[:1]
     if not file.is_file():
         return None
     verdict = json.loads(file.read_text())
@@ -81,9 +104,9 @@ def aligned_before(study: Study, site: str, model: str) -> str:
     return f"results/{site}/measured.nc" if before is None else study.aligned(site, before)
 
 
-def verdict_file(study: Study) -> str:
-    """Where the verdict on the study's model lies, from the project folder."""
-    return f"results/diagnosis/{study.model}/verdict.json"
+def verdict_file(model: str) -> str:
+    """Where the verdict on a model lies, from the project folder."""
+    return f"results/diagnosis/{model}/verdict.json"
 
 
 def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
@@ -98,8 +121,7 @@ def ladder_settings(study: Study, comparisons: Sequence[str]) -> str:
 
 
 def ladder_titles(study: Study, models: Sequence[str]) -> list[str]:
-    """What the rungs of these models after base are called, with what the verdict on the study's model cannot tell from their effects."""
+    """What the rungs of these models after base are called, with what verdicts cannot tell from their effects."""
     sets = [set(effects_of(model)) for model in models]
     effects = [name for before, after in zip(sets, sets[1:]) for name in sorted(after - before)]
-    found = _verdict(study) or {"effects": []}
-    return rung_titles(effects, {effect["name"]: effect.get("like", ()) for effect in found["effects"]})
+    return rung_titles(effects, {effect["name"]: effect.get("like", ()) for found in diagnosed(study).values() for effect in found["effects"]})

@@ -13,8 +13,8 @@ from ridecomfort.store import replacing
 PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "numba", "pandas", "matplotlib", "snakemake")
 
 
-def main(results, config, output):
-    study = study_results.whole(results, config, software())
+def main(results, later, config, output):
+    study = study_results.whole(results, config, software(), later)
     made = tables.make(study)
     made |= claims.tables(study, made)
     made |= differing.tables(study.difference) if study.difference else {}
@@ -50,4 +50,4 @@ def commit() -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    Command(main, inputs=("results",)).run()
+    Command(main, inputs=("results",), many=("later",), optional=("later",)).run()

@@ -32,12 +32,12 @@ def load(results: Path, config: dict, software: dict | None = None) -> Study:
     )
 
 
-def whole(results: Path, config: dict, software: dict) -> Study:
-    """As ``load``, with the comparison with measured drives and the diagnosis."""
+def whole(results: Path, config: dict, software: dict, later: Sequence[Path] = ()) -> Study:
+    """As ``load``, with the comparison with measured drives and the diagnosis; ``later`` as for that."""
     return replace(
         load(results, config, software),
         difference=difference(results, config) if with_drives(config["sites"]) else None,
-        diagnosis=diagnosis(results, config),
+        diagnosis=diagnosis(results, config, later),
     )
 
 
@@ -71,8 +71,9 @@ def compared(results: Path, config: dict, name: str) -> Compared:
     )
 
 
-def diagnosis(results: Path, config: dict) -> Diagnosis | None:
-    """The verdict on the model of ``config`` with its evidence, None where ``config`` does not ask for it (``diagnosed``)."""
+def diagnosis(results: Path, config: dict, later: Sequence[Path] = ()) -> Diagnosis | None:
+    """The verdict on the model of ``config`` with its evidence, None where ``config`` does not ask for it (``diagnosed``); ``later``: files of the
+    verdicts on what comes of that model by it, one after another."""
     if not config.get("diagnosed"):
         return None
     folder = results / "diagnosis" / config["model"]
@@ -91,6 +92,7 @@ def diagnosis(results: Path, config: dict) -> Diagnosis | None:
         standin=tuple(label(site) for site, is_standin in config["diagnosed"].items() if is_standin),
         score=json.loads(files["score"].read_text(encoding="utf-8")) if "score" in files else None,
         told_before=_told_before(results, config["switched_on"], verdict),
+        later={file.parent.name: json.loads(file.read_text(encoding="utf-8")) for file in later},
     )
 
 

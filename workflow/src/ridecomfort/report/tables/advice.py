@@ -98,7 +98,7 @@ def next_step(found: Diagnosis) -> str:
     before += FILE_FIRST if said.get("off_file") else ""
     named = ", ".join([*own, *(effect["name"] for effect in said["effects"])])
     if said["verdict"] == "nothing":
-        return f"{before}{NEXT['nothing']} {_left(said)}"
+        return f"{before}{NEXT['nothing']} {left(said)}"
     if said["verdict"] == "outside":
         before += FLOOR_FIRST if found.ranking.attrs.get("floor") == NIL else ""
         return before + _outside(found, proposal, own, named)
@@ -175,7 +175,7 @@ def _may_end(verdict: Mapping, *found: Mapping) -> str:
     return MAY_END if is_of_little(verdict) and not is_most else ""
 
 
-def _left(verdict: Mapping) -> str:
+def left(verdict: Mapping) -> str:
     """Whether what is left matters where nothing is to be switched on."""
     remainder = left_without(verdict)
     if not remainder:
@@ -188,14 +188,14 @@ def _outside(found: Diagnosis, proposal: Mapping, own: Sequence[str], named: str
     """The better of the proposed form and the effects that help comes first."""
     said = found.verdict
     if is_file_alone(said):
-        return f"{NEXT['nothing']} {_left(said)}"
+        return f"{NEXT['nothing']} {left(said)}"
     go_on = GO_ON.format(keys=named)
     may_end = _may_end(said, said, *([proposal] if proposal.get("form") else []))
     if not proposal.get("form"):
-        return may_end + go_on if library_helps(said) and _shares(said)[0] >= LITTLE else NO_FORM + _left(said)
+        return may_end + go_on if library_helps(said) and _shares(said)[0] >= LITTLE else NO_FORM + left(said)
     (fitted, held_out), (fitted_of_form, held_out_of_form) = map(_shares, (said, proposal))
     if (min if may_end else max)(fitted_of_form, held_out_of_form) < LITTLE:
-        return may_end + go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + _left(said)
+        return may_end + go_on if library_helps(said) and min(fitted, held_out) >= WORTHWHILE else LITTLE_FOUND + left(said)
     try_form = TRY_FORM.format(file=_file(found, proposal), keys=", ".join([*own, *_by_share(proposal)]))
     if not library_helps(said) or said.get("is_beside_form"):
         return may_end + try_form

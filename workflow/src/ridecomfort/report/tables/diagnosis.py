@@ -68,7 +68,7 @@ def _promise(proposal: Mapping) -> str:
 def verdict(found: Diagnosis) -> Table:
     """The verdict in words: what it is, why, and what to do next."""
     said = found.verdict
-    told = [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
+    told = _claimed(said)
     names = [_alike(effect) for effect in told]
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
     first = first_sentence(said, names)
@@ -103,6 +103,7 @@ def verdict(found: Diagnosis) -> Table:
     rows.append(("next, after the vehicle" if comes_first else "next", advice.next_step(found)))
     if beyond and not comes_first:
         rows.append(("or, the vehicle", advice.farther(beyond)))
+    rows += [(f"diagnosed again, model {model.replace(JOIN, f' {JOIN} ')}", _again(content)) for model, content in found.later.items()]
     columns = Column("what", ("",)), Column("in_words", ("In words",))
     sources = (Source("all", found.files.get("verdict", ""), "verdict, effects, reasons, proposal", "as in the file"),)
     return _table(found, "verdict", columns, rows, sources)
@@ -119,6 +120,19 @@ def _beside_held(effect: Mapping) -> str:
     """What shapes an effect and was held while its sizes were found, in words."""
     told = [f"{words(one['parameter'])} {one['size']:.3g} {unit(one['unit'])}".removesuffix(" 1").strip() for one in effect.get("held") or ()]
     return f" Found with {', '.join(told)} held: with another value these sizes and intervals may be others." if told else ""
+
+
+def _claimed(said: Mapping) -> list[Mapping]:
+    """The effects that a verdict says are there."""
+    return [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
+
+
+def _again(said: Mapping) -> str:
+    """What a later verdict says of the model with what was named switched on."""
+    told = f"{first_sentence(said, [_alike(effect) for effect in _claimed(said)])} ({said['verdict']})"
+    if said["verdict"] in ("named", "cluster"):
+        return f"{told} This takes {percent(said['share'])} of what is explainable then{_checked(said)}."
+    return f"{told} {advice.left(said)}" if said["verdict"] == "nothing" else told
 
 
 def _before(effect: Mapping) -> str:
