@@ -6,7 +6,7 @@ import re
 
 import xarray as xr
 
-WHERE_ITS_UNIT_STANDS = re.compile(r", in (the unit of the signal|its (SI )?unit|(seen|missing)_unit, its unit)")
+WHERE_ITS_UNIT_STANDS = re.compile(r", in (the unit of the signal|its (SI )?unit|(seen|missing|other)_unit, its unit)")
 """What the meaning of a variable says that is stacked over quantities of several units."""
 
 

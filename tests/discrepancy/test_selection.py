@@ -8,9 +8,19 @@ import pytest
 
 from ridecomfort.discrepancy import select
 from ridecomfort.discrepancy.balance import total_shares
-from ridecomfort.discrepancy.selection import shares_of
+from ridecomfort.discrepancy.selection import RESOLUTION, shares_of
 
 from .linear import Linear
+
+
+def test_no_interval_is_told_that_is_narrower_than_what_all_drives_have_in_common():
+    """Of a size of 2, 90 % of a normal distribution lie within 1.645 standard deviations."""
+    selection = select.select(Linear(1, {"effect_1.size": 2.0}), {"stiffness": 0.0})
+    key = "effect_1.size"
+    value, own = selection.final.values[key], selection.intervals[key]
+    for interval, half in ((own, (own[1] - own[0]) / 2), ((value, value), 0.0)):
+        lower, upper = replace(selection, intervals={key: interval}, allowed={}).told(key)
+        assert (upper - lower) / 2 == pytest.approx((half**2 + (1.645 * RESOLUTION * value) ** 2) ** 0.5, rel=1e-3)
 
 
 @pytest.mark.parametrize("needless", [(), (0,), (1,), (2,), (0, 1), (1, 2)])

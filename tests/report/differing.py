@@ -154,6 +154,12 @@ def ranking() -> xr.Dataset:
             "trial_sizes": ("trial", ["front 80 N", "front 0.2 1"]),
             "trial_objection": ("trial", ["", "makes the drives held out worse"]),
             **{f"trial_{key}": ("trial", [value, 0.2 * value]) for key, value in trial.items()},
+            "other_effect": ("other", ["payload", "damper_asymmetry"]),
+            "other_parameter": ("other", ["mass", "front"]),
+            "other_unit": ("other", ["kg", "1"]),
+            "other_size": ("other", [12.0, 0.01]),
+            "other_interval": (("other", "bound"), [[-3.0, 27.0], [np.nan, np.nan]]),
+            "other_plausible": (("other", "bound"), [[0.0, 500.0], [-0.8, 0.8]]),
         },
         {"effect": effects, "round": [1, 2]},
     )

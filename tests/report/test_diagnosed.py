@@ -100,6 +100,16 @@ def test_a_verdict_says_of_which_calibration_it_is():
     assert "Calibrated in it: tyre_friction, roll_inertia." in diagnosed.tables(found)["verdict"].notes
 
 
+def test_how_large_each_effect_may_be_that_was_not_found_is_told_by_name():
+    found = made_up.diagnosis()
+    asymmetry, payload = rows(diagnosed.tables(found)["excluded"])
+    assert (payload["effect"], payload["size"], payload["unit"]) == ("payload", "mass", "kg")
+    assert [payload[key] for key in ("estimate", "lower", "upper", "least", "most")] == [12.0, -3.0, 27.0, 0.0, 500.0]
+    assert asymmetry["effect"] == "damper asymmetry" and asymmetry["lower"] is None and asymmetry["upper"] is None
+    bare = replace(found, ranking=found.ranking.drop_dims("other"))
+    assert [row["effect"] for row in rows(diagnosed.tables(bare)["excluded"])] == ["none"]
+
+
 def test_a_form_is_written_in_usual_notation_and_says_what_a_side_is():
     terms = {"slip_of_load": {"front": -2.4e-06}, "side_slip_of_sides": {"front": 0.0076}}
     form = in_words("contact", terms, {"slip_of_load": {"linear": 0.14}})

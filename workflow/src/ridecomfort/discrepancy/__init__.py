@@ -5,7 +5,7 @@ The modules, by what they are for and in the order in which they rest on one ano
 - errors of drives that a model is meant to explain: spectrum, span, response, judged, nuisances, experiment, floor, wheels, car, onemass
 - where model and measurement differ, and by how much: explain, bursts, shared, classes, unlike, realign, compare, locate, findings, critical,
   ladder
-- which effect is missing: candidates, opening, probe, exemplar, evidence, across, event, propose, refit, rung, allowance, selection, tries,
+- which effect is missing: candidates, opening, probe, exemplar, evidence, across, event, propose, refit, rung, allowance, exclusion, selection, tries,
   foresight, balance, confirm, cluster, contest, consistency, turns, select, off_file, beyond, ranking
 - what is said of it: verdict, found, suspect, one_signal, reasoning, judge, amended, naming
 - a force that is in no library: terms, places, meanings, made, form, discovery, curves, signature, missing_force

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy.stats import chi2
 
-from . import across, cluster, foresight, probe, refit
+from . import across, cluster, exclusion, foresight, probe, refit
 from .confirm import LEAST_SHARE, Confirmation, best
 from .experiment import Candidate, Experiment, Size
 from .probe import Job, Raw
@@ -97,6 +97,7 @@ class Contest:
             found.names, found.p_value, found.gain, found.absorbed, (*trials, *vain.values()), winner,
             like, correlation, apart, found.decoy_p_value, found.decoy_ranks, winner is not None and self.tries.is_large(winner.gain),
             passed_over(found, {trial.name for trial in tried if trial.gain < least}, trials, vain), borne,
+            () if winner else exclusion.of_all(rung.frame, found.residual, found.columns, self.candidates, found.best),
         )  # fmt: skip
 
     def _change(self, trial: Trial) -> dict[int, np.ndarray]:

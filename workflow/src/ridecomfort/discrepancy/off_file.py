@@ -107,7 +107,7 @@ def off_file(selection: Selection, told: Collection[str] = (), is_named: bool = 
     if not (np.max(left) >= LEAST_LEFT or np.max(of_floor) >= LEAST_OF_FLOOR or of_gone >= LEAST_OF_GONE):
         return None
     channels = frame.experiment.channels
-    those = (Held(size.key, size.unit, size.neutral, final.values[size.key], selection.intervals[size.key]) for size in held)
+    those = (Held(size.key, size.unit, size.neutral, final.values[size.key], selection.told(size.key)) for size in held)
     return OffFile(tuple(those), dict(zip(channels, left.tolist())), dict(zip(channels, of_floor.tolist())), of_gone)
 
 

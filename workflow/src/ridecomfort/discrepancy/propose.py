@@ -39,7 +39,7 @@ class Proposal:
     """The evidence by candidate: ``p_value`` over the whole library, ``gain`` (fall of the white loss) and ``absorbed`` (share
     that is free anyway) in the best shape, ``best``.
 
-    ``columns``: what is projected of every column, by ((candidate, shape), key). ``rare``: names that act at few places.
+    ``columns``: what is projected of every column, by ((candidate, shape), key), ``residual``: and of the residual. ``rare``: names that act at few places.
     """
 
     names: tuple[str, ...]
@@ -48,6 +48,7 @@ class Proposal:
     absorbed: np.ndarray
     best: dict[str, Job]
     columns: dict[tuple[Job, str], np.ndarray]
+    residual: np.ndarray
     rare: frozenset[str]
     opposite: frozenset[str]
     """Names for a negative size of which the drives speak, where only a positive one is physical."""
@@ -110,6 +111,7 @@ def propose(
         absorbed=np.array([min(found.absorbed[k] for k in range(len(labels)) if group[k] == best[name]) for name in names]),
         best={name: jobs[g] for name, g in best.items()},
         columns={label: found.projected[k] for k, label in enumerate(labels)},
+        residual=found.residual,
         rare=frozenset(job[0] for job, is_rare in zip(jobs, rare) if is_rare),
         opposite=frozenset(
             jobs[g][0] for g, own, statistic in zip(group, sign, found.statistic) if g in best.values() and own > 0 and statistic < -OPPOSITE

@@ -37,10 +37,16 @@ def dataset(experiment: Experiment, selection: Selection) -> xr.Dataset:
     by_trial = lambda get: ("trial", np.array([get(trial) for _, trial, _ in trials], dtype=float))
     text = lambda get: ("trial", np.array([get(trial) for _, trial, _ in trials], dtype=str))
     columns = {key: (("round", "effect"), values, {"units": "1"}) for key, values in table.items()}
+    others = rounds[-1].excluded if rounds else ()
+    of_others = {f"other_{key}": ("other", np.array([getattr(one, key) for one in others], dtype=str)) for key in ("effect", "parameter", "unit")}
+    of_others["other_size"] = "other", np.array([one.size for one in others], dtype=float)
+    ranges = {"other_interval": [one.interval for one in others], "other_plausible": [one.plausible for one in others]}
+    of_others |= {key: (("other", "bound"), np.array(pairs, dtype=float).reshape(-1, 2)) for key, pairs in ranges.items()}
     passed_over = np.array([[turn.passed_over.get(name, "") for name in names] for turn in rounds], dtype=str).reshape(len(rounds), len(names))
     result = xr.Dataset(
         {
             **columns,
+            **of_others,
             "passed_over": (("round", "effect"), passed_over),
             "trial_round": ("trial", np.array([number for number, _, _ in trials], dtype=int)),
             "trial_effect": text(lambda trial: trial.name),

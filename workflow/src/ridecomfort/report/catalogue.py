@@ -75,6 +75,7 @@ DIAGNOSIS_TABLES = {
     "verdict": "Which effect is missing: the verdict with its reasons.",
     "missing_effects": "Effects that were found: sizes, intervals, and what each explains.",
     "evidence": "Evidence for every effect of the library, and the refits of the best.",
+    "excluded": "How large every effect of the library may be that was not found: what lies outside of the interval is excluded.",
     "forms": "Forces of any form that were looked for beside the library: the best of every place, and the refits of the best of all.",
 }
 

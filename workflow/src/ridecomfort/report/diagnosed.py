@@ -18,6 +18,7 @@ def tables(found: Diagnosis) -> dict[str, Table]:
         "verdict": diagnosis.verdict(found),
         "missing_effects": diagnosis.missing_effects(found),
         "evidence": diagnosis.evidence(found),
+        "excluded": diagnosis.excluded(found),
         "forms": diagnosis.forms(found),
     }
 

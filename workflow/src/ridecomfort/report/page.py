@@ -48,7 +48,7 @@ SECTIONS = (
     (
         "missing",
         "Which effect is missing",
-        ("verdict", "missing_effects", "evidence.figure", "signature", "evidence", "forms.figure", "forms", "standin_score"),
+        ("verdict", "missing_effects", "evidence.figure", "signature", "evidence", "excluded", "forms.figure", "forms", "standin_score"),
     ),
     ("ladder", "How the error falls", ("error_ladder.figure", "error_ladder", "error_ladder_sections")),
     ("overview", "Comfort at a glance", ("critical_shares", "exceedance")),

@@ -282,6 +282,29 @@ def evidence(found: Diagnosis) -> Table:
     return _table(found, "evidence", columns, rows, _evidence_sources(found), notes, breaks[1:])
 
 
+def excluded(found: Diagnosis) -> Table:
+    """How large every effect that was not accepted may be beside the last model of the search."""
+    told = found.ranking
+    columns = (
+        Column("effect", ("", "Effect")), Column("size", ("", "Size")), Column("unit", ("", "Unit")), Column("estimate", ("", "By one step"), ".3g"),
+        Column("lower", ("90 %", "from"), ".3g"), Column("upper", ("90 %", "to"), ".3g"),
+        Column("least", ("Plausible", "from"), ".3g"), Column("most", ("Plausible", "to"), ".3g"),
+    )  # fmt: skip
+    keys = ("effect", "parameter", "unit", "size", "interval", "plausible")
+    each = zip(*(told[f"other_{key}"].values.tolist() for key in keys)) if "other_effect" in told else ()
+    rows = [
+        (words(effect), words(parameter), unit(of), size, *(None if np.isnan(end) else end for end in interval), *plausible)
+        for effect, parameter, of, size, interval, plausible in sorted(each)
+    ]
+    notes = (
+        "Each effect alone, by one step of least squares beside the last model of the search, with all that is calibrated and what alignment leaves open; what was found is in the missing effects. "
+        "One step takes an effect for linear, as it is while it is small, in the shape that fits best: of stops, clearances and the like it says little. "
+        "Without an interval the sizes of an effect are not told from one another.",
+    )
+    source = Source("all", found.files.get("ranking", ""), "other_*", "as in the file")
+    return _table(found, "excluded", columns, rows or [("none", "", "", *(None,) * 5)], (source,), notes)
+
+
 def forms(found: Diagnosis) -> Table:
     """Of forces of any form, by round, the STRONGEST and the best of every place."""
     said = Column("place", ("", "Place")), Column("form", ("", "Form")), Column("expression", ("", "In what the place sees"))
