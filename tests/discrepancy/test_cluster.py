@@ -4,9 +4,23 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from .linear import Linear, judged
+
+
+@pytest.mark.parametrize(("size", "where"), [(0.0, "drive 3"), (0.001, "drive 3"), (1.0, "drive 0, at 30 km/h")])
+def test_the_drive_that_would_tell_two_apart_best_may_be_one_that_was_not_made(size, where):
+    class Elsewhere(Linear):
+        def would_differ(self, one, other, index):
+            drawn = np.random.default_rng(3).standard_normal((4, 2000))
+            return {"20 km/h": 0.5 * size * drawn, "30 km/h": size * drawn} if size else {}
+
+    twins = Elsewhere(1, {"effect_2.size": 1.0}, twins=("effect_2.size", "effect_4.size"))
+    selection, found = judged(twins)
+    assert found.effects[0].like == ("effect_4",)
+    assert selection.rounds[0].differ_on == {"effect_4": where}
 
 
 @pytest.mark.parametrize(("upper", "like"), [(5.0, ()), (50.0, ("effect_4",))])

@@ -2,7 +2,7 @@
 
 The modules, by what they are for and in the order in which they rest on one another:
 
-- errors of drives that a model is meant to explain: spectrum, span, response, judged, nuisances, experiment, floor, wheels, car, onemass
+- errors of drives that a model is meant to explain: spectrum, span, response, judged, nuisances, experiment, floor, wheels, elsewhere, car, onemass
 - where model and measurement differ, and by how much: explain, bursts, shared, classes, unlike, realign, compare, locate, findings, critical,
   ladder
 - which effect is missing: candidates, opening, probe, exemplar, evidence, across, event, propose, refit, rung, allowance, exclusion, selection, tries,

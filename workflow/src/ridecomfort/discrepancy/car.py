@@ -17,7 +17,7 @@ from ..drive.steered import Steered
 from ..effects import library
 from ..effects.contract import COMPILED
 from ..vocabulary import SIGNALS
-from . import floor, nuisances
+from . import elsewhere, floor, nuisances
 from .experiment import Candidate, Record, Size, by_record
 
 LONGEST = 0.002
@@ -168,6 +168,12 @@ class Car:
         vehicle, effects = with_values(self.vehicle, self.effects, values)
         found = fine.following(vehicle, {**self.quiet, **effects}, corrections=0)
         return 4.0 / 3.0 * (self._on_path(index, found) - residual)
+
+    def would_differ(self, one: Mapping[str, float], other: Mapping[str, float], index: int) -> dict[str, np.ndarray]:
+        """``Experiment.would_differ``: at other speeds."""
+        models = (with_values(self.vehicle, self.effects, values) for values in (one, other))
+        complete = ((vehicle, {**self.quiet, **effects}) for vehicle, effects in models)
+        return elsewhere.differences(self.replays[index], *complete, self.records[index].rate)
 
     def taking(self, other: Car, indices: Collection[int]) -> Car:
         """The same with these records as ``other`` has them."""

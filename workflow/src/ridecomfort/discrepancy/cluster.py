@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,13 +22,16 @@ SAME_PORT = 0.5
 COMPARABLE = 0.5
 """Share of the best one's gain that another must reach to be taken for it."""
 
+BETTER = 1.5
+"""Times the white power by which two refits differ on any drive that was made, from which on one that was not is told instead."""
+
 
 def cluster(
     experiment: Experiment, frames: Sequence[Frame], before: Mapping[str, float], winner: Trial, trials: Sequence[Trial],
     columns: Mapping[tuple, np.ndarray],
 ) -> tuple[tuple[str, ...], dict[str, float], dict[str, str]]:  # fmt: skip
     """Names of the candidates like the winner, canonical correlations of all with it, and for each of the first the
-    record on which it differs most from the winner.
+    drive on which it differs most from the winner, of those that were made and of others like the first.
 
     ``frames``: of the fitted and, where there are any, of the held-out records. ``before``: values of the model that both
     were added to. ``columns``: projected columns by ((candidate, shape), key). What does as well by changing the
@@ -56,5 +60,16 @@ def cluster(
         at_one = port and port == by_name[winner.name].port
         if alike > (SAME_PORT if at_one else evidence.SAME) and sum(z) / np.sqrt(len(z)) < APART:
             like.append(trial.name)
-            apart[trial.name] = experiment.records[max(power, key=power.get)].name
+            apart[trial.name] = _where_apart(experiment, frames[0], winner, trial, power)
     return tuple(like), correlation, apart
+
+
+def _where_apart(experiment: Experiment, frame: Frame, winner: Trial, trial: Trial, power: Mapping[int, float]) -> str:
+    """The drive on which two refits differ most, whose white ``power`` is known by record; one that was not made if it is BETTER."""
+    made, first = max(power, key=power.get), frame.indices[0]
+    whitening = replace(frame.whitening[first], scale=None)
+    others = experiment.would_differ(winner.fit.values, trial.fit.values, first)
+    not_made = {name: float(np.mean(whitening(difference) ** 2)) for name, difference in others.items()}
+    best = max(not_made, key=not_made.get, default=None)
+    own = experiment.records[first].name
+    return f"{own}, at {best}" if best and not_made[best] > BETTER * power[made] else experiment.records[made].name

@@ -126,6 +126,10 @@ class Experiment(Protocol):
     def realigned(self, amounts: Mapping[int, np.ndarray]) -> Experiment:
         """The same with these amounts of the nuisances (direction,) taken out of its records."""
 
+    def would_differ(self, one: Mapping[str, float], other: Mapping[str, float], index: int) -> Mapping[str, np.ndarray]:
+        """By how much the model at ``one`` of two sets of values differs from that at the ``other``, (channel, sample), on drives like that of a record
+        which were not made, by what they would have otherwise; none where there are no such drives."""
+
     def taking(self, other: Experiment, indices: Collection[int]) -> Experiment:
         """The same with these records as ``other`` has them."""
 

@@ -148,6 +148,10 @@ class OneMass:
         """The same: an offset is linear."""
         return self
 
+    def would_differ(self, one: Mapping[str, float], other: Mapping[str, float], index: int) -> dict[str, np.ndarray]:
+        """None: what drives it is no road."""
+        return {}
+
     def taking(self, other: OneMass, indices: Sequence[int]) -> OneMass:
         """The same: nothing is realigned."""
         return self
