@@ -59,6 +59,14 @@ def test_one_step_is_the_least_square_and_its_interval_as_wide_as_in_closed_form
     assert (one.interval[1] - one.interval[0]) / 2 == pytest.approx(0.5 * 1.645 / np.sqrt(column @ column), rel=0.15)
 
 
+@pytest.mark.parametrize(("largest", "shows"), [(0.9, False), (1.1, True)])
+def test_what_would_not_show_at_any_plausible_size_is_not_estimated(largest, shows):
+    """The largest, 8 above neutral in probes of 0.5, does no more than noise does in one direction."""
+    column = np.full(400, largest / 16.0 / 20.0)
+    (one,) = found(np.random.default_rng(7).standard_normal(400), column)
+    assert np.isfinite([one.size, *one.interval]).all() == shows
+
+
 def test_sizes_that_are_not_told_from_one_another_have_no_interval():
     column, noise = np.random.default_rng(6).standard_normal((2, 400))
     front, rear = found(noise, column, -2.0 * column)

@@ -13,6 +13,9 @@ from . import evidence, refit
 from .experiment import Candidate, Frame
 from .probe import Job
 
+LEAST = 1.0
+"""White norm of what the largest plausible size does, noise being one in every direction, below which it shows on no drive."""
+
 ALIKE = 1e-9
 """Least eigenvalue of the correlations of a candidate's columns for its sizes to be told from one another."""
 
@@ -20,7 +23,7 @@ ALIKE = 1e-9
 @dataclass(frozen=True)
 class Excluded:
     """A ``size`` of an effect by one step of least squares, in its ``unit``: the drives exclude what lies outside of its 90 % ``interval``, nan where
-    they do not tell it from another of the effect. ``plausible``: the range of what is."""
+    they do not tell it from another of the effect; both nan where no plausible one would show on them. ``plausible``: the range of what is."""
 
     effect: str
     parameter: str
@@ -54,8 +57,10 @@ def _of(candidate: Candidate, job: Job, residual: np.ndarray, columns: Mapping[t
     covariance, places = refit.clustered(bread, rows, residual + step @ rows, groups, len(sizes), np.zeros_like(bread))
     half = student.ppf(0.5 + CONFIDENCE / 2, max(places - len(sizes), 1)) * np.sqrt(np.diag(covariance))
     told = []
-    for size, moved, wide in zip(sizes, step, half if kept.all() else np.full(len(sizes), np.nan)):
-        value, own = size.neutral + float(moved) * size.probe, float(wide) * abs(size.probe)
+    for size, moved, wide, norm in zip(sizes, step, half if kept.all() else np.full(len(sizes), np.nan), np.sqrt(np.diag(normal))):
+        farthest = max(abs(end - size.neutral) for end in (size.lower, size.upper))
+        shows = 1.0 if norm * farthest >= LEAST * abs(size.probe) else np.nan
+        value, own = shows * (size.neutral + float(moved) * size.probe), float(wide) * abs(size.probe)
         parameter = size.key.partition(".")[2]
         told.append(Excluded(candidate.name, parameter, size.unit, value, (value - own, value + own), (float(size.lower), float(size.upper))))
     return told

@@ -293,13 +293,13 @@ def excluded(found: Diagnosis) -> Table:
     keys = ("effect", "parameter", "unit", "size", "interval", "plausible")
     each = zip(*(told[f"other_{key}"].values.tolist() for key in keys)) if "other_effect" in told else ()
     rows = [
-        (words(effect), words(parameter), unit(of), size, *(None if np.isnan(end) else end for end in interval), *plausible)
+        (words(effect), words(parameter), unit(of), *(None if np.isnan(own) else own for own in (size, *interval)), *plausible)
         for effect, parameter, of, size, interval, plausible in sorted(each)
     ]
     notes = (
         "Each effect alone, by one step of least squares beside the last model of the search, with all that is calibrated and what alignment leaves open; what was found is in the missing effects. "
         "One step takes an effect for linear, as it is while it is small, in the shape that fits best: of stops, clearances and the like it says little. "
-        "Without an interval the sizes of an effect are not told from one another.",
+        "Without an interval the sizes of an effect are not told from one another; without an estimate no plausible size would show on these drives.",
     )
     source = Source("all", found.files.get("ranking", ""), "other_*", "as in the file")
     return _table(found, "excluded", columns, rows or [("none", "", "", *(None,) * 5)], (source,), notes)
