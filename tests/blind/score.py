@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -28,6 +29,10 @@ LEVEL = 0.05
 
 VISIBLE = 0.8
 """Share of a kappa that must be reached for a trial to count as one of that kappa."""
+
+
+SECONDS = 20
+"""s of CPU time that a search should take."""
 
 
 def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
@@ -101,10 +106,23 @@ def level(reached: float) -> float:
     return max((kappa for kappa in KAPPAS if reached >= VISIBLE * kappa), default=0.0)
 
 
+def met(aim: str, hits: int, count: int) -> str:
+    """Whether so many hits of a count meet an aim in percent ("95 %" or more, "at most 3 %", "3-8 %"): "yes", "missed", or "missed by chance, perhaps"
+    where its 95 % interval (Wilson) reaches into it; empty without one, or any trial."""
+    numbers = [float(number) / 100.0 for number in re.findall(r"\d+", aim)]
+    if not (numbers and count):
+        return ""
+    least, most = numbers if len(numbers) > 1 else (0.0, numbers[0]) if "at most" in aim else (numbers[0], 1.0)
+    lower, upper = binomtest(hits, count).proportion_ci(method="wilson")
+    if least <= hits / count <= most:
+        return "yes"
+    return "missed by chance, perhaps" if lower <= most and upper >= least else "missed"
+
+
 def summary(rows: Sequence[Mapping]) -> list[str]:
-    """Lines of a Markdown table: each figure with what it should be, its 95 % interval (Wilson) and the number of trials that it is counted
-    over, of all of their kinds where some are left out."""
-    lines = ["| figure | aim | reached (95 % interval) | trials |", "|---|---|---|---|"]
+    """Lines of a Markdown table: each figure with what it should be, its 95 % interval (Wilson), whether it is met, and the number of trials that it
+    is counted over, of all of their kinds where some are left out."""
+    lines = ["| figure | aim | reached (95 % interval) | met | trials |", "|---|---|---|---|---|"]
 
     def line(what, chosen, hit, aim="", among=()):
         hits = sum(bool(hit(row)) for row in chosen)
@@ -112,7 +130,7 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
             lower, upper = binomtest(hits, len(chosen)).proportion_ci(method="wilson")
             share = f"{100 * hits / len(chosen):.0f} % ({100 * lower:.0f}-{100 * upper:.0f} %)"
         count = f"{len(chosen)} of {len(among)}" if len(among) > len(chosen) else f"{len(chosen)}"
-        lines.append(f"| {what} | {aim} | {share if chosen else '-'} | {count} |")
+        lines.append(f"| {what} | {aim} | {share if chosen else '-'} | {met(aim, hits, len(chosen))} | {count} |")
 
     of = lambda *kinds: [row for row in rows if row["kind"] in kinds]
     reached = {id(row): level(row["reached"]) if row["hidden"] else 0.0 for row in rows}
@@ -167,8 +185,8 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     every = strong([*outside, *with_library, *beside_wrong])
     nowhere = [row for row in every if row["place_right"] == ""]
     unseen = [row for row in every if row["place_right"] != "" and row["form_share"] == ""]
-    lines.append(f"| force at a port that no form has (left out of places and forms) | | {len(nowhere)} | {len(every)} |")
-    lines.append(f"| force that changes nothing held out (left out of forms) | | {len(unseen)} | {len(every)} |")
+    lines.append(f"| force at a port that no form has (left out of places and forms) | | {len(nowhere)} | | {len(every)} |")
+    lines.append(f"| force that changes nothing held out (left out of forms) | | {len(unseen)} | | {len(every)} |")
     strong_line("exact set of 2 effects, each at kappa >= 0.3", of("two"), names("exact"), "85 %")
     strong_line("exact set of 3 effects, each at kappa >= 0.3", of("three"), names("exact"), "70 %")
     beside = [row for row in of("wrong file") if row["hidden"]]
@@ -183,13 +201,15 @@ def summary(rows: Sequence[Mapping]) -> list[str]:
     seen = [row for row in rows if reached[id(row)]]
     for what, chosen in (("messy", [row for row in seen if row["kind"] == "messy"]), ("others", [row for row in seen if row["kind"] != "messy"])):
         covered, sizes = (sum(row[key] for row in chosen) for key in ("covered", "sizes"))
-        lines.append(f"| 90 % interval of a size covers the truth, {what} | 80-95 % | {100 * covered / max(sizes, 1):.0f} % | {sizes} sizes |")
+        aim, share = "80-95 %", f"{100 * covered / max(sizes, 1):.0f} %"
+        lines.append(f"| 90 % interval of a size covers the truth, {what} | {aim} | {share} | {met(aim, covered, sizes)} | {sizes} sizes |")
     falls = [row["against_oracle"] for row in strong(of(*alone)) if np.isfinite(row["against_oracle"])]
     if falls:
         median, tenth = np.median(falls), np.quantile(falls, 0.1)
-        found = f"{median:.2f} ({tenth:.2f}) | {len(falls)}"
+        found = f"{median:.2f} ({tenth:.2f}) | {'yes' if median >= 0.9 and tenth >= 0.7 else 'missed'} | {len(falls)}"
         lines.append(f"| held-out error removed, relative to the oracle, median (10th percentile) | 0.90 (0.7) | {found} |")
     small = sum(bool(row["hidden"]) for row in rows) - len(seen)
-    lines.append(f"| hidden effect below kappa {VISIBLE * KAPPAS[0]:g} at any plausible size (left out above) | | {small} | {len(rows)} |")
-    lines.append(f"| CPU seconds of a search, median | | {np.median([row['cpu_seconds'] for row in rows]):.0f} | {len(rows)} |")
+    lines.append(f"| hidden effect below kappa {VISIBLE * KAPPAS[0]:g} at any plausible size (left out above) | | {small} | | {len(rows)} |")
+    seconds = np.median([row["cpu_seconds"] for row in rows])
+    lines.append(f"| CPU seconds of a search, median | below {SECONDS} | {seconds:.0f} | {'yes' if seconds < SECONDS else 'missed'} | {len(rows)} |")
     return lines

@@ -140,7 +140,19 @@ def row(kind: str, verdict: str = "nothing", **more) -> dict:
 def lines(*rows: dict) -> dict[str, tuple[str, str]]:
     """Of every figure how many of how many hundred, and over how many trials."""
     table = [[cell.strip() for cell in line.strip("|").split("|")] for line in score.summary(rows)[2:]]
-    return {figure: (reached.partition(" (")[0], trials) for figure, _, reached, trials in table}
+    return {figure: (reached.partition(" (")[0], trials) for figure, _, reached, _, trials in table}
+
+
+@pytest.mark.parametrize(
+    ("aim", "hits", "count", "said"),
+    [
+        ("95 %", 19, 20, "yes"), ("95 %", 18, 20, "missed by chance, perhaps"), ("95 %", 80, 100, "missed"), ("95 %", 0, 0, ""), ("", 1, 2, ""),
+        ("at most 3 %", 3, 100, "yes"), ("at most 3 %", 5, 100, "missed by chance, perhaps"), ("at most 3 %", 17, 206, "missed"),
+        ("3-8 %", 5, 100, "yes"), ("3-8 %", 3, 21, "missed by chance, perhaps"), ("3-8 %", 0, 21, "missed by chance, perhaps"), ("3-8 %", 30, 100, "missed"),
+    ],
+)  # fmt: skip
+def test_an_aim_that_is_missed_is_said_to_be(aim, hits, count, said):
+    assert score.met(aim, hits, count) == said
 
 
 RIGHT = {"first_right": True, "in_cluster": True, "exact": True}
