@@ -1,6 +1,7 @@
 """The chain of models: prefixes of the configured effects, then those of the verdict, each model named alike whatever the order."""
 
 import json
+import os
 import shutil
 
 import pytest
@@ -94,6 +95,15 @@ def test_what_a_verdict_makes_of_a_model_is_diagnosed_again_until_nothing_more_i
     assert models.later(study(diagnosis={"forward": False})) == []
     told("top_mount", "payload", drives="others")
     assert models.known(own).models == ("base", "top_mount") and models.later(own) == []
+
+
+def test_a_later_verdict_that_is_older_than_the_one_before_it_does_not_go_on_from_it(study, told):
+    first = told("base", "top_mount")
+    second = told("top_mount", "payload")
+    os.utime(first, (2000.0, 2000.0))
+    for time, is_later in ((1000.0, False), (2000.0, True), (3000.0, True)):
+        os.utime(second, (time, time))
+        assert models.later(study()) == ([second] if is_later else [])
 
 
 def test_a_verdict_that_is_asked_for_is_made_before_it_is_read_and_no_more_than_three_are(study, told):

@@ -58,13 +58,17 @@ def diagnosed(study: Study, ask: Callable[[str], object] = lambda model: None) -
     with all that was named until then, as long as something more is; MOST at most.
 
     ``ask`` is called with each model before the verdict on it is looked for. One that was fitted on another site, to other drives or with another
-    vehicle does not count.
+    vehicle does not count, nor one that is older than that before it: it goes on from what was said there earlier.
     """
     found: dict[str, dict] = {}
+    made = 0.0
     while len(found) < MOST and (model := chain(study, *found.values()).models[-1]) not in found:
         ask(model)
         verdict, first = _verdict(study, model), next(iter(found.values()), None)
         if verdict is None or first is not None and verdict.get("digests") != first.get("digests"):
+            break
+        before, made = made, Path(verdict_file(model)).stat().st_mtime
+        if made < before:
             break
         found[model] = verdict
     return found
