@@ -45,8 +45,11 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     measured = {**config, "sites": {"ts1": config["sites"]["ts1"]}}
     located.main(folder, measured, folder / "figures")
     compared.main(folder, measured, folder)
-    diagnosed.main(folder, looped, folder, "1")
-    report.main(folder, looped, folder / "report.html")
+    later = folder / "diagnosis" / "suspension_friction" / "verdict.json"
+    later.parent.mkdir()
+    later.write_text(json.dumps(differing.nothing()))
+    diagnosed.main(folder, [later], looped, folder, "1")
+    report.main(folder, [later], looped, folder / "report.html")
     names = [*catalogue.tables(config["sites"]), *catalogue.DIFFERENCE_TABLES, *catalogue.DIAGNOSIS_TABLES]
     expected = {f"{name}{suffix}" for name in names for suffix in table.WRITERS}
     assert {file.name for file in (folder / "tables").iterdir()} == expected
@@ -55,6 +58,8 @@ def test_files_are_those_of_the_catalogue(written, monkeypatch):
     assert {file.name for file in (folder / "figures").iterdir()} == expected
     page = (folder / "report.html").read_text(encoding="utf-8")
     assert page.rstrip().endswith("</html>")
+    again = "diagnosed again, model suspension_friction"
+    assert again in page and again in (folder / "tables" / "verdict.md").read_text(encoding="utf-8")
     assert all(f'id="{place}"' in page for place in ("fig-located_ts1", "tab-verdict", "fig-error_ladder", "tab-error_ladder"))
 
 
@@ -88,7 +93,8 @@ def test_the_score_of_an_earlier_study_does_not_stay_beside_the_verdict_on_real_
     (tmp_path / "tables").mkdir()
     for suffix in table.WRITERS:
         (tmp_path / "tables" / f"standin_score{suffix}").touch()
-    diagnosed.main(folder, {**config, "diagnosed": {"ts1": True, "home": standin}, "scored": False, "switched_on": [], "held": {}}, tmp_path, "1")
+    looped = {**config, "diagnosed": {"ts1": True, "home": standin}, "scored": False, "switched_on": [], "held": {}}
+    diagnosed.main(folder, [], looped, tmp_path, "1")
     names = {file.name.split(".")[0] for file in (tmp_path / "tables").iterdir()}
     assert names == {*catalogue.DIAGNOSIS_TABLES, *(["standin_score"] if standin else [])}
 
