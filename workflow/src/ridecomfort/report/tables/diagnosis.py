@@ -298,6 +298,7 @@ def excluded(found: Diagnosis) -> Table:
     ]
     notes = (
         "Each effect alone, by one step of least squares beside the last model of the search, with all that is calibrated and what alignment leaves open; what was found is in the missing effects. "
+        "One in ten of the intervals leaves out the truth by chance, on long and quiet drives more, since what errs alike in all drives is in none: that one leaves out zero is no finding. "
         "One step takes an effect for linear, as it is while it is small, in the shape that fits best: of stops, clearances and the like it says little. "
         "Without an interval the sizes of an effect are not told from one another; without an estimate no plausible size would show on these drives.",
     )
