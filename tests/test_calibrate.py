@@ -68,6 +68,16 @@ def test_known_parameters_are_recovered_within_their_intervals(fitted):
         assert str(fitted["verdict"].sel(parameter=name).item()) == "identified"
 
 
+def test_simulated_drives_are_taken_as_they_are(road, nominal):
+    """They do not say what they are called, nor by what they were recorded."""
+    run = quarter_cars.run(road, nominal, speed=20.0, end=450.0)
+    run.attrs = {name: value for name, value in run.attrs.items() if name.startswith("sensor")}
+    assert not record.TOLD & run.attrs.keys()
+    task = calibrate.problem([run, run.assign_attrs(role="check")], road, nominal, simulate=quarter_cars.run)
+    assert [again.drive.attrs["name"] for again in task.replays] == ["drive_1"]
+    assert np.isfinite(task.flat(task.point([nominal[name] for name in CALIBRATED]))).all()
+
+
 def test_without_noise_the_truth_is_the_optimum(road, nominal):
     drives = measured(road, nominal.replace(**TRUTH), noise=0.0)
     shaken = ("a_z", "roll_rate", "pitch_rate")  # the rest depends on how the speed is smoothed
