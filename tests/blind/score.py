@@ -37,7 +37,7 @@ SECONDS = 20
 
 def score(draw: Draw, truth: Mapping, table, verdict) -> dict:
     """What a verdict got right, as a row of trials.csv. Where it calls the data suspect it names no effect of the vehicle, whatever it lists."""
-    named = [effect for effect in verdict.effects if verdict.verdict != "suspect" or effect.is_of_measurement]
+    named = verdict.claimed
     found, names = ([effect.name for effect in effects] for effects in (verdict.effects, named))
     likely = set(names).union(*(effect.like for effect in named))
     sizes = [

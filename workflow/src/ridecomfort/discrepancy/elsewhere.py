@@ -46,6 +46,7 @@ def _apart(one: xr.Dataset, other: xr.Dataset, rate: float) -> np.ndarray:
     time, own = one["time"].values, other["time"].values
     place = np.maximum.accumulate(other["s"].values)
     at = np.arange(time[0] + SETTLED, time[-1], 1.0 / rate)
-    at = at[np.interp(at, time, one["s"].values) <= place[-1]]
+    passed = np.interp(at, time, one["s"].values)
+    at, passed = at[passed <= place[-1]], passed[passed <= place[-1]]
     signals = lambda run, instants: CubicSpline(run["time"].values, np.stack([run[name].values for name in SIGNALS]), axis=1)(instants)
-    return signals(one, at) - signals(other, np.interp(np.interp(at, time, one["s"].values), place, own))
+    return signals(one, at) - signals(other, np.interp(passed, place, own))

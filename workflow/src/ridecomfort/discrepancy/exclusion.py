@@ -41,11 +41,11 @@ def of_all(
     The white ``residual`` (element,) and ``columns`` per probe have all projected out that is fitted anyway. One step takes an effect for linear, as
     small sizes are; errors may depend on one another where drives come by the same place (``refit.clustered``).
     """
-    groups = frame.blocks()
-    return tuple(one for name, job in best.items() for one in _of(candidates[name], job, residual, columns, groups))
+    numbers = refit.numbered(frame.blocks())
+    return tuple(one for name, job in best.items() for one in _of(candidates[name], job, residual, columns, numbers))
 
 
-def _of(candidate: Candidate, job: Job, residual: np.ndarray, columns: Mapping[tuple[Job, str], np.ndarray], groups: np.ndarray) -> list[Excluded]:
+def _of(candidate: Candidate, job: Job, residual: np.ndarray, columns: Mapping[tuple[Job, str], np.ndarray], numbers: np.ndarray) -> list[Excluded]:
     sizes = [size for size in candidate.sizes if (job, size.key) in columns]
     rows = np.stack([columns[job, size.key] for size in sizes])
     normal = evidence.product(rows, rows)
@@ -54,7 +54,7 @@ def _of(candidate: Candidate, job: Job, residual: np.ndarray, columns: Mapping[t
     kept = values > ALIKE
     bread = (vectors[:, kept] / values[kept]) @ vectors[:, kept].T / np.outer(unit, unit)
     step = -bread @ evidence.product(rows, residual)
-    covariance, places = refit.clustered(bread, rows, residual + step @ rows, groups, len(sizes), np.zeros_like(bread))
+    covariance, places = refit.clustered(bread, rows, residual + step.astype(rows.dtype) @ rows, numbers, len(sizes), np.zeros_like(bread))
     half = student.ppf(0.5 + CONFIDENCE / 2, max(places - len(sizes), 1)) * np.sqrt(np.diag(covariance))
     told = []
     for size, moved, wide, norm in zip(sizes, step, half if kept.all() else np.full(len(sizes), np.nan), np.sqrt(np.diag(normal))):

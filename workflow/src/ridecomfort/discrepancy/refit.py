@@ -197,7 +197,7 @@ def covariance(
     columns = fit.columns[[fit.keys.index(key) for key in keys]]
     known = np.diag(np.broadcast_to(known, len(keys)))
     bread = np.linalg.pinv(evidence.product(columns, columns) + known, rcond=1e-10, hermitian=True)
-    return clustered(bread, columns, frame.flat(fit.residuals), groups, lost, known)
+    return clustered(bread, columns, frame.flat(fit.residuals), numbered(groups), lost, known)
 
 
 def both_ways(
@@ -213,16 +213,21 @@ def both_ways(
     return over_places, (along - covariance(fit, frame, keys, place * (drive.max() + 1) + drive, 1, known)[0], drives)
 
 
+def numbered(groups: np.ndarray) -> np.ndarray:
+    """Groups (element,) numbered from 0 on, which takes longer than what is done with them."""
+    return np.unique(groups, return_inverse=True)[1]
+
+
 def clustered(
-    bread: np.ndarray, rows: np.ndarray, residual: np.ndarray, groups: np.ndarray, lost: int, known: np.ndarray
+    bread: np.ndarray, rows: np.ndarray, residual: np.ndarray, numbers: np.ndarray, lost: int, known: np.ndarray
 ) -> tuple[np.ndarray, int]:
     """Covariance (size, size) of sizes whose columns are ``rows`` (size, element), and the number of groups it rests on.
 
-    Sandwich estimator: errors of one group (element,) may depend on one another in any way (Cameron and Miller 2015, eq. 11).
+    Sandwich estimator: errors of one group, whose ``numbers`` (element,) are ``numbered``, may depend on one another in any way (Cameron and
+    Miller 2015, eq. 11).
     ``bread``: inverse of the products of the rows and what is ``known`` (size, size), the precision of what is known of the sizes
     beforehand. ``lost``: groups that the fit has used up.
     """
-    numbers = np.unique(groups, return_inverse=True)[1]
     sums = np.stack([np.bincount(numbers, row * residual) for row in rows])
     used = int(np.sum(np.any(sums != 0, axis=0)))
     factor = used / max(used - lost, 1)

@@ -79,7 +79,7 @@ class _Estimate:
     def __call__(self, job: tuple[Mapping, Seen]) -> _Curve:
         columns, seen = job
         count = len(AXLES) * len(seen.knots)
-        blocks = np.unique(self.frame.blocks(), return_inverse=True)[1]
+        blocks = refit.numbered(self.frame.blocks())
         nothing = _Curve(*np.full((3, count), np.nan), 0.0)
         if not columns:
             return nothing

@@ -135,6 +135,11 @@ class Verdict:
         return " ".join([first_sentence({**self.json(), "proposal": {"form": form}}, names), *map(sentence, self.reasons)])
 
 
+def claimed_of(said: Mapping) -> list[Mapping]:
+    """``Verdict.claimed`` of a verdict as ``Verdict.json`` gives it."""
+    return [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
+
+
 def kind_of(effects: Sequence[Named]) -> str:
     """What effects that explain enough are: a "cluster" where one has others like it, and where all are open: what may as well be none may
     as well be something else."""

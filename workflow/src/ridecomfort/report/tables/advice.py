@@ -8,7 +8,7 @@ from pathlib import Path
 from ...discrepancy.balance import ENOUGH, LITTLE
 from ...discrepancy.confirm import EQUAL
 from ...discrepancy.explain import NIL
-from ...discrepancy.verdict import SMALL, at_most, is_file_alone, is_of_little, is_vehicle_first, left_without, told_beyond
+from ...discrepancy.verdict import SMALL, at_most, claimed_of, is_file_alone, is_of_little, is_vehicle_first, left_without, told_beyond
 from ...effects import library
 from ...schema import as_written, as_yaml
 from ...vehicle.parameters import PARAMETERS
@@ -103,7 +103,7 @@ def next_step(found: Diagnosis) -> str:
         before += FLOOR_FIRST if found.ranking.attrs.get("floor") == NIL else ""
         return before + _outside(found, proposal, own, named)
     if said["verdict"] == "suspect":
-        wrong = [effect["name"] for effect in said["effects"] if effect.get("is_of_measurement")]
+        wrong = [effect["name"] for effect in claimed_of(said)]
         return NEXT["suspect"] + (SAME_ERROR.format(keys=", ".join([*own, *wrong])) if wrong else "")
     before += WITH_VEHICLE if is_vehicle_first(said) else ""
     before += _may_end(said, said)

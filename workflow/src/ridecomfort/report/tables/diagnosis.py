@@ -15,7 +15,7 @@ from ...discrepancy.meanings import such_as
 from ...discrepancy.places import PLACES
 from ...discrepancy.propose import HELD_OUT_Z
 from ...discrepancy.terms import SIDE
-from ...discrepancy.verdict import first_sentence, is_vehicle_first, percent, sentence, told_beyond
+from ...discrepancy.verdict import claimed_of, first_sentence, is_vehicle_first, percent, sentence, told_beyond
 from ...identifiability import AT_BOUND
 from ...study import BASE, JOIN
 from .. import catalogue
@@ -68,7 +68,7 @@ def _promise(proposal: Mapping) -> str:
 def verdict(found: Diagnosis) -> Table:
     """The verdict in words: what it is, why, and what to do next."""
     said = found.verdict
-    told = _claimed(said)
+    told = claimed_of(said)
     names = [_alike(effect) for effect in told]
     proposal, beyond = said.get("proposal") or {}, said.get("beyond_bounds")
     first = first_sentence(said, names)
@@ -122,14 +122,9 @@ def _beside_held(effect: Mapping) -> str:
     return f" Found with {', '.join(told)} held: with another value these sizes and intervals may be others." if told else ""
 
 
-def _claimed(said: Mapping) -> list[Mapping]:
-    """The effects that a verdict says are there."""
-    return [effect for effect in said["effects"] if said["verdict"] != "suspect" or effect.get("is_of_measurement")]
-
-
 def _again(said: Mapping) -> str:
     """What a later verdict says of the model with what was named switched on."""
-    told = f"{first_sentence(said, [_alike(effect) for effect in _claimed(said)])} ({said['verdict']})"
+    told = f"{first_sentence(said, [_alike(effect) for effect in claimed_of(said)])} ({said['verdict']})"
     if said["verdict"] in ("named", "cluster"):
         return f"{told} This takes {percent(said['share'])} of what is explainable then{_checked(said)}."
     return f"{told} {advice.left(said)}" if said["verdict"] == "nothing" else told
