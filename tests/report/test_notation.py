@@ -39,6 +39,7 @@ def test_symbols_and_units_of_the_vocabulary():
     assert notation.signal("a_z") == "$a_z$" and notation.signal("pitch_rate") == "pitch rate"
     assert notation.unit("m/s2") == "m/s²"
     assert notation.unit("m/km") == "m/km"
+    assert [notation.unit(name) for name in ("1", "m2", "kg m2", "rad/s2", "1/rad2", "m/s1.75")] == ["-", "m²", "kg m²", "rad/s²", "1/rad²", "m/s1.75"]
 
 
 def test_every_term_of_a_force_is_written_without_python():

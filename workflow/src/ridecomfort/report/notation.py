@@ -36,8 +36,8 @@ SYMBOLS = {
 METHODS = {"thresholds": "thresholding", "iso2631": "ISO 2631", "iri": "IRI"}
 """How the paper calls the comfort methods."""
 
-UNITS = {"m/s2": "m/s²", "N/m": "N/m", "N s/m": "N s/m", "1": "-", "rad/s": "rad/s", "1/m": "1/m"}
-"""Units of the files as they are printed; any other unit is printed as it is."""
+POWERS = {"2": "²", "3": "³"}
+"""Whole powers of a unit of the files as they are printed."""
 
 _COMMANDS = {
     r"\Phi": "Φ",
@@ -125,7 +125,7 @@ def formula(text: str) -> str:
 
 def unit(name: str) -> str:
     """A unit of the files as it is printed."""
-    return UNITS.get(name, name)
+    return "-" if name == "1" else re.sub(r"(?<=[a-z])([23])(?![.\d])", lambda found: POWERS[found[1]], name)
 
 
 def literal(text: str) -> str:
