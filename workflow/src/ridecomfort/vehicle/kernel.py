@@ -87,6 +87,9 @@ none at touch-down, so that the load does not jump (Hunt and Crossley 1975, J. A
 
 PER_CONTACT_DEPTH = 1.0 / CONTACT_DEPTH
 
+PROBE = 1e-6
+"""A slip so small that the change of what a tyre answers to is in proportion."""
+
 GRADE_LENGTH = 20.0
 """m of road whose grade the speed controller knows of at the start."""
 
@@ -124,6 +127,7 @@ def _drive(
     wheel_z, wheel_v, wheel_change, spin, spin_change, rotation = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     force_x, force_y, load, torque, suspension = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     travel_rate, recession, toe, scrub, fore_push, side_push = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    gripped, fore, spin_changed = zeros(4), zeros(4), zeros(4)
     ground, before, surging = zeros(4, 4), zeros(6), zeros(6)
     half = 0.5 * step
     _settle(
@@ -169,11 +173,11 @@ def _drive(
         )  # fmt: skip
         _planar(
             car, wheels, now, surging, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
-            friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
+            friction, step, parameters, states, slopes, torque, force_x, force_y, side_push, gripped, spin_changed,
         )  # fmt: skip
         flex_x, flex_y, flex_z = _accelerate(
-            car, wheels, pose, now, slope_x, slope_y, change, wheel_change, recession, scrub, load, force_x, force_y, torque,
-            suspension, fore_push, side_push, sensor, parameters, states, slopes,
+            car, wheels, pose, now, surging, slope_x, slope_y, change, wheel_change, recession, scrub, load, force_x, force_y, torque,
+            suspension, fore, fore_push, side_push, sensor, parameters, states, slopes,
         )  # fmt: skip
 
         sensor_acceleration(felt, sensor, pose, now, change)
@@ -192,7 +196,8 @@ def _drive(
         for i in range(4):
             wheel_v[i] += step * wheel_change[i]
             wheel_z[i] += step * wheel_v[i]
-        _advance(step, curvature, pose, pose_rate, speeds, change)
+        index, fraction = _locate(surface, targets, pose[S] + half * pose_rate[0])
+        _advance(step, _target(targets, index, fraction, CURVATURE), pose, pose_rate, speeds, change)
         for k in range(len(states)):
             states[k] += step * (23.0 * slopes[k] - 16.0 * slopes_before[k] + 5.0 * slopes_earlier[k]) / 12.0
             slopes_earlier[k] = slopes_before[k]
@@ -360,20 +365,20 @@ def _vertical(
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _planar(
     car, wheels, now, surging, travel_rate, recession, toe, scrub, ground, slope_x, load, spin, spin_change, rotation, angle, demand,
-    friction, step, parameters, states, slopes, torque, force_x, force_y, side_push,
+    friction, step, parameters, states, slopes, torque, force_x, force_y, side_push, gripped, spin_changed,
 ):  # fmt: skip
     """Driving torque of every wheel and force of its tyre along the road; their spin is advanced.
 
     ``surging``: the acceleration of the body, carried on. ``side_push``: the side force carried on to the next step.
+    ``gripped``: the longitudinal force of the tyre in the step before, but for what effects pull; ``spin_changed``: the change of spin before that.
     """
     sine, cosine = sin_cos(angle)
     half = 0.5 * step
     per_two_steps = 0.5 / step
-    per_radius = 1.0 / car.tyre_radius
     share_front = car.drive_share_front if demand > 0.0 else car.brake_share_front
     ahead, aside, share = zeros(4), zeros(4), zeros(4)
-    c, d, rolling, per_speed, pushed = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
-    slip_x, slip_y, slope, pull, surge = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    c, d, rolling, per_speed, carried = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
+    slip_x, slip_y, slope, pull, surge, answer = zeros(4), zeros(4), zeros(4), zeros(4), zeros(4), zeros(4)
     for i in range(4):
         ahead[i] = cosine if i < 2 else 1.0
         aside[i] = sine if i < 2 else 0.0
@@ -388,28 +393,38 @@ def _planar(
         sliding = across * c[i] - along * d[i]
         per_speed[i] = 1.0 / max(abs(rolling[i]), MINIMUM_SPEED)
         slope[i] = (ground[0, i] - ground[2, i]) * per_speed[i] * per_two_steps - slope_x
-        pushed[i] = (torque[i] - car.spin_inertia * spin_change[i]) * per_radius
-        slip_x[i] = (spin[i] * car.tyre_radius - rolling[i]) * per_speed[i]
+        # Its spin now, as the two steps before carry it on; of one alone, the force of a sliding tyre would swing from step to step.
+        mean = 0.5 * (spin_change[i] + spin_changed[i])
+        carried[i] = mean if spin[i] + half * mean > 0.0 else 0.0
+        spin_changed[i] = spin_change[i]
+        slip_x[i] = ((spin[i] + half * carried[i]) * car.tyre_radius - rolling[i]) * per_speed[i]
         slip_y[i] = -sliding * per_speed[i]
         surge[i] = surging[V_X] - now[YAW_RATE] * now[V_Y] - wheels[Y, i] * surging[YAW_RATE] - car.pitch_arm * surging[PITCH_RATE]
     for i in range(4):
+        # How much of a change of slip the tyre answers to at once: none behind a lag.
+        probed = tyre_planar_port(
+            i, slip_x[i] + PROBE, slip_y[i], load[i], rolling[i], slope[i], gripped[i], surge[i], parameters, states, slopes,
+        )[0]  # fmt: skip
         slip_x[i], slip_y[i], pull[i] = tyre_planar_port(
-            i, slip_x[i], slip_y[i], load[i], rolling[i], slope[i], pushed[i], surge[i], parameters, states, slopes,
+            i, slip_x[i], slip_y[i], load[i], rolling[i], slope[i], gripped[i], surge[i], parameters, states, slopes,
         )  # fmt: skip
+        answer[i] = min(max((probed - slip_x[i]) / PROBE, 0.0), 1.0)
     for i in range(4):
         tyre_x, tyre_y, give = brush(slip_x[i], slip_y[i], load[i], friction, car.slip_per_load, car.cornering_per_load)
         torque[i] = 0.5 * share[i] * demand * car.tyre_radius
-        # Spin and slip force half a step on, implicit: slip answers fast at low speed.
-        grip = half * give * car.tyre_radius * car.slip_per_load * load[i] * per_speed[i]
+        # What the spin changes otherwise than before is taken implicitly: slip answers fast at low speed.
+        grip = half * answer[i] * give * car.tyre_radius * car.slip_per_load * load[i] * per_speed[i]
+        tyre_x -= grip * carried[i]
         spin_change[i] = (torque[i] - car.tyre_radius * tyre_x) / (car.spin_inertia + car.tyre_radius * grip)
         # A brake stops a wheel and holds it: it does not turn it back.
         stops = demand < 0.0 and spin[i] + step * spin_change[i] < 0.0
         spin_change[i] = -spin[i] / step if stops else spin_change[i]
         tyre_x += grip * spin_change[i]
         torque[i] = car.spin_inertia * spin_change[i] + car.tyre_radius * tyre_x if stops else torque[i]
-        tyre_x += pull[i]
+        gripped[i] = tyre_x
         spin[i] += step * spin_change[i]
         rotation[i] += step * spin[i]
+        tyre_x += pull[i]
         force_x[i] = tyre_x * c[i] - tyre_y * d[i]
         side = tyre_x * d[i] + tyre_y * c[i]
         side_push[i] = 2.0 * side - force_y[i]
@@ -418,8 +433,8 @@ def _planar(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _accelerate(
-    car, wheels, pose, now, slope_x, slope_y, change, wheel_change, recession, scrub, load, force_x, force_y, torque,
-    suspension, fore_push, side_push, sensor, parameters, states, slopes,
+    car, wheels, pose, now, surging, slope_x, slope_y, change, wheel_change, recession, scrub, load, force_x, force_y, torque,
+    suspension, fore, fore_push, side_push, sensor, parameters, states, slopes,
 ):  # fmt: skip
     """Time derivatives of the speeds from the forces and moments on the body, through the mass matrix.
 
@@ -429,10 +444,12 @@ def _accelerate(
     x = y = z = roll = pitch = yaw = 0.0
     for i in range(4):
         # A wheel that moves back as it rises pushes the body forward by its inertia.
-        rising = wheel_change[i] - change[V_Z] + wheels[X, i] * change[PITCH_RATE] - wheels[Y, i] * change[ROLL_RATE]
+        rising = wheel_change[i] - surging[V_Z] + wheels[X, i] * surging[PITCH_RATE] - wheels[Y, i] * surging[ROLL_RATE]
         push = force_x[i] + recession[i] * wheels[MASS, i] * rising
         # On a slope the tyre bears the wheel's weight, too, and the links do not. Its inertia aside is in the mass matrix.
-        fore_push[i] = push - wheels[MASS, i] * (change[V_X] - car.pitch_arm * change[PITCH_RATE] + STANDARD_GRAVITY * slope_x)
+        held_fore = push - wheels[MASS, i] * (surging[V_X] - car.pitch_arm * surging[PITCH_RATE] + STANDARD_GRAVITY * slope_x)
+        fore_push[i] = 2.0 * held_fore - fore[i]
+        fore[i] = held_fore
         side_push[i] -= wheels[MASS, i] * STANDARD_GRAVITY * slope_y
         # The road pushes along its normal: on a slope the load has a level part.
         push -= load[i] * slope_x
@@ -478,11 +495,12 @@ def _accelerate(
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
 def _advance(step, curvature, pose, pose_rate, speeds, change):
-    """Speeds and then the pose one step on; the rates of place and heading are kept."""
+    """Speeds and then the pose one step on; the rates of place and heading are kept. ``curvature``: half a step on."""
+    half = 0.5 * step
     for k in range(6):
         speeds[k] += step * change[k]
-    sine, cosine = sin_cos(pose[HEADING] + 0.5 * step * pose_rate[2])
-    progress = (speeds[V_X] * cosine - speeds[V_Y] * sine) / (1.0 - curvature * pose[E])
+    sine, cosine = sin_cos(pose[HEADING] + half * pose_rate[2])
+    progress = (speeds[V_X] * cosine - speeds[V_Y] * sine) / (1.0 - curvature * (pose[E] + half * pose_rate[1]))
     drift = speeds[V_X] * sine + speeds[V_Y] * cosine
     turn = speeds[YAW_RATE] - curvature * progress
     pose[S] += step * progress

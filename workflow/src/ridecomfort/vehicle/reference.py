@@ -34,7 +34,8 @@ h_roll / y, and that mass, at the height of the centre, by R / y.
 
 Time: leapfrog. Positions at full steps, speeds half a step later; where a force depends on a
 speed, the speed is carried half a step on with the last acceleration, except that of the
-wheels up and down and in spin, which are solved for (their damping is stiff). The push of the
+wheels up and down and in spin, which are solved for (their damping is stiff; of the spin, its
+change since the two steps before). The curvature is that half a step on. The push of the
 links takes the side force carried on from the step before, a wheel's inertia aside the body's last acceleration.
 """
 
@@ -146,7 +147,7 @@ def drive(
     rise = height(surface, elevation, s + GRADE_LENGTH, e) - height(surface, elevation, s, e)
     integral = STANDARD_GRAVITY * rise / GRADE_LENGTH / driver.SPEED_INTEGRAL_GAIN
     acceleration, wheel_acceleration, side = np.zeros(6), np.zeros(4), np.zeros(4)
-    side_push = np.zeros(4)
+    side_push, spin_change, spin_change_before = np.zeros(4), np.zeros(4), np.zeros(4)
     rates = np.array([speed, 0.0, 0.0])
     records, sensed = [], []
 
@@ -197,7 +198,9 @@ def drive(
         rolling = along * np.cos(steer) + across * np.sin(steer)
         sliding = across * np.cos(steer) - along * np.sin(steer)
         base = np.maximum(np.abs(rolling), MINIMUM_SPEED)
-        grip_x = car.slip * (spin * car.radius - rolling) / base / mu
+        carried = (spin_change + spin_change_before) / 2
+        carried = np.where(spin + step / 2 * carried > 0, carried, 0.0)
+        grip_x = car.slip * ((spin + step / 2 * carried) * car.radius - rolling) / base / mu
         grip_y = -car.cornering * sliding / base / mu
         total = np.hypot(grip_x, grip_y)
         share = np.where(total < 3, 1 - total / 3 + total**2 / 27, 1 / np.maximum(total, 3))
@@ -205,6 +208,8 @@ def drive(
         torque = (car.drive if demand > 0 else car.brake) * demand * car.radius
         give = np.where(total < 3, (1 - total / 3) ** 2, 0.0)
         stiffness = step / 2 * give * car.radius * car.slip * load / base
+        tyre_x = tyre_x - stiffness * carried
+        spin_change_before = spin_change
         spin_change = (torque - car.radius * tyre_x) / (car.spin_inertia + car.radius * stiffness)
         stops = (demand < 0) & (spin + step * spin_change < 0)
         spin_change = np.where(stops, -spin / step, spin_change)
@@ -258,7 +263,9 @@ def drive(
         wheel_z = wheel_z + step * wheel_v
         q = q + step * acceleration
         middle_heading = heading + step / 2 * rates[2]
-        progress = (q[0] * np.cos(middle_heading) - q[1] * np.sin(middle_heading)) / (1 - curvature * e)
+        curvature = target(s + step / 2 * rates[0], 2)
+        bend = curvature * (e + step / 2 * rates[1])
+        progress = (q[0] * np.cos(middle_heading) - q[1] * np.sin(middle_heading)) / (1 - bend)
         drift = q[0] * np.sin(middle_heading) + q[1] * np.cos(middle_heading)
         rates = np.array([progress, drift, q[2] - curvature * progress])
         s, e, heading = s + step * rates[0], e + step * rates[1], heading + step * rates[2]
