@@ -166,6 +166,20 @@ def test_samples_that_stand_alone_are_told_and_bumps_of_the_road_are_not():
     assert faults.found(signals(bumps)) == []
 
 
+@pytest.mark.parametrize("shakes", [0.0, 1.0])
+def test_a_sample_that_a_blow_makes_stand_alone_is_told_unless_the_body_is_shaken_there(shakes):
+    """A car in braking over a joint: one sample of a_x, while a_z goes on for some."""
+
+    def blow(name, values):
+        for place in (700, 1500, 5200):
+            values[place] += 4.0 * (name == "a_x")
+            values[place - 2 : place + 5] += shakes * np.array([0.2, -0.6, -1.1, 0.5, 0.6, 0.2, -0.1]) * (name == "a_z")
+        return values
+
+    said = faults.found(signals(blow))
+    assert said == ([] if shakes else ["a_x: 3 samples stand alone, far from those before and behind, the first at 7.00 s: were they transmitted wrongly?"])
+
+
 def test_a_signal_that_never_changes_shows_nothing():
     assert faults.found(signals(lambda name, values: np.zeros_like(values))) == []
 

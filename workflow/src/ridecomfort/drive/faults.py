@@ -44,9 +44,10 @@ AGAIN, EVEN = 0.15, 0.99
 changes are COARSE; and share of stretches without a change that then last the mean or the sample beside it: where a calm road leaves values
 equal by chance, some last longer."""
 
-ALONE, FARTHER, SPIKES = 20.0, 4.0, 3
+ALONE, FARTHER, SPIKES, SHAKEN = 20.0, 4.0, 3, 4.0
 """Times the median distance of a sample from the middle of its neighbours, and times the changes around it, that one which stands alone is
-away from these; and how many there are at least."""
+away from these; how many there are at least; and times the median by which another signal changes around one that a blow has made: an edge
+that a wheel meets in braking is felt for a sample along the road, and for some up and down."""
 
 FALLS, LOST = 0.5, 3
 """Share of standard gravity that a_z holds on average from which on one of exactly 0 is lost, if those before and behind hold so much: no body falls and
@@ -80,7 +81,8 @@ def found(quantities: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> list[str]:
         if not stays and not again[name]:
             own = _held(_holds(time, values, np.diff(values) == 0.0, step, quantities), frozen)
             held, stays = [*held, *own], [_in_words(own)] if own else []
-        for words in (*(stays or [again[name]]), _alone(time, values) or wild):
+        others = [signals[other] for other in SIGNALS if other != name]
+        for words in (*(stays or [again[name]]), _alone(time, values, others) or wild):
             said.setdefault(words, []).append(name)
     if lost and (unheld := lost.beside(held)):
         said.setdefault(unheld.words(), []).extend(unheld.names)
@@ -218,15 +220,25 @@ def _in_words(holds: Sequence[_Hold]) -> str:
     return f"a value is held for up to {longest.samples} samples in {len(holds)} places, the first at {holds[0].begin:.2f} s: was the record interrupted?"
 
 
-def _alone(time: np.ndarray, values: np.ndarray) -> str:
-    """Where one sample is far from all around it, as no vehicle moves."""
-    before, after = values[1:-3], values[3:-1]
-    away = np.abs(values[2:-2] - 0.5 * (before + after))
-    around = np.max(np.abs([after - before, before - values[:-4], values[4:] - after]), axis=0, initial=0.0)
-    places = np.flatnonzero((away > ALONE * np.median(away)) & (away > FARTHER * around)) + 2
+def _alone(time: np.ndarray, values: np.ndarray, others: Sequence[tuple[np.ndarray, np.ndarray]]) -> str:
+    """Where one sample is far from all around it and none of the ``others`` (time, values) is shaken there, as no vehicle moves."""
+    away = np.abs(values[2:-2] - 0.5 * (values[1:-3] + values[3:-1]))
+    places = np.flatnonzero((away > ALONE * np.median(away)) & (away > FARTHER * _around(values))) + 2
+    if places.size < SPIKES:
+        return ""
+    for its_time, its_values in others:
+        changes = _around(its_values)
+        there = np.clip(np.searchsorted(its_time, time[places]) - 2, 0, changes.size - 1)
+        places = places[changes[there] <= SHAKEN * np.median(changes)]
     if places.size < SPIKES:
         return ""
     return f"{places.size} samples stand alone, far from those before and behind, the first at {time[places[0]]:.2f} s: were they transmitted wrongly?"
+
+
+def _around(values: np.ndarray) -> np.ndarray:
+    """The largest change beside every sample but the first and last two, itself left out."""
+    before, after = values[1:-3], values[3:-1]
+    return np.max(np.abs([after - before, before - values[:-4], values[4:] - after]), axis=0, initial=0.0)
 
 
 def _wild(time: np.ndarray, values: np.ndarray) -> str:
