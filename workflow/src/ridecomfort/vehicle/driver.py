@@ -8,6 +8,7 @@ from numba import njit
 from scipy.ndimage import minimum_filter1d
 
 from ..errors import InputError
+from .motion import SPEED
 
 CURVATURE_LENGTH = 10.0
 """m over which the curvature of a reference line is averaged: what a driver takes for the bend."""
@@ -130,6 +131,31 @@ def acceleration_demand(speed, target, target_ahead, distance_ahead, integral):
     """
     profile = target * (target_ahead - target) / distance_ahead
     return profile + SPEED_GAIN * (target - speed) + SPEED_INTEGRAL_GAIN * integral
+
+
+@njit(forceinline=True, error_model="numpy", _nrt=False)
+def locate(surface, targets, s):
+    """Cell of the targets (u, 3) at s in m, and how far into it."""
+    place = (s - surface.u0) * surface.per_u
+    index = min(max(int(place), 0), targets.shape[0] - 2)
+    return index, min(max(place - index, 0.0), 1.0)
+
+
+@njit(forceinline=True, error_model="numpy", _nrt=False)
+def target_at(targets, index, fraction, column):
+    """A column of the targets (u, 3) at what ``locate`` found."""
+    return targets[index, column] + fraction * (targets[index + 1, column] - targets[index, column])
+
+
+@njit(forceinline=True, error_model="numpy", _nrt=False)
+def speed_control(car, surface, targets, index, fraction, s, v_x, pace, integral, step):
+    """Force in N that the driver asks for, and the integral of the speed error in m."""
+    target = target_at(targets, index, fraction, SPEED)
+    distance = SPEED_PREVIEW_TIME * pace
+    index, fraction = locate(surface, targets, s + distance)
+    ahead = target_at(targets, index, fraction, SPEED)
+    integral += step * (target - v_x)
+    return car.total_mass * acceleration_demand(v_x, target, ahead, distance, integral), integral
 
 
 def speed_demand(change: np.ndarray, interval: float) -> np.ndarray:

@@ -26,3 +26,11 @@ def height(surface, elevation, u, v):
     if surface.smooth:
         return cubic(elevation, 0.0, 1.0, 0.0, 1.0, i, j)
     return linear(elevation, 0.0, 1.0, 0.0, 1.0, i, j)
+
+
+@njit(forceinline=True, error_model="numpy", _nrt=False)
+def plane_slopes(car, ground):
+    """Slopes, forward and to the left, of the plane through the heights under the wheels."""
+    front, rear = ground[0] + ground[1], ground[2] + ground[3]
+    across = (ground[0] - ground[1]) * car.per_track_front + (ground[2] - ground[3]) * car.per_track_rear
+    return 0.5 * (front - rear) * car.per_wheelbase, 0.5 * across

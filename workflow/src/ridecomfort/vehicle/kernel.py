@@ -47,8 +47,8 @@ from ridecomfort.vehicle.constants import (
     X,
     Y,
 )
-from ridecomfort.vehicle.driver import SPEED_INTEGRAL_GAIN, SPEED_PREVIEW_TIME, acceleration_demand, steering
-from ridecomfort.vehicle.ground import height
+from ridecomfort.vehicle.driver import SPEED_INTEGRAL_GAIN, locate, speed_control, steering, target_at
+from ridecomfort.vehicle.ground import height, plane_slopes
 from ridecomfort.vehicle.motion import (
     CURVATURE,
     HEADING,
@@ -145,23 +145,23 @@ def _drive(
     while pose[S] < end and speeds[V_X] > STANDSTILL and steps < room:
         for k in range(6):
             now[k] = speeds[k] + half * change[k]
-        index, fraction = _locate(surface, targets, pose[S])
-        curvature = _target(targets, index, fraction, CURVATURE)
+        index, fraction = locate(surface, targets, pose[S])
+        curvature = target_at(targets, index, fraction, CURVATURE)
         pace = max(now[V_X], MINIMUM_SPEED)
 
-        demand, integral = _speed_control(
+        demand, integral = speed_control(
             car, surface, targets, index, fraction, pose[S], now[V_X], pace, integral, step
         )
         demand = drive_port(demand, now[V_X], parameters, states, slopes)
         course = pose[HEADING] + now[V_Y] / pace
-        lateral = _target(targets, index, fraction, LATERAL)
+        lateral = target_at(targets, index, fraction, LATERAL)
         angle = steering(pose[E], course, pace, lateral, curvature, car.wheelbase)
         angle = steer_port(angle, now[V_X], force_y[0] + force_y[1], parameters, states, slopes)
 
         _feel(
             wheels, surface, elevation, pose, pose_rate, curvature, step, spin, rotation, parameters, states, slopes, ground
         )
-        slope_x, slope_y = _plane(car, ground[1])
+        slope_x, slope_y = plane_slopes(car, ground[1])
         # The acceleration of the body, carried on: that of the step before would make wheels on soft bushings swing.
         for k in range(6):
             surging[k] = 2.0 * change[k] - before[k]
@@ -196,8 +196,8 @@ def _drive(
         for i in range(4):
             wheel_v[i] += step * wheel_change[i]
             wheel_z[i] += step * wheel_v[i]
-        index, fraction = _locate(surface, targets, pose[S] + half * pose_rate[0])
-        _advance(step, _target(targets, index, fraction, CURVATURE), pose, pose_rate, speeds, change)
+        index, fraction = locate(surface, targets, pose[S] + half * pose_rate[0])
+        _advance(step, target_at(targets, index, fraction, CURVATURE), pose, pose_rate, speeds, change)
         for k in range(len(states)):
             states[k] += step * (23.0 * slopes[k] - 16.0 * slopes_before[k] + 5.0 * slopes_earlier[k]) / 12.0
             slopes_earlier[k] = slopes_before[k]
@@ -206,35 +206,15 @@ def _drive(
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
-def _locate(surface, targets, s):
-    place = (s - surface.u0) * surface.per_u
-    index = min(max(int(place), 0), targets.shape[0] - 2)
-    return index, min(max(place - index, 0.0), 1.0)
-
-
-@njit(forceinline=True, error_model="numpy", _nrt=False)
-def _target(targets, index, fraction, column):
-    return targets[index, column] + fraction * (targets[index + 1, column] - targets[index, column])
-
-
-@njit(forceinline=True, error_model="numpy", _nrt=False)
-def _plane(car, ground):
-    """Slopes, forward and to the left, of the plane through the heights under the wheels."""
-    front, rear = ground[0] + ground[1], ground[2] + ground[3]
-    across = (ground[0] - ground[1]) * car.per_track_front + (ground[2] - ground[3]) * car.per_track_rear
-    return 0.5 * (front - rear) * car.per_wheelbase, 0.5 * across
-
-
-@njit(forceinline=True, error_model="numpy", _nrt=False)
 def _settle(
     car, wheels, surface, elevation, targets, start, step, parameters, states, slopes,
     pose, pose_rate, speeds, wheel_z, wheel_v, spin, rotation, ground,
 ):  # fmt: skip
     """Begin at rest on the springs, moving along the plane under the wheels."""
-    index, fraction = _locate(surface, targets, start)
-    curvature = _target(targets, index, fraction, CURVATURE)
-    speed = _target(targets, index, fraction, SPEED)
-    pose[S], pose[E] = start, _target(targets, index, fraction, LATERAL)
+    index, fraction = locate(surface, targets, start)
+    curvature = target_at(targets, index, fraction, CURVATURE)
+    speed = target_at(targets, index, fraction, SPEED)
+    pose[S], pose[E] = start, target_at(targets, index, fraction, LATERAL)
     pose_rate[0] = speed
     for back in range(3, 0, -1):
         pose[S] = start - back * step * speed
@@ -242,7 +222,7 @@ def _settle(
             wheels, surface, elevation, pose, pose_rate, curvature, step, spin, rotation, parameters, states, slopes, ground
         )
     pose[S] = start
-    slope_x, slope_y = _plane(car, ground[0])
+    slope_x, slope_y = plane_slopes(car, ground[0])
     middle = 0.0
     for i in range(4):
         middle += 0.25 * (ground[0, i] - wheels[X, i] * slope_x - wheels[Y, i] * slope_y)
@@ -253,17 +233,6 @@ def _settle(
         wheel_z[i] = plane + car.tyre_radius - wheels[STATIC_DEFLECTION, i]
         wheel_v[i] = slope_x * speed
         spin[i] = speed / car.tyre_radius
-
-
-@njit(forceinline=True, error_model="numpy", _nrt=False)
-def _speed_control(car, surface, targets, index, fraction, s, v_x, pace, integral, step):
-    """Force in N that the driver asks for, and the integral of the speed error in m."""
-    target = _target(targets, index, fraction, SPEED)
-    distance = SPEED_PREVIEW_TIME * pace
-    index, fraction = _locate(surface, targets, s + distance)
-    ahead = _target(targets, index, fraction, SPEED)
-    integral += step * (target - v_x)
-    return car.total_mass * acceleration_demand(v_x, target, ahead, distance, integral), integral
 
 
 @njit(forceinline=True, error_model="numpy", _nrt=False)
