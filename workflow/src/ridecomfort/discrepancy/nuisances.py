@@ -69,11 +69,16 @@ def directions(
 
 def slow(amounts: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """By how much amounts (direction,) put the clock later (s) and the path farther left (m) at every ``place`` (m), each (sample,)."""
-    clock = _splines(place, place, _pieces(place, KNOTS))
-    count = len(amounts) + BETWEEN - len(clock)
-    path = _splines(place, place, count - DEGREE)
-    sized = amounts * _usual(len(clock), count)
-    return sized[: len(clock)] @ clock, sized[len(clock) : BETWEEN] @ path
+    first, count = path_among(len(amounts), place)
+    clock, path = (_splines(place, place, splines - DEGREE) for splines in (first, count))
+    sized = amounts * _usual(first, count)
+    return sized[:first] @ clock, sized[first:BETWEEN] @ path
+
+
+def path_among(count: int, place: np.ndarray) -> tuple[int, int]:
+    """Number of the first of ``count`` nuisances of a record with these places (m) that is an error of its path, and how many are."""
+    first = _pieces(place, KNOTS) + DEGREE
+    return first, count + BETWEEN - first
 
 
 def between(amounts: np.ndarray) -> float:
