@@ -180,6 +180,12 @@ def test_a_sample_that_a_blow_makes_stand_alone_is_told_unless_the_body_is_shake
     assert said == ([] if shakes else ["a_x: 3 samples stand alone, far from those before and behind, the first at 7.00 s: were they transmitted wrongly?"])
 
 
+def test_a_signal_that_mostly_rests_does_not_excuse_a_sample_that_stands_alone():
+    near = np.isin(np.arange(TIME.size), [place + k for place in (700, 1500, 5200) for k in (-2, -1, 0, 1)])
+    wrong = lambda name, values: 0.01 * near if name == "a_z" else values + 4.0 * (name == "a_x") * np.isin(np.arange(TIME.size), (700, 1500, 5200))
+    assert any("a_x: 3 samples stand alone" in words for words in faults.found(signals(wrong)))
+
+
 def test_a_signal_that_never_changes_shows_nothing():
     assert faults.found(signals(lambda name, values: np.zeros_like(values))) == []
 

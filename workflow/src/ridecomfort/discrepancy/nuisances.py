@@ -23,7 +23,7 @@ one makes evidence for whatever pushes (lift, cross-wind), and sizes too small a
 PATH_KNOTS = 12.0
 """m between those of a path of which is known what moving aside does to the signals. A path that is 2 mm off over 50 m, as the roughness of a road
 leaves it, accelerates a car aside by ten times the noise of an instrument, in every repeat alike: of a stand-in car a relaxation length came
-out 2.2 % short by that, and springs that harden 2.9 % too much (0.7 and 0.2 % with these)."""
+out 2.2 % short by that, and springs that harden 2.9 % too much (0.8 and 0.2 % with these)."""
 
 FORGOTTEN = 1e-4
 """Share of the largest change that a path makes below which none counts: it is made along a part of the road only."""

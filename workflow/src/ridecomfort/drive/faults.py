@@ -229,7 +229,8 @@ def _alone(time: np.ndarray, values: np.ndarray, others: Sequence[tuple[np.ndarr
     for its_time, its_values in others:
         changes = _around(its_values)
         there = np.clip(np.searchsorted(its_time, time[places]) - 2, 0, changes.size - 1)
-        places = places[changes[there] <= SHAKEN * np.median(changes)]
+        usual = np.median(changes)
+        places = places[changes[there] <= SHAKEN * usual] if usual > 0 else places  # one that rests tells nothing
     if places.size < SPIKES:
         return ""
     return f"{places.size} samples stand alone, far from those before and behind, the first at {time[places[0]]:.2f} s: were they transmitted wrongly?"
