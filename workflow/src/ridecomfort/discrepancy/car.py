@@ -111,10 +111,9 @@ class Car:
         """What alignment and the road's file leave open of a record, (direction, 6, sample)."""
         again = self.replays[index]
         vehicle, effects = with_values(self.vehicle, self.effects, values)
-        simulated, otherwise = self.simulated(values, index), self._otherwise(again, vehicle, effects)
-        if steered := self.steered.get(index):
-            return nuisances.directions(again, simulated, otherwise, moved=steered.made_good)
-        return nuisances.directions(again, simulated, otherwise, aside=again.aside(vehicle, {**self.quiet, **effects}))
+        aside = again.aside(vehicle, {**self.quiet, **effects})
+        simulated = self.simulated(values, index)
+        return nuisances.directions(again, simulated, aside, self._otherwise(again, vehicle, effects))
 
     def _otherwise(self, again: Replay, vehicle, effects) -> np.ndarray:
         """The signals (6, time) on a road that is interpolated the other way, or as they are where there is only one."""
