@@ -407,7 +407,8 @@ def _accelerate(
 ):  # fmt: skip
     """Time derivatives of the speeds from the forces and moments on the body, through the mass matrix.
 
-    ``fore_push``, ``side_push``: with what the links push, for the next step, where it lifts the body over wheels that recede or move aside.
+    ``fore_push``, ``side_push``: with what the links push, carried on to the next step, where it lifts the body over wheels that recede or move aside;
+    ``fore``: the former in this step.
     Returns how the body's flexing accelerates the sensor (m/s2).
     """
     x = y = z = roll = pitch = yaw = 0.0
